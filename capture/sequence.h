@@ -1,0 +1,50 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "kernel/camera.h"
+#include "kernel/geometry.h"
+#include "kernel/image.h"
+
+namespace curvefusion {
+
+/// One frame of a sequence: where its images lie and where the depth camera was.
+struct SequenceFrame {
+  std::string name;               ///< what messages call it, e.g. "000012" or "1000.033333"
+  double timestamp = 0;           ///< seconds, or the frame number where the format has no times
+  RigidTransform T_world_camera;  ///< pose of the depth camera
+  std::filesystem::path color_path;
+  std::filesystem::path depth_path;
+};
+
+/// An RGB-D sequence whose images are decoded when asked for. Open it with OpenSequence.
+struct Sequence {
+  std::string format;  ///< "tum", "per-frame poses", "redwood" or "7-scenes"
+  std::filesystem::path folder;
+  PinholeCamera depth_camera;
+  PinholeCamera color_camera;
+  RigidTransform T_color_depth = RigidTransform::Identity();
+  double depth_scale = 5000;          ///< depth units per metre
+  int invalid_depth = 0;              ///< raw value that means "no measurement", besides 0
+  std::vector<SequenceFrame> frames;  ///< ordered, all with a pose and both images
+  int frames_without_pose = 0;        ///< dropped when opening
+  int frames_without_partner = 0;     ///< colour or depth images without the other, dropped
+
+  int frame_count() const { return static_cast<int>(frames.size()); }
+};
+
+/// Detects the format of a folder (DESIGN: TUM, per-frame poses, Open3D/Redwood, 7-Scenes) and
+/// reads everything but the images. Throws Error(kBadInput) naming file, line or frame, value and
+/// remedy.
+Sequence OpenSequence(const std::filesystem::path& folder);
+
+/// Decodes one depth image to metres. Thread-safe. Throws Error(kBadInput) for a missing,
+/// truncated, 8-bit or wrongly sized image.
+DepthImage LoadDepth(const Sequence& sequence, int frame);
+
+/// Decodes one colour image. Thread-safe. Throws like LoadDepth.
+ColorImage LoadColor(const Sequence& sequence, int frame);
+
+}  // namespace curvefusion

@@ -1,0 +1,13 @@
+# CGAL puts its own FindEigen3 on the module path, so Eigen is always looked up in CONFIG mode.
+find_package(Threads REQUIRED)
+find_package(Eigen3 3.4 CONFIG REQUIRED)
+find_package(CGAL 5.5 CONFIG REQUIRED)
+find_package(TBB CONFIG REQUIRED)
+find_package(OpenMesh CONFIG REQUIRED)
+find_package(CHOLMOD REQUIRED)
+find_package(OpenCVImage REQUIRED)
+find_package(nlohmann_json CONFIG REQUIRED)
+find_package(fmt CONFIG REQUIRED)
+find_package(spdlog CONFIG REQUIRED)
+find_package(CLI11 CONFIG REQUIRED)
+find_package(tomlplusplus CONFIG REQUIRED)

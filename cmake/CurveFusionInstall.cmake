@@ -1,0 +1,22 @@
+include(CMakePackageConfigHelpers)
+set(curvefusion_cmake_dir "${CMAKE_INSTALL_LIBDIR}/cmake/curvefusion")
+
+install(TARGETS curvefusion_build_flags curvefusion_kernel curvefusion_capture curvefusion_graph
+                curvefusion_fusion curvefusion_meshing
+        EXPORT curvefusion ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}"
+        LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+install(TARGETS curvefusion RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+install(EXPORT curvefusion NAMESPACE curvefusion:: FILE curvefusionTargets.cmake
+        DESTINATION "${curvefusion_cmake_dir}")
+foreach(folder kernel capture graph fusion meshing)
+  install(DIRECTORY "${PROJECT_SOURCE_DIR}/${folder}"
+          DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/curvefusion" FILES_MATCHING PATTERN "*.h")
+endforeach()
+configure_package_config_file(cmake/curvefusionConfig.cmake.in
+  "${PROJECT_BINARY_DIR}/curvefusionConfig.cmake" INSTALL_DESTINATION "${curvefusion_cmake_dir}")
+write_basic_package_version_file("${PROJECT_BINARY_DIR}/curvefusionConfigVersion.cmake"
+                                 COMPATIBILITY SameMinorVersion)
+install(FILES "${PROJECT_BINARY_DIR}/curvefusionConfig.cmake"
+              "${PROJECT_BINARY_DIR}/curvefusionConfigVersion.cmake"
+              cmake/CurveFusionDependencies.cmake cmake/FindCHOLMOD.cmake cmake/FindOpenCVImage.cmake
+        DESTINATION "${curvefusion_cmake_dir}")

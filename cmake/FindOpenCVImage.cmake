@@ -1,0 +1,21 @@
+# The three OpenCV modules used here. A full OpenCV brings a CMake config; Debian's separate
+# core/imgproc/imgcodecs packages do not, so headers and libraries are then looked up directly.
+find_package(OpenCV CONFIG QUIET COMPONENTS core imgproc imgcodecs)
+if(OpenCV_FOUND)
+  set(OpenCVImage_LIBRARIES ${OpenCV_LIBS})
+  set(OpenCVImage_INCLUDE_DIR ${OpenCV_INCLUDE_DIRS})
+else()
+  find_path(OpenCVImage_INCLUDE_DIR opencv2/imgcodecs.hpp PATH_SUFFIXES opencv4)
+  foreach(module core imgproc imgcodecs)
+    find_library(OpenCVImage_${module}_LIBRARY opencv_${module})
+    list(APPEND OpenCVImage_LIBRARIES "${OpenCVImage_${module}_LIBRARY}")
+  endforeach()
+endif()
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(OpenCVImage REQUIRED_VARS OpenCVImage_LIBRARIES
+                                  OpenCVImage_INCLUDE_DIR)
+if(OpenCVImage_FOUND AND NOT TARGET OpenCVImage::OpenCVImage)
+  add_library(OpenCVImage::OpenCVImage INTERFACE IMPORTED)
+  target_include_directories(OpenCVImage::OpenCVImage SYSTEM INTERFACE "${OpenCVImage_INCLUDE_DIR}")
+  target_link_libraries(OpenCVImage::OpenCVImage INTERFACE ${OpenCVImage_LIBRARIES})
+endif()

@@ -1,0 +1,238 @@
+#include "graph/skeleton_graph.h"
+
+#include <algorithm>
+#include <cassert>
+#include <numeric>
+#include <utility>
+
+namespace curvefusion {
+
+namespace {
+
+// One value per point, over two curves that share their middle point.
+std::vector<double> Joined(const std::vector<double>& first, const std::vector<double>& second) {
+  std::vector<double> joined = first;
+  if (!second.empty() && !first.empty())
+    joined.insert(joined.end(), second.begin() + 1, second.end());
+  if (second.empty()) joined.clear();
+  return joined;
+}
+
+template <class T>
+std::vector<T> Slice(const std::vector<T>& values, size_t first, size_t last) {
+  if (values.empty()) return {};
+  return {values.begin() + static_cast<std::ptrdiff_t>(first),
+          values.begin() + static_cast<std::ptrdiff_t>(last)};
+}
+
+void Reverse(SkeletonEdge& edge) {
+  std::swap(edge.nodes[0], edge.nodes[1]);
+  std::reverse(edge.points.begin(), edge.points.end());
+  std::reverse(edge.radii.begin(), edge.radii.end());
+  std::reverse(edge.observations.begin(), edge.observations.end());
+}
+
+}  // namespace
+
+NodeId SkeletonGraph::AddNode(const Vec3& position) {
+  nodes_.emplace_back(Node{position, {}});
+  ++node_count_;
+  return static_cast<NodeId>(nodes_.size()) - 1;
+}
+
+EdgeId SkeletonGraph::AddEdge(SkeletonEdge edge) {
+  assert(edge.points.size() >= 2);
+  assert(edge.points.front() == position(edge.nodes[0]));
+  assert(edge.points.back() == position(edge.nodes[1]));
+  assert(edge.radii.empty() || edge.radii.size() == edge.points.size());
+  assert(edge.observations.empty() || edge.observations.size() == edge.points.size());
+  const EdgeId id = static_cast<EdgeId>(edges_.size());
+  for (const NodeId node : edge.nodes) nodes_[node]->edges.push_back(id);
+  edges_.emplace_back(std::move(edge));
+  ++edge_count_;
+  return id;
+}
+
+EdgeId SkeletonGraph::AddPolyline(Polyline points) {
+  assert(points.size() >= 2);
+  const NodeId first = AddNode(points.front());
+  const NodeId last = points.back() == points.front() ? first : AddNode(points.back());
+  return AddEdge({{first, last}, std::move(points), {}, {}});
+}
+
+void SkeletonGraph::Detach(NodeId node, EdgeId edge) {
+  std::vector<EdgeId>& incident = nodes_[node]->edges;
+  incident.erase(std::find(incident.begin(), incident.end(), edge));
+}
+
+void SkeletonGraph::RemoveEdge(EdgeId edge) {
+  assert(HasEdge(edge));
+  for (const NodeId node : edges_[edge]->nodes) Detach(node, edge);
+  edges_[edge].reset();
+  --edge_count_;
+}
+
+void SkeletonGraph::RemoveNode(NodeId node) {
+  assert(HasNode(node) && Degree(node) == 0);
+  nodes_[node].reset();
+  --node_count_;
+}
+
+void SkeletonGraph::RemoveIsolatedNodes() {
+  for (const NodeId node : Nodes()) {
+    if (Degree(node) == 0) RemoveNode(node);
+  }
+}
+
+void SkeletonGraph::MoveNode(NodeId node, const Vec3& position) {
+  nodes_[node]->position = position;
+  for (const EdgeId id : nodes_[node]->edges) {
+    SkeletonEdge& edge = *edges_[id];
+    if (edge.nodes[0] == node) edge.points.front() = position;
+    if (edge.nodes[1] == node) edge.points.back() = position;
+  }
+}
+
+void SkeletonGraph::SetCurve(EdgeId edge, Polyline points, std::vector<double> radii,
+                             std::vector<double> observations) {
+  SkeletonEdge& target = *edges_[edge];
+  assert(points.front() == position(target.nodes[0]));
+  assert(points.back() == position(target.nodes[1]));
+  target.points = std::move(points);
+  target.radii = std::move(radii);
+  target.observations = std::move(observations);
+}
+
+NodeId SkeletonGraph::SplitEdge(EdgeId edge, size_t point_index) {
+  const SkeletonEdge whole = this->edge(edge);
+  assert(point_index > 0 && point_index + 1 < whole.points.size());
+  const NodeId middle = AddNode(whole.points[point_index]);
+  RemoveEdge(edge);
+  const size_t n = whole.points.size();
+  AddEdge({{whole.nodes[0], middle},
+           Slice(whole.points, 0, point_index + 1),
+           Slice(whole.radii, 0, point_index + 1),
+           Slice(whole.observations, 0, point_index + 1)});
+  AddEdge({{middle, whole.nodes[1]},
+           Slice(whole.points, point_index, n),
+           Slice(whole.radii, point_index, n),
+           Slice(whole.observations, point_index, n)});
+  return middle;
+}
+
+void SkeletonGraph::MergeNodes(NodeId kept, NodeId merged) {
+  assert(HasNode(kept) && HasNode(merged));
+  if (kept == merged) return;
+  MoveNode(merged, position(kept));
+  const std::vector<EdgeId> moved = IncidentEdges(merged);
+  for (const EdgeId id : moved) {
+    SkeletonEdge& edge = *edges_[id];
+    for (NodeId& node : edge.nodes) {
+      if (node != merged) continue;
+      node = kept;
+      nodes_[kept]->edges.push_back(id);
+    }
+  }
+  nodes_[merged]->edges.clear();
+  RemoveNode(merged);
+  for (const EdgeId id : moved) {
+    if (HasEdge(id) && Length(edge(id).points) <= 0) RemoveEdge(id);
+  }
+}
+
+void SkeletonGraph::DissolveDegree2Nodes() {
+  for (const NodeId node : Nodes()) {
+    if (Degree(node) != 2 || IncidentEdges(node)[0] == IncidentEdges(node)[1]) continue;
+    const EdgeId first_id = IncidentEdges(node)[0];
+    const EdgeId second_id = IncidentEdges(node)[1];
+    SkeletonEdge first = edge(first_id);
+    SkeletonEdge second = edge(second_id);
+    if (first.nodes[1] != node) Reverse(first);
+    if (second.nodes[0] != node) Reverse(second);
+    RemoveEdge(first_id);
+    RemoveEdge(second_id);
+    RemoveNode(node);
+    first.nodes[1] = second.nodes[1];
+    first.points.insert(first.points.end(), second.points.begin() + 1, second.points.end());
+    first.radii = Joined(first.radii, second.radii);
+    first.observations = Joined(first.observations, second.observations);
+    AddEdge(std::move(first));
+  }
+}
+
+bool SkeletonGraph::HasNode(NodeId node) const {
+  return node >= 0 && static_cast<size_t>(node) < nodes_.size() && nodes_[node].has_value();
+}
+
+bool SkeletonGraph::HasEdge(EdgeId edge) const {
+  return edge >= 0 && static_cast<size_t>(edge) < edges_.size() && edges_[edge].has_value();
+}
+
+const Vec3& SkeletonGraph::position(NodeId node) const {
+  assert(HasNode(node));
+  return nodes_[node]->position;
+}
+
+const SkeletonEdge& SkeletonGraph::edge(EdgeId edge) const {
+  assert(HasEdge(edge));
+  return *edges_[edge];
+}
+
+std::vector<NodeId> SkeletonGraph::Nodes() const {
+  std::vector<NodeId> live;
+  live.reserve(node_count_);
+  for (size_t i = 0; i < nodes_.size(); ++i) {
+    if (nodes_[i]) live.push_back(static_cast<NodeId>(i));
+  }
+  return live;
+}
+
+std::vector<EdgeId> SkeletonGraph::Edges() const {
+  std::vector<EdgeId> live;
+  live.reserve(edge_count_);
+  for (size_t i = 0; i < edges_.size(); ++i) {
+    if (edges_[i]) live.push_back(static_cast<EdgeId>(i));
+  }
+  return live;
+}
+
+const std::vector<EdgeId>& SkeletonGraph::IncidentEdges(NodeId node) const {
+  assert(HasNode(node));
+  return nodes_[node]->edges;
+}
+
+double SkeletonGraph::TotalLength() const {
+  double length = 0;
+  for (const auto& edge : edges_) {
+    if (edge) length += Length(edge->points);
+  }
+  return length;
+}
+
+int SkeletonGraph::ComponentCount() const {
+  std::vector<NodeId> parent(nodes_.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&parent](NodeId node) {
+    while (parent[node] != node) node = parent[node] = parent[parent[node]];
+    return node;
+  };
+  int components = 0;
+  for (const NodeId node : Nodes()) components += Degree(node) > 0;
+  for (const auto& edge : edges_) {
+    if (!edge) continue;
+    const NodeId a = root(edge->nodes[0]);
+    const NodeId b = root(edge->nodes[1]);
+    if (a == b) continue;
+    parent[a] = b;
+    --components;
+  }
+  return components;
+}
+
+int SkeletonGraph::CycleRank() const {
+  int used_nodes = 0;
+  for (const NodeId node : Nodes()) used_nodes += Degree(node) > 0;
+  return edge_count_ - used_nodes + ComponentCount();
+}
+
+}  // namespace curvefusion

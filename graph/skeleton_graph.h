@@ -1,0 +1,104 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "kernel/geometry.h"
+#include "kernel/polyline.h"
+
+namespace curvefusion {
+
+/// Handles stay valid until their node or edge is removed; they are never reused.
+using NodeId = int;
+using EdgeId = int;
+
+/// A curve between two nodes. `points` runs from nodes[0] to nodes[1]; its ends equal the nodes'
+/// positions bit for bit. `radii` and `observations` are empty or hold one value per point.
+struct SkeletonEdge {
+  std::array<NodeId, 2> nodes{};
+  Polyline points;                   ///< metres, at least two
+  std::vector<double> radii;         ///< tube radius in metres, > 0
+  std::vector<double> observations;  ///< in how many frames or bundles the point was seen
+};
+
+/// The curve skeleton: an undirected multigraph whose edges are polylines in space. Parallel edges
+/// and self-loops are allowed; a closed curve without a junction is one edge from a node to itself.
+/// Copyable; a value like any other.
+class SkeletonGraph {
+ public:
+  /// Adds an isolated node.
+  NodeId AddNode(const Vec3& position);
+
+  /// Adds an edge. The ends of edge.points must equal the positions of edge.nodes bit for bit.
+  EdgeId AddEdge(SkeletonEdge edge);
+
+  /// Adds a curve with two new nodes at its ends (one where it is closed: front() == back()).
+  EdgeId AddPolyline(Polyline points);
+
+  /// Removes an edge; its nodes stay.
+  void RemoveEdge(EdgeId edge);
+
+  /// Removes a node without edges.
+  void RemoveNode(NodeId node);
+
+  /// Removes all nodes without edges.
+  void RemoveIsolatedNodes();
+
+  /// Moves a node and with it the ends of its edges.
+  void MoveNode(NodeId node, const Vec3& position);
+
+  /// Replaces the curve of an edge; the nodes stay, so the ends must equal them.
+  void SetCurve(EdgeId edge, Polyline points, std::vector<double> radii = {},
+                std::vector<double> observations = {});
+
+  /// Makes a point of an edge, by its index with 0 < index < points.size() - 1, a node: the edge is
+  /// replaced by two. Returns the node.
+  NodeId SplitEdge(EdgeId edge, size_t point_index);
+
+  /// Makes `merged` disappear into `kept`: its edges end in `kept`'s position from now on. Edges
+  /// that shrink to a point are removed.
+  void MergeNodes(NodeId kept, NodeId merged);
+
+  /// Joins the two edges of every node of degree 2 into one. A closed curve keeps one node.
+  void DissolveDegree2Nodes();
+
+  bool HasNode(NodeId node) const;
+  bool HasEdge(EdgeId edge) const;
+  const Vec3& position(NodeId node) const;
+  const SkeletonEdge& edge(EdgeId edge) const;
+
+  /// Live handles in ascending order.
+  std::vector<NodeId> Nodes() const;
+  std::vector<EdgeId> Edges() const;
+  int node_count() const { return node_count_; }
+  int edge_count() const { return edge_count_; }
+  bool empty() const { return edge_count_ == 0; }
+
+  /// Edges at a node; a self-loop stands there twice.
+  const std::vector<EdgeId>& IncidentEdges(NodeId node) const;
+  int Degree(NodeId node) const { return static_cast<int>(IncidentEdges(node).size()); }
+
+  /// Sum of the lengths of all edges in metres.
+  double TotalLength() const;
+
+  /// Number of connected components among the nodes with edges.
+  int ComponentCount() const;
+
+  /// Number of independent cycles: edges - nodes with edges + components.
+  int CycleRank() const;
+
+ private:
+  struct Node {
+    Vec3 position;
+    std::vector<EdgeId> edges;
+  };
+  void Detach(NodeId node, EdgeId edge);
+
+  std::vector<std::optional<Node>> nodes_;
+  std::vector<std::optional<SkeletonEdge>> edges_;
+  int node_count_ = 0;
+  int edge_count_ = 0;
+};
+
+}  // namespace curvefusion

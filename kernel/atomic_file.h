@@ -1,0 +1,21 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <ostream>
+
+namespace curvefusion {
+
+/// Lets `write` produce a file under a temporary name beside `path` and gives it its final name
+/// only when `write` has returned: a killed run leaves nothing half-written under a final name. The
+/// temporary keeps the extension of `path`, so that writers which look at it work. Throws
+/// Error(kResource) where the file cannot be written; exceptions of `write` pass through and the
+/// temporary is removed.
+void WriteFileAtomically(const std::filesystem::path& path,
+                         const std::function<void(const std::filesystem::path& temporary)>& write);
+
+/// The same for writers to a stream (opened in binary mode); stream errors become Error(kResource).
+void WriteStreamAtomically(const std::filesystem::path& path,
+                           const std::function<void(std::ostream& stream)>& write);
+
+}  // namespace curvefusion

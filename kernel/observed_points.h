@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include "kernel/geometry.h"
+
+namespace curvefusion {
+
+/// Points measured on thin structures, with what is known of how they were seen. The three arrays
+/// have the same length. Clouds without sensor information have zero rays and counts of 1.
+struct ObservedPoints {
+  std::vector<Vec3> positions;     ///< metres
+  std::vector<Vec3> viewing_rays;  ///< mean unit direction from the camera to the point, or zero
+  std::vector<float> counts;       ///< number of depth pixels merged into the point
+
+  size_t size() const { return positions.size(); }
+  bool empty() const { return positions.empty(); }
+  void Reserve(size_t n) {
+    positions.reserve(n);
+    viewing_rays.reserve(n);
+    counts.reserve(n);
+  }
+  void Add(const Vec3& position, const Vec3& viewing_ray, float count) {
+    positions.push_back(position);
+    viewing_rays.push_back(viewing_ray);
+    counts.push_back(count);
+  }
+};
+
+}  // namespace curvefusion

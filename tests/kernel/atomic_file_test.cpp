@@ -1,0 +1,49 @@
+#include "kernel/atomic_file.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "kernel/error.h"
+
+namespace curvefusion {
+namespace {
+
+namespace fs = std::filesystem;
+
+class AtomicFile : public testing::Test {
+ protected:
+  void SetUp() override { fs::create_directories(folder_); }
+  void TearDown() override { fs::remove_all(folder_); }
+  const fs::path folder_ = fs::temp_directory_path() / "curvefusion_atomic_file_test";
+};
+
+TEST_F(AtomicFile, AppearsOnlyWhenComplete) {
+  const fs::path path = folder_ / "a.txt";
+  WriteStreamAtomically(path, [&](std::ostream& stream) {
+    stream << "whole";
+    EXPECT_FALSE(fs::exists(path));
+  });
+  std::string content;
+  std::ifstream(path) >> content;
+  EXPECT_EQ(content, "whole");
+}
+
+TEST_F(AtomicFile, AFailedWriteLeavesNothingAndKeepsTheOld) {
+  const fs::path path = folder_ / "a.txt";
+  WriteStreamAtomically(path, [](std::ostream& stream) { stream << "old"; });
+  EXPECT_THROW(
+      WriteStreamAtomically(path, [](std::ostream&) { throw Error(ErrorKind::kInterrupted, ""); }),
+      Error);
+  std::string content;
+  std::ifstream(path) >> content;
+  EXPECT_EQ(content, "old");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
+}
+
+TEST_F(AtomicFile, AMissingFolderIsAnError) {
+  EXPECT_THROW(WriteStreamAtomically(folder_ / "no" / "a.txt", [](std::ostream&) {}), Error);
+}
+
+}  // namespace
+}  // namespace curvefusion

@@ -1,0 +1,47 @@
+#include "kernel/dbscan.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace curvefusion {
+namespace {
+
+TEST(Dbscan, SeparatesTwoClustersAndNoise) {
+  std::vector<Vec3> points;
+  for (int i = 0; i < 10; ++i) points.emplace_back(0.001 * i, 0, 0);
+  for (int i = 0; i < 10; ++i) points.emplace_back(0.001 * i, 1, 0);
+  points.emplace_back(5, 5, 5);
+  const std::vector<int> labels = Dbscan(points, 0.0015, 3);
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(labels[i], 0);
+  for (int i = 10; i < 20; ++i) EXPECT_EQ(labels[i], 1);
+  EXPECT_EQ(labels[20], kNoise);
+}
+
+TEST(Dbscan, EmptyInputGivesNoLabels) { EXPECT_TRUE(Dbscan({}, 0.01, 3).empty()); }
+
+TEST(Dbscan, CorePointsAgreeWithBruteForce) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> coordinate(0, 1);
+  std::vector<Vec3> points(400);
+  for (Vec3& p : points) p = {coordinate(random), coordinate(random), coordinate(random)};
+  const double radius = 0.12;
+  const std::vector<int> labels = Dbscan(points, radius, 4);
+  const auto neighbours = [&](size_t i) {
+    int count = 0;
+    for (const Vec3& q : points) count += (points[i] - q).norm() <= radius;
+    return count;
+  };
+  // Two core points within the radius of each other share their cluster; core points are not noise.
+  for (size_t i = 0; i < points.size(); ++i) {
+    if (neighbours(i) < 4) continue;
+    EXPECT_NE(labels[i], kNoise);
+    for (size_t j = 0; j < i; ++j) {
+      if ((points[i] - points[j]).norm() > radius || neighbours(j) < 4) continue;
+      EXPECT_EQ(labels[i], labels[j]);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace curvefusion
