@@ -23,6 +23,8 @@ struct OptionInfo {
 class OptionVisitor {
  public:
   virtual ~OptionVisitor() = default;
+  /// The options that follow belong to this table of the config file ("fusion").
+  virtual void BeginSection(const char* name) = 0;
   virtual void Visit(const OptionInfo& info, double& value) = 0;
   virtual void Visit(const OptionInfo& info, int& value) = 0;
   virtual void Visit(const OptionInfo& info, bool& value) = 0;

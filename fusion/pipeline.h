@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "capture/sequence.h"
+#include "fusion/tsdf_volume.h"
+#include "graph/skeleton_graph.h"
+#include "kernel/observed_points.h"
+#include "kernel/options.h"
+
+namespace curvefusion {
+
+/// The paper as it is written, or what a user gets by default.
+enum class Profile { kPaper, kBest };
+
+/// The options of every stage, one section of the config file each.
+struct PipelineOptions {
+  TsdfOptions volume;
+};
+
+/// The options a profile starts from, before the config file and --set.
+PipelineOptions ProfileOptions(Profile profile);
+
+/// Visits every option, each stage in a section of its own.
+void VisitOptions(PipelineOptions& options, OptionVisitor& visitor);
+
+/// Hears of a run while it goes on; every function does nothing by default. All are called from the
+/// thread that called Reconstruct. An exception ends the run.
+class PipelineObserver {
+ public:
+  virtual ~PipelineObserver() = default;
+  /// A stage is `done` of `total` steps far.
+  virtual void OnProgress(const std::string& /*stage*/, int64_t /*done*/, int64_t /*total*/) {}
+  /// Intermediate point sets ("bundle_003_difference_set") in the world frame.
+  virtual void OnPoints(const std::string& /*name*/, const ObservedPoints& /*points*/) {}
+  /// Intermediate graphs ("bundle_003_skeleton", "bundle_003_fused") in the world frame.
+  virtual void OnGraph(const std::string& /*name*/, const SkeletonGraph& /*graph*/) {}
+  /// The volume once all frames are integrated.
+  virtual void OnVolume(const TsdfVolume& /*volume*/) {}
+};
+
+/// What a stage cost and found, for the report.
+struct StageReport {
+  std::string name;
+  double seconds = 0;
+  std::vector<std::pair<std::string, double>> counts;  ///< e.g. {"points", 48210}
+};
+
+/// The outcome of a run. An empty skeleton means: nothing thin was found, an expected outcome.
+struct Reconstruction {
+  SkeletonGraph skeleton;    ///< radius at every vertex, one value per edge
+  ObservedPoints points;     ///< the points the skeleton was made from
+  double global_radius = 0;  ///< the paper's one radius for all, metres; 0 = not measurable
+  std::vector<StageReport> stages;
+  std::vector<std::string> warnings;  ///< what the user should know, a sentence each
+};
+
+/// The whole method, CurveFusion section 3. Throws Error for input that cannot be read.
+Reconstruction Reconstruct(const Sequence& sequence, const PipelineOptions& options,
+                           PipelineObserver& observer);
+
+}  // namespace curvefusion
