@@ -1,0 +1,102 @@
+#include "fusion/bundle.h"
+
+#include <algorithm>
+
+namespace curvefusion {
+
+namespace {
+
+bool OnOutline(const MaskImage& mask, int u, int v) {
+  return u == 0 || v == 0 || u + 1 == mask.width() || v + 1 == mask.height() || !mask(u - 1, v) ||
+         !mask(u + 1, v) || !mask(u, v - 1) || !mask(u, v + 1);
+}
+
+}  // namespace
+
+void VisitOptions(BundleOptions& options, OptionVisitor& visitor) {
+  visitor.Visit({"frames", "frames", 1, 100000,
+                 "Consecutive frames merged before a skeleton is extracted. CurveFusion 3.1, k."},
+                options.frames);
+  visitor.Visit({"voxel_size", "m", 0.0005, 0.05,
+                 "Grid on which the merged points are resampled. CurveFusion 3.1."},
+                options.voxel_size);
+  visitor.Visit({"min_frames", "frames", 1, 1000,
+                 "Deviation: points seen in fewer frames are dropped; noise does not come back at "
+                 "the same place."},
+                options.min_frames);
+}
+
+std::vector<std::pair<int, int>> SplitIntoBundles(int frame_count, int frames_per_bundle) {
+  std::vector<std::pair<int, int>> bundles;
+  for (int first = 0; first < frame_count; first += frames_per_bundle) {
+    bundles.emplace_back(first, std::min(first + frames_per_bundle, frame_count));
+  }
+  if (bundles.size() > 1 &&
+      2 * (bundles.back().second - bundles.back().first) < frames_per_bundle) {
+    bundles.pop_back();
+    bundles.back().second = frame_count;
+  }
+  return bundles;
+}
+
+BundleDifferenceSet::Voxel& BundleDifferenceSet::VoxelAt(const Vec3& p_bundle) {
+  const VoxelKey key = VoxelOf(p_bundle, options_.voxel_size);
+  const auto [it, is_new] = slot_of_voxel_.try_emplace(key, static_cast<int>(voxels_.size()));
+  if (is_new) {
+    keys_.push_back(key);
+    voxels_.emplace_back();
+  }
+  return voxels_[it->second];
+}
+
+void BundleDifferenceSet::AddFrame(const MaskImage& mask, const MaskImage& on_edge,
+                                   const DepthImage& depth, const PinholeCamera& camera,
+                                   const RigidTransform& T_bundle_camera) {
+  const int frame = frame_count_++;
+  for (int v = 0; v < mask.height(); ++v) {
+    for (int u = 0; u < mask.width(); ++u) {
+      if (!mask(u, v)) continue;
+      const Vec3 p_camera = camera.Unproject(u, v, depth(u, v));
+      const Vec3 p_bundle = T_bundle_camera * p_camera;
+      Voxel& voxel = VoxelAt(p_bundle);
+      voxel.position_sum += p_bundle;
+      voxel.ray_sum += T_bundle_camera.linear() * p_camera.normalized();
+      ++voxel.pixels;
+      const int outline = OnOutline(mask, u, v);
+      voxel.evidence.edge_pixels += on_edge(u, v);
+      voxel.evidence.outline_pixels += outline;
+      voxel.evidence.outline_edge_pixels += outline & on_edge(u, v);
+      if (voxel.frames.empty() || voxel.frames.back() != frame) voxel.frames.push_back(frame);
+    }
+  }
+}
+
+int BundleDifferenceSet::FramesAround(const VoxelKey& key) const {
+  std::vector<uint8_t> seen(frame_count_, 0);
+  for (int dz = -1; dz <= 1; ++dz) {
+    for (int dy = -1; dy <= 1; ++dy) {
+      for (int dx = -1; dx <= 1; ++dx) {
+        const auto it = slot_of_voxel_.find({key.x + dx, key.y + dy, key.z + dz});
+        if (it == slot_of_voxel_.end()) continue;
+        for (const int frame : voxels_[it->second].frames) seen[frame] = 1;
+      }
+    }
+  }
+  return static_cast<int>(std::count(seen.begin(), seen.end(), 1));
+}
+
+BundlePoints BundleDifferenceSet::Points() const {
+  BundlePoints bundle;
+  for (size_t i = 0; i < voxels_.size(); ++i) {
+    if (options_.min_frames > 1 &&
+        FramesAround(keys_[i]) < std::min(options_.min_frames, frame_count_))
+      continue;
+    const Voxel& voxel = voxels_[i];
+    bundle.points.Add(voxel.position_sum / voxel.pixels, voxel.ray_sum.normalized(),
+                      static_cast<float>(voxel.pixels));
+    bundle.evidence.push_back(voxel.evidence);
+  }
+  return bundle;
+}
+
+}  // namespace curvefusion

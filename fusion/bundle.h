@@ -1,0 +1,76 @@
+#pragma once
+
+#include <unordered_map>
+#include <vector>
+
+#include "kernel/camera.h"
+#include "kernel/geometry.h"
+#include "kernel/image.h"
+#include "kernel/observed_points.h"
+#include "kernel/options.h"
+#include "kernel/voxel_grid.h"
+
+namespace curvefusion {
+
+/// How frames are grouped and their points resampled, CurveFusion 3.1.
+struct BundleOptions {
+  int frames = 30;
+  double voxel_size = 0.0025;
+  int min_frames = 1;
+};
+void VisitOptions(BundleOptions& options, OptionVisitor& visitor);
+
+/// How the colour images speak for a point: counts of the depth pixels merged into it.
+struct ColourEvidence {
+  int edge_pixels = 0;          ///< pixels on a colour edge
+  int outline_pixels = 0;       ///< pixels at the border of their image difference set
+  int outline_edge_pixels = 0;  ///< both
+};
+
+/// The bundle difference set: its points and the colour evidence of each.
+struct BundlePoints {
+  ObservedPoints points;
+  std::vector<ColourEvidence> evidence;  ///< as many as points
+};
+
+/// First and one past the last frame of every bundle. A last bundle of less than half the size
+/// joins the one before it.
+std::vector<std::pair<int, int>> SplitIntoBundles(int frame_count, int frames_per_bundle);
+
+/// Gathers the image difference sets of a bundle on a regular grid; per occupied voxel it keeps the
+/// mean position, the mean viewing ray, the number of pixels and of frames.
+class BundleDifferenceSet {
+ public:
+  explicit BundleDifferenceSet(const BundleOptions& options) : options_(options) {}
+
+  /// Adds the pixels of `mask`, lifted with `depth` and moved by T_bundle_camera. `on_edge` says
+  /// which of them lie on a colour edge. Frames must be added one after the other: a voxel counts
+  /// the calls that reached it.
+  void AddFrame(const MaskImage& mask, const MaskImage& on_edge, const DepthImage& depth,
+                const PinholeCamera& camera, const RigidTransform& T_bundle_camera);
+
+  /// One point per voxel that, together with its 26 neighbours, was seen in at least min_frames
+  /// frames.
+  BundlePoints Points() const;
+
+  int frame_count() const { return frame_count_; }
+
+ private:
+  struct Voxel {
+    Vec3 position_sum = Vec3::Zero();
+    Vec3 ray_sum = Vec3::Zero();
+    int pixels = 0;
+    ColourEvidence evidence;
+    std::vector<int> frames;  // ascending
+  };
+  Voxel& VoxelAt(const Vec3& p_bundle);
+  int FramesAround(const VoxelKey& key) const;
+
+  BundleOptions options_;
+  int frame_count_ = 0;
+  std::unordered_map<VoxelKey, int, VoxelKeyHash> slot_of_voxel_;
+  std::vector<VoxelKey> keys_;
+  std::vector<Voxel> voxels_;
+};
+
+}  // namespace curvefusion

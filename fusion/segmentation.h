@@ -1,0 +1,39 @@
+#pragma once
+
+#include <utility>
+
+#include "capture/sequence.h"
+#include "fusion/bundle.h"
+#include "fusion/colour_verification.h"
+#include "fusion/depth_opening.h"
+#include "fusion/difference_set.h"
+#include "fusion/ghost_removal.h"
+#include "fusion/tsdf_volume.h"
+#include "kernel/observed_points.h"
+
+namespace curvefusion {
+
+/// Everything that decides which points are thin, CurveFusion 3.1.
+struct SegmentationOptions {
+  int render_divisor = 1;
+  DepthOpeningOptions opening;
+  DifferenceSetOptions difference;
+  ColourEdgeOptions edges;
+  BundleOptions bundle;
+  GhostRemovalOptions ghosts;
+};
+void VisitOptions(SegmentationOptions& options, OptionVisitor& visitor);
+
+/// What was found in one bundle.
+struct SegmentedBundle {
+  BundlePoints difference_set;   ///< before ghosts were removed, in the frame of the first camera
+  ObservedPoints points;         ///< after, in the frame of the first camera
+  RigidTransform T_world_bundle; ///< pose of the first camera
+};
+
+/// Segments frames [first, last) of a sequence against the volume of all frames.
+/// Throws Error(kBadInput) for an image that cannot be read.
+SegmentedBundle SegmentBundle(const Sequence& sequence, int first, int last, const TsdfVolume& volume,
+                              const SegmentationOptions& options);
+
+}  // namespace curvefusion
