@@ -100,13 +100,6 @@ void ResampleGraph(SkeletonGraph& graph, double step) {
   }
 }
 
-void Reverse(SkeletonEdge& edge) {
-  std::swap(edge.nodes[0], edge.nodes[1]);
-  std::reverse(edge.points.begin(), edge.points.end());
-  std::reverse(edge.radii.begin(), edge.radii.end());
-  std::reverse(edge.observations.begin(), edge.observations.end());
-}
-
 void RemoveRepeatedPoints(SkeletonEdge& edge) {
   size_t kept = 1;
   const size_t last = edge.points.size() - 1;

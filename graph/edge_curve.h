@@ -20,9 +20,6 @@ SkeletonEdge Resampled(const SkeletonEdge& edge, double step);
 /// Resampled() for every edge of a graph.
 void ResampleGraph(SkeletonGraph& graph, double step);
 
-/// Turns the direction of an edge around.
-void Reverse(SkeletonEdge& edge);
-
 /// Drops points that equal their predecessor; both ends stay. A curve that is one point only keeps
 /// two.
 void RemoveRepeatedPoints(SkeletonEdge& edge);

@@ -4,6 +4,7 @@
 #include <array>
 #include <map>
 #include <numeric>
+#include <set>
 #include <tuple>
 
 #include "graph/contacts.h"
@@ -111,6 +112,57 @@ std::vector<std::tuple<double, int, int>> NearPairs(const std::vector<Vec3>& pos
   return pairs;
 }
 
+// Junctions, united step by step into clusters.
+class JunctionClusters {
+ public:
+  explicit JunctionClusters(const SkeletonGraph& graph) {
+    for (const NodeId node : graph.Nodes()) {
+      if (graph.Degree(node) < 3) continue;
+      cluster_of_.push_back(static_cast<int>(groups_.size()));
+      groups_.push_back({{node}, {static_cast<double>(graph.Degree(node))}});
+      members_.push_back({cluster_of_.back()});
+      means_.push_back(graph.position(node));
+      weights_.push_back(graph.Degree(node));
+    }
+  }
+
+  /// Weighted mean of each cluster; at first, the positions of the junctions.
+  const std::vector<Vec3>& means() const { return means_; }
+
+  /// Unites the clusters of two junctions if their means are within the distance.
+  void Unite(int i, int j, double distance) {
+    const int a = std::min(cluster_of_[i], cluster_of_[j]);
+    const int b = std::max(cluster_of_[i], cluster_of_[j]);
+    if (a == b || (means_[a] - means_[b]).norm() > distance) return;
+    means_[a] = (weights_[a] * means_[a] + weights_[b] * means_[b]) / (weights_[a] + weights_[b]);
+    weights_[a] += weights_[b];
+    for (const int member : members_[b]) cluster_of_[member] = a;
+    MoveAll(members_[b], members_[a]);
+    MoveAll(groups_[b].nodes, groups_[a].nodes);
+    MoveAll(groups_[b].weights, groups_[a].weights);
+  }
+
+  std::vector<NodeGroup> Groups() const {
+    std::vector<NodeGroup> united;
+    for (const NodeGroup& group : groups_)
+      if (group.nodes.size() > 1) united.push_back(group);
+    return united;
+  }
+
+ private:
+  template <class T>
+  static void MoveAll(std::vector<T>& from, std::vector<T>& to) {
+    to.insert(to.end(), from.begin(), from.end());
+    from.clear();
+  }
+
+  std::vector<NodeGroup> groups_;          // one per cluster; empty once it is part of another
+  std::vector<std::vector<int>> members_;  // junctions of each cluster
+  std::vector<int> cluster_of_;            // of each junction
+  std::vector<Vec3> means_;
+  std::vector<double> weights_;
+};
+
 // Short edges of a graph, shortest first.
 std::vector<EdgeId> ShortEdges(const SkeletonGraph& graph, double length) {
   std::vector<std::pair<double, EdgeId>> found;
@@ -131,18 +183,17 @@ bool IsDangling(const SkeletonGraph& graph, const SkeletonEdge& edge) {
 // Shrinks short links to one node each; of links that share a node only the shortest.
 void ContractLinks(SkeletonGraph& graph, const std::vector<EdgeId>& links, double length) {
   std::vector<NodeGroup> groups;
-  std::vector<NodeId> touched;
+  std::set<NodeId> touched;
   for (const EdgeId id : links) {
     const std::array<NodeId, 2> nodes = graph.edge(id).nodes;
-    const bool is_free = std::none_of(nodes.begin(), nodes.end(), [&touched](NodeId node) {
-      return std::binary_search(touched.begin(), touched.end(), node);
-    });
+    const bool is_free = std::none_of(nodes.begin(), nodes.end(),
+                                      [&touched](NodeId node) { return touched.count(node) > 0; });
     if (!is_free) continue;
     NodeGroup group;
     for (const NodeId node : nodes) {
       group.nodes.push_back(node);
       group.weights.push_back(graph.Degree(node));
-      touched.insert(std::upper_bound(touched.begin(), touched.end(), node), node);
+      touched.insert(node);
     }
     groups.push_back(std::move(group));
   }
@@ -152,40 +203,10 @@ void ContractLinks(SkeletonGraph& graph, const std::vector<EdgeId>& links, doubl
 }  // namespace
 
 void MergeNearbyJunctions(SkeletonGraph& graph, double distance) {
-  std::vector<NodeId> junctions;
-  std::vector<Vec3> means;
-  for (const NodeId node : graph.Nodes()) {
-    if (graph.Degree(node) < 3) continue;
-    junctions.push_back(node);
-    means.push_back(graph.position(node));
-  }
-  std::vector<NodeGroup> groups(junctions.size());
-  std::vector<int> group_of(junctions.size());
-  std::iota(group_of.begin(), group_of.end(), 0);
-  std::vector<double> weights;
-  for (size_t i = 0; i < junctions.size(); ++i) {
-    weights.push_back(graph.Degree(junctions[i]));
-    groups[i] = {{junctions[i]}, {weights[i]}};
-  }
-  std::vector<std::vector<int>> members(junctions.size());
-  for (size_t i = 0; i < junctions.size(); ++i) members[i] = {static_cast<int>(i)};
-  for (const auto& [apart, i, j] : NearPairs(means, distance)) {
-    const int a = std::min(group_of[i], group_of[j]);
-    const int b = std::max(group_of[i], group_of[j]);
-    if (a == b || (means[a] - means[b]).norm() > distance) continue;
-    means[a] = (weights[a] * means[a] + weights[b] * means[b]) / (weights[a] + weights[b]);
-    weights[a] += weights[b];
-    for (const int member : members[b]) {
-      group_of[member] = a;
-      members[a].push_back(member);
-      groups[a].nodes.push_back(junctions[member]);
-      groups[a].weights.push_back(graph.Degree(junctions[member]));
-    }
-    members[b].clear();
-    groups[b] = {};
-  }
-  std::erase_if(groups, [](const NodeGroup& group) { return group.nodes.size() < 2; });
-  MergeNodeGroups(graph, groups, 2 * distance);
+  JunctionClusters clusters(graph);
+  for (const auto& [apart, i, j] : NearPairs(clusters.means(), distance))
+    clusters.Unite(i, j, distance);
+  MergeNodeGroups(graph, clusters.Groups(), 2 * distance);
 }
 
 std::vector<std::pair<EdgeId, EdgeId>> ParallelEdges(const SkeletonGraph& graph, double distance) {
