@@ -9,13 +9,21 @@ namespace curvefusion {
 
 namespace {
 
-// One value per point, over two curves that share their middle point.
-std::vector<double> Joined(const std::vector<double>& first, const std::vector<double>& second) {
-  std::vector<double> joined = first;
-  if (!second.empty() && !first.empty())
-    joined.insert(joined.end(), second.begin() + 1, second.end());
-  if (second.empty()) joined.clear();
-  return joined;
+// Appends the values of a curve to those of another that ends where it begins; none if either has
+// none.
+void AppendValues(const std::vector<double>& values, std::vector<double>& to) {
+  if (values.empty() || to.empty()) {
+    to.clear();
+  } else {
+    to.insert(to.end(), values.begin() + 1, values.end());
+  }
+}
+
+void Append(const SkeletonEdge& link, SkeletonEdge& chain) {
+  chain.nodes[1] = link.nodes[1];
+  chain.points.insert(chain.points.end(), link.points.begin() + 1, link.points.end());
+  AppendValues(link.radii, chain.radii);
+  AppendValues(link.observations, chain.observations);
 }
 
 template <class T>
@@ -25,14 +33,14 @@ std::vector<T> Slice(const std::vector<T>& values, size_t first, size_t last) {
           values.begin() + static_cast<std::ptrdiff_t>(last)};
 }
 
+}  // namespace
+
 void Reverse(SkeletonEdge& edge) {
   std::swap(edge.nodes[0], edge.nodes[1]);
   std::reverse(edge.points.begin(), edge.points.end());
   std::reverse(edge.radii.begin(), edge.radii.end());
   std::reverse(edge.observations.begin(), edge.observations.end());
 }
-
-}  // namespace
 
 NodeId SkeletonGraph::AddNode(const Vec3& position) {
   nodes_.emplace_back(Node{position, {}});
@@ -140,23 +148,40 @@ void SkeletonGraph::MergeNodes(NodeId kept, NodeId merged) {
   }
 }
 
-void SkeletonGraph::DissolveDegree2Nodes() {
-  for (const NodeId node : Nodes()) {
-    if (Degree(node) != 2 || IncidentEdges(node)[0] == IncidentEdges(node)[1]) continue;
-    const EdgeId first_id = IncidentEdges(node)[0];
-    const EdgeId second_id = IncidentEdges(node)[1];
-    SkeletonEdge first = edge(first_id);
-    SkeletonEdge second = edge(second_id);
-    if (first.nodes[1] != node) Reverse(first);
-    if (second.nodes[0] != node) Reverse(second);
-    RemoveEdge(first_id);
-    RemoveEdge(second_id);
+bool SkeletonGraph::IsInsideCurve(NodeId node) const {
+  return Degree(node) == 2 && IncidentEdges(node)[0] != IncidentEdges(node)[1];
+}
+
+SkeletonEdge SkeletonGraph::TakeChain(NodeId first, EdgeId next) {
+  SkeletonEdge chain = edge(next);
+  if (chain.nodes[0] != first) Reverse(chain);
+  RemoveEdge(next);
+  for (NodeId node = chain.nodes[1]; node != first && Degree(node) == 1; node = chain.nodes[1]) {
+    next = IncidentEdges(node)[0];
+    SkeletonEdge link = edge(next);
+    if (link.nodes[0] != node) Reverse(link);
+    RemoveEdge(next);
     RemoveNode(node);
-    first.nodes[1] = second.nodes[1];
-    first.points.insert(first.points.end(), second.points.begin() + 1, second.points.end());
-    first.radii = Joined(first.radii, second.radii);
-    first.observations = Joined(first.observations, second.observations);
-    AddEdge(std::move(first));
+    Append(link, chain);
+  }
+  return chain;
+}
+
+void SkeletonGraph::DissolveDegree2Nodes() {
+  // Chains between other nodes first; what is left then are closed curves, which keep their first
+  // node.
+  for (const bool closed : {false, true}) {
+    for (const NodeId node : Nodes()) {
+      if (!HasNode(node) || IsInsideCurve(node) != closed) continue;
+      const std::vector<EdgeId> incident = IncidentEdges(node);
+      for (const EdgeId id : incident) {
+        if (!HasEdge(id)) continue;
+        const std::array<NodeId, 2>& nodes = edge(id).nodes;
+        const NodeId other = nodes[0] == node ? nodes[1] : nodes[0];
+        if (other == node || !IsInsideCurve(other)) continue;
+        AddEdge(TakeChain(node, id));
+      }
+    }
   }
 }
 

@@ -22,6 +22,9 @@ struct SkeletonEdge {
   std::vector<double> observations;  ///< in how many frames or bundles the point was seen
 };
 
+/// Turns the direction of an edge around.
+void Reverse(SkeletonEdge& edge);
+
 /// The curve skeleton: an undirected multigraph whose edges are polylines in space. Parallel edges
 /// and self-loops are allowed; a closed curve without a junction is one edge from a node to itself.
 /// Copyable; a value like any other.
@@ -94,6 +97,8 @@ class SkeletonGraph {
     std::vector<EdgeId> edges;
   };
   void Detach(NodeId node, EdgeId edge);
+  bool IsInsideCurve(NodeId node) const;
+  SkeletonEdge TakeChain(NodeId first, EdgeId next);
 
   std::vector<std::optional<Node>> nodes_;
   std::vector<std::optional<SkeletonEdge>> edges_;

@@ -1,0 +1,281 @@
+#include "graph/smoothing.h"
+
+#include <Eigen/CholmodSupport>
+#include <Eigen/Sparse>
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "graph/edge_curve.h"
+
+namespace curvefusion {
+
+namespace {
+
+// Directions before and behind a corner are measured over this many steps: longer than the noise,
+// shorter than the bends of wires.
+constexpr double kCornerWindow = 8;
+
+// An edge at equal steps, and the indices of the points that are corners.
+struct SampledEdge {
+  SkeletonEdge edge;
+  std::vector<size_t> corners;
+};
+
+double TurnAngle(const Vec3& before, const Vec3& here, const Vec3& behind) {
+  const Vec3 in = here - before;
+  const Vec3 out = behind - here;
+  return std::atan2(in.cross(out).norm(), in.dot(out));
+}
+
+// Arc lengths of the corners of a curve: where it turns by more than `angle` within a window, and
+// most within that window.
+std::vector<double> Corners(const Polyline& points, double angle, double window) {
+  const std::vector<double> arcs = CumulativeLength(points);
+  std::vector<std::pair<double, double>> turns;  // arc length, angle
+  for (size_t i = 0; i < points.size(); ++i) {
+    if (arcs[i] < window || arcs[i] > arcs.back() - window) continue;
+    const double turn = TurnAngle(PointAt(points, arcs, arcs[i] - window), points[i],
+                                  PointAt(points, arcs, arcs[i] + window));
+    if (turn > angle) turns.emplace_back(arcs[i], turn);
+  }
+  std::vector<double> corners;
+  for (const auto& [arc, turn] : turns) {
+    const bool is_largest = std::all_of(turns.begin(), turns.end(), [&](const auto& other) {
+      return std::abs(other.first - arc) > window || other.second < turn ||
+             (other.second == turn && other.first >= arc);
+    });
+    if (is_largest) corners.push_back(arc);
+  }
+  return corners;
+}
+
+void Append(const SkeletonEdge& part, SkeletonEdge& whole) {
+  const auto append = [](const auto& from, auto& to) {
+    to.insert(to.end(), from.begin() + (to.empty() || from.empty() ? 0 : 1), from.end());
+  };
+  append(part.points, whole.points);
+  append(part.radii, whole.radii);
+  append(part.observations, whole.observations);
+}
+
+SampledEdge Sampled(const SkeletonEdge& edge, const SmoothingOptions& options) {
+  const std::vector<double> arcs = CumulativeLength(edge.points);
+  std::vector<double> cuts;
+  if (options.corner_angle < M_PI)
+    cuts = Corners(edge.points, options.corner_angle, kCornerWindow * options.step);
+  cuts.push_back(arcs.back());
+  SampledEdge sampled{{edge.nodes, {}, {}, {}}, {}};
+  double from = 0;
+  for (const double to : cuts) {
+    Append(Resampled(PartOfEdge(edge, arcs, from, to), options.step), sampled.edge);
+    sampled.corners.push_back(sampled.edge.points.size() - 1);
+    from = to;
+  }
+  sampled.corners.pop_back();
+  // A closed curve shorter than three steps would become a point and back.
+  if (edge.nodes[0] == edge.nodes[1] && sampled.edge.points.size() < 4) return {edge, {}};
+  return sampled;
+}
+
+// The unknowns: one per node, then one per inner point of every edge.
+class VertexTable {
+ public:
+  VertexTable(const SkeletonGraph& graph, const std::vector<SampledEdge>& edges) {
+    const std::vector<NodeId> nodes = graph.Nodes();
+    index_of_node_.assign(nodes.empty() ? 0 : nodes.back() + 1, -1);
+    for (const NodeId node : nodes) index_of_node_[node] = count_++;
+    for (const SampledEdge& sampled : edges) {
+      first_inner_.push_back(count_);
+      count_ += static_cast<int>(sampled.edge.points.size()) - 2;
+    }
+  }
+
+  int count() const { return count_; }
+  int OfNode(NodeId node) const { return index_of_node_[node]; }
+
+  int OfPoint(size_t edge_index, const SkeletonEdge& edge, size_t point) const {
+    if (point == 0) return OfNode(edge.nodes[0]);
+    if (point + 1 == edge.points.size()) return OfNode(edge.nodes[1]);
+    return first_inner_[edge_index] + static_cast<int>(point) - 1;
+  }
+
+ private:
+  std::vector<int> index_of_node_;
+  std::vector<int> first_inner_;
+  int count_ = 0;
+};
+
+// The normal equations of Eq. 1. Held vertices keep their position: their rows are the identity,
+// and what they contribute to others stands on the right-hand side.
+class NormalEquations {
+ public:
+  explicit NormalEquations(int vertices)
+      : rhs_(Eigen::MatrixX3d::Zero(vertices, 3)), held_(vertices, 0), start_(vertices) {}
+
+  void SetStart(int vertex, const Vec3& position) { start_[vertex] = position; }
+  void Hold(int vertex) { held_[vertex] = 1; }
+
+  // weight |v - v0|^2.
+  void AddDataTerm(int vertex, double weight) {
+    entries_.emplace_back(vertex, vertex, weight);
+    rhs_.row(vertex) += weight * start_[vertex].transpose();
+  }
+
+  // lambda |a - 2 b + c|^2.
+  void AddSmoothnessTerm(const std::array<int, 3>& vertices, double lambda) {
+    constexpr std::array<double, 3> kStencil = {1, -2, 1};
+    for (int i = 0; i < 3; ++i) {
+      if (held_[vertices[i]]) continue;
+      for (int j = 0; j < 3; ++j) {
+        const double entry = lambda * kStencil[i] * kStencil[j];
+        if (held_[vertices[j]]) {
+          rhs_.row(vertices[i]) -= entry * start_[vertices[j]].transpose();
+        } else if (vertices[j] <= vertices[i]) {
+          entries_.emplace_back(vertices[i], vertices[j], entry);
+        }
+      }
+    }
+  }
+
+  Eigen::MatrixX3d Solve() const {
+    const int n = static_cast<int>(start_.size());
+    Eigen::SparseMatrix<double> matrix(n, n);
+    matrix.setFromTriplets(entries_.begin(), entries_.end());
+    const Eigen::CholmodSimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> solver(matrix);
+    assert(solver.info() == Eigen::Success);  // positive definite: every vertex has a data term
+    return solver.solve(rhs_);
+  }
+
+ private:
+  std::vector<Eigen::Triplet<double>> entries_;  // lower triangle
+  Eigen::MatrixX3d rhs_;
+  std::vector<char> held_;
+  std::vector<Vec3> start_;
+};
+
+// An end of an edge: its index, and whether it is the last point.
+using EdgeEnd = std::pair<size_t, bool>;
+
+// The ends of edges at every node.
+std::vector<std::vector<EdgeEnd>> EndsAtNodes(const std::vector<SampledEdge>& edges,
+                                              const VertexTable& table) {
+  std::vector<std::vector<EdgeEnd>> ends(table.count());
+  for (size_t e = 0; e < edges.size(); ++e) {
+    const SkeletonEdge& edge = edges[e].edge;
+    ends[table.OfNode(edge.nodes[0])].emplace_back(e, false);
+    ends[table.OfNode(edge.nodes[1])].emplace_back(e, true);
+  }
+  return ends;
+}
+
+// A node of degree 2 is a point of one curve and counts once, as if it were dissolved.
+double DataWeight(const SkeletonGraph& graph, const SkeletonEdge& edge, size_t point) {
+  const bool is_end = point == 0 || point + 1 == edge.points.size();
+  return is_end && graph.Degree(edge.nodes[point == 0 ? 0 : 1]) == 2 ? 0.5 : 1;
+}
+
+void AddEdgeTerms(const SkeletonGraph& graph, const std::vector<SampledEdge>& edges,
+                  const VertexTable& table, double lambda, NormalEquations& equations) {
+  for (size_t e = 0; e < edges.size(); ++e) {
+    const auto& [edge, corners] = edges[e];
+    for (size_t i = 0; i < edge.points.size(); ++i)
+      equations.AddDataTerm(table.OfPoint(e, edge, i), DataWeight(graph, edge, i));
+    for (size_t i = 1; i + 1 < edge.points.size(); ++i) {
+      if (std::binary_search(corners.begin(), corners.end(), i)) continue;
+      equations.AddSmoothnessTerm(
+          {table.OfPoint(e, edge, i - 1), table.OfPoint(e, edge, i), table.OfPoint(e, edge, i + 1)},
+          lambda);
+    }
+  }
+}
+
+// The smoothness term centred at nodes of degree 2, unless the curve has a corner there.
+void AddNodeTerms(const SkeletonGraph& graph, const std::vector<SampledEdge>& edges,
+                  const VertexTable& table, const SmoothingOptions& options,
+                  NormalEquations& equations) {
+  const std::vector<std::vector<EdgeEnd>> ends = EndsAtNodes(edges, table);
+  for (const NodeId node : graph.Nodes()) {
+    const int vertex = table.OfNode(node);
+    if (ends[vertex].size() != 2) continue;
+    std::array<Vec3, 2> ahead;
+    std::array<int, 2> beside;
+    for (int side = 0; side < 2; ++side) {
+      const auto& [e, from_end] = ends[vertex][side];
+      SkeletonEdge edge = edges[e].edge;
+      beside[side] = table.OfPoint(e, edge, from_end ? edge.points.size() - 2 : 1);
+      if (from_end) Reverse(edge);
+      ahead[side] =
+          PointAt(edge.points, CumulativeLength(edge.points), kCornerWindow * options.step);
+    }
+    if (TurnAngle(ahead[0], graph.position(node), ahead[1]) > options.corner_angle) continue;
+    equations.AddSmoothnessTerm({beside[0], vertex, beside[1]}, options.lambda);
+  }
+}
+
+// The graph with smoothed positions in place of the sampled ones.
+SkeletonGraph WithPositions(SkeletonGraph graph, std::vector<SampledEdge> edges,
+                            const VertexTable& table, const Eigen::MatrixX3d& positions) {
+  for (const NodeId node : graph.Nodes())
+    graph.MoveNode(node, positions.row(table.OfNode(node)).transpose());
+  const std::vector<EdgeId> ids = graph.Edges();
+  for (size_t e = 0; e < ids.size(); ++e) {
+    SkeletonEdge& edge = edges[e].edge;
+    for (size_t i = 0; i < edge.points.size(); ++i)
+      edge.points[i] = positions.row(table.OfPoint(e, edge, i)).transpose();
+    graph.SetCurve(ids[e], std::move(edge.points), std::move(edge.radii),
+                   std::move(edge.observations));
+  }
+  RemoveZeroLengthSegments(graph);
+  return graph;
+}
+
+}  // namespace
+
+void VisitOptions(SmoothingOptions& options, OptionVisitor& visitor) {
+  visitor.Visit({"step", "m", 1e-5, 0.1, "Distance of vertices on curves. CurveFusion 3.3."},
+                options.step);
+  visitor.Visit({"lambda", "", 0, 1e6, "Weight of smoothness against data. CurveFusion 3.3."},
+                options.lambda);
+  visitor.Visit({"hold_free_ends", "", 0, 1,
+                 "Deviation: free ends keep their place, which the paper smooths like any vertex; "
+                 "repeated smoothing would wear curved ends off."},
+                options.hold_free_ends);
+  visitor.Visit({"corner_angle", "rad", 0, M_PI,
+                 "Deviation: bends sharper than this stay sharp; pi rounds all off as the paper "
+                 "does."},
+                options.corner_angle);
+}
+
+SmoothingOptions PaperSmoothingOptions() {
+  SmoothingOptions options;
+  options.hold_free_ends = false;
+  options.corner_angle = M_PI;
+  return options;
+}
+
+SkeletonGraph SmoothGraph(const SkeletonGraph& graph, const SmoothingOptions& options) {
+  std::vector<SampledEdge> edges;
+  for (const EdgeId id : graph.Edges()) edges.push_back(Sampled(graph.edge(id), options));
+  const VertexTable table(graph, edges);
+  if (table.count() == 0) return graph;
+  NormalEquations equations(table.count());
+  for (const NodeId node : graph.Nodes()) {
+    equations.SetStart(table.OfNode(node), graph.position(node));
+    if (graph.Degree(node) == 0) equations.AddDataTerm(table.OfNode(node), 1);
+    if (graph.Degree(node) == 1 && options.hold_free_ends) equations.Hold(table.OfNode(node));
+  }
+  for (size_t e = 0; e < edges.size(); ++e) {
+    const SkeletonEdge& edge = edges[e].edge;
+    for (size_t i = 1; i + 1 < edge.points.size(); ++i)
+      equations.SetStart(table.OfPoint(e, edge, i), edge.points[i]);
+  }
+  AddEdgeTerms(graph, edges, table, options.lambda, equations);
+  AddNodeTerms(graph, edges, table, options, equations);
+  return WithPositions(graph, std::move(edges), table, equations.Solve());
+}
+
+}  // namespace curvefusion

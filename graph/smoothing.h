@@ -1,0 +1,28 @@
+#pragma once
+
+#include "graph/skeleton_graph.h"
+#include "kernel/options.h"
+
+namespace curvefusion {
+
+/// Curve fitting of CurveFusion 3.3, Eq. 1.
+struct SmoothingOptions {
+  double step = 1 * kMillimetre;
+  double lambda = 60;
+  bool hold_free_ends = true;
+  double corner_angle = 1.0;
+};
+void VisitOptions(SmoothingOptions& options, OptionVisitor& visitor);
+
+/// The options as the paper has them.
+SmoothingOptions PaperSmoothingOptions();
+
+/// Resamples every edge to `step` and minimises over all vertices at once
+///   sum |v_k - v0_k|^2 + lambda sum |v_(k-1) - 2 v_k + v_(k+1)|^2,
+/// both sums over each edge; junctions are shared, so their first term counts once per incident
+/// edge. Nodes of degree 2 count as points inside a curve, so a closed curve is smooth all around.
+/// Radii and observations are interpolated, not smoothed. One sparse factorisation: nearly linear
+/// in vertices.
+SkeletonGraph SmoothGraph(const SkeletonGraph& graph, const SmoothingOptions& options);
+
+}  // namespace curvefusion

@@ -1,0 +1,147 @@
+#include "graph/merge.h"
+
+#include <gtest/gtest.h>
+
+#include "graph/validate.h"
+#include "tests/graph/graph_fixtures.h"
+
+namespace curvefusion {
+namespace {
+
+// Two junctions `link` apart on the x axis with two arms of 50 mm each.
+SkeletonGraph HShape(double link) {
+  SkeletonGraph graph;
+  graph.AddNode({0, 0, 0});
+  graph.AddNode({link, 0, 0});
+  Connect(graph, 0, 1, StraightLine({0, 0, 0}, {link, 0, 0}));
+  for (const NodeId junction : {0, 1}) {
+    for (const double side : {-1.0, 1.0}) {
+      const Vec3 foot = graph.position(junction);
+      const Vec3 tip = foot + Vec3(junction == 0 ? -0.03 : 0.03, 0.04 * side, 0);
+      Connect(graph, junction, graph.AddNode(tip), StraightLine(foot, tip));
+    }
+  }
+  return graph;
+}
+
+TEST(MergeNearbyJunctions, APairBecomesOneOfValenceFour) {
+  SkeletonGraph graph = HShape(0.008);
+  MergeNearbyJunctions(graph, 0.01);
+  EXPECT_EQ(graph.edge_count(), 4);
+  ASSERT_EQ(CountDegree(graph, 4), 1);
+  EXPECT_NEAR(graph.position(0).x(), 0.004, 1e-15);  // equal degrees: the middle
+  EXPECT_TRUE(Violations(graph, 0.001).empty());
+}
+
+TEST(MergeNearbyJunctions, FartherOnesStay) {
+  SkeletonGraph graph = HShape(0.012);
+  MergeNearbyJunctions(graph, 0.01);
+  EXPECT_EQ(CountDegree(graph, 3), 2);
+}
+
+TEST(MergeNearbyJunctions, ARowDoesNotCollapse) {
+  SkeletonGraph graph = Lattice(3, 20, 0.008);
+  MergeNearbyJunctions(graph, 0.01);
+  // Means of merged pairs are two spacings apart, more than the distance.
+  EXPECT_GE(graph.node_count(), 60 / 4);
+}
+
+TEST(MergeParallelEdges, TwiceTheSameCurveBecomesItsWeightedMean) {
+  SkeletonGraph graph;
+  graph.AddNode({0, 0, 0});
+  graph.AddNode({0.1, 0, 0});
+  const Polyline above = {{0, 0, 0}, {0.05, 0.004, 0}, {0.1, 0, 0}};
+  graph.AddEdge({{0, 1}, above, {}, {3, 3, 3}});
+  graph.AddEdge({{1, 0}, {{0.1, 0, 0}, {0.05, 0, 0}, {0, 0, 0}}, {}, {1, 1, 1}});
+  MergeParallelEdges(graph, 0.003);
+  EXPECT_EQ(graph.edge_count(), 2);
+  MergeParallelEdges(graph, 0.005);
+  ASSERT_EQ(graph.edge_count(), 1);
+  EXPECT_NEAR(graph.edge(0).points[1].y(), 0.003, 1e-12);  // three quarters of 4 mm
+  EXPECT_EQ(graph.edge(0).observations[1], 4);
+}
+
+TEST(MergeParallelEdges, RingsMeetInTheRightDirection) {
+  SkeletonGraph graph;
+  const Polyline ring = Ring(0.05, 100);
+  const NodeId node = graph.AddNode(ring[0]);
+  Connect(graph, node, node, ring);
+  Connect(graph, node, node, Polyline(ring.rbegin(), ring.rend()));
+  MergeParallelEdges(graph, 0.001);
+  ASSERT_EQ(graph.edge_count(), 1);
+  EXPECT_NEAR(graph.TotalLength(), Length(ring), 1e-12);  // the same points twice
+}
+
+TEST(MergeOverlappingEdges, OnlyTheCommonStretchIsMerged) {
+  SkeletonGraph graph;
+  graph.AddPolyline(StraightLine({0, 0, 0}, {0.2, 0, 0}));
+  Polyline bridge = StraightLine({0, 0.05, 0}, {0.05, 0.004, 0});
+  for (const Vec3& p : StraightLine({0.051, 0.004, 0}, {0.149, 0.004, 0})) bridge.push_back(p);
+  for (const Vec3& p : StraightLine({0.15, 0.004, 0}, {0.2, 0.05, 0})) bridge.push_back(p);
+  graph.AddPolyline(bridge);
+  MergeOverlappingEdges(graph, 0.006);
+  EXPECT_EQ(graph.CycleRank(), 0);
+  EXPECT_EQ(CountDegree(graph, 3), 2);
+  EXPECT_EQ(graph.edge_count(), 5);
+}
+
+TEST(MergeOverlappingEdges, CrossingsStay) {
+  SkeletonGraph graph;
+  graph.AddPolyline(StraightLine({-0.05, 0, 0}, {0.05, 0, 0}));
+  graph.AddPolyline(StraightLine({0, -0.05, 0.002}, {0, 0.05, 0.002}));
+  MergeOverlappingEdges(graph, 0.006);
+  EXPECT_EQ(graph.edge_count(), 2);
+}
+
+TEST(RemoveShortEdges, SpursGoLinksShrinkCurvesStayWhole) {
+  SkeletonGraph graph = HShape(0.0015);
+  const NodeId junction = graph.SplitEdge(graph.Edges()[1], 20);
+  const Vec3 tip = graph.position(junction) + Vec3(0, 0, 0.0015);
+  Connect(graph, junction, graph.AddNode(tip), {graph.position(junction), tip});
+  graph.AddPolyline(StraightLine({1, 0, 0}, {1.001, 0, 0}));
+  RemoveShortEdges(graph, 0.002);
+  EXPECT_EQ(graph.edge_count(), 4);
+  EXPECT_EQ(CountDegree(graph, 4), 1);
+  EXPECT_EQ(graph.node_count(), 5);
+  EXPECT_TRUE(Violations(graph, 0.001).empty());
+}
+
+TEST(RemoveShortEdges, ACurveOfShortPiecesIsNotShort) {
+  SkeletonGraph graph;
+  graph.AddPolyline(StraightLine({0, 0, 0}, {0.05, 0, 0}));
+  for (int i = 0; i < 20; ++i) graph.SplitEdge(graph.Edges().back(), 1);
+  RemoveShortEdges(graph, 0.002);
+  EXPECT_EQ(graph.edge_count(), 1);
+  EXPECT_NEAR(graph.TotalLength(), 0.05, 1e-12);
+}
+
+TEST(RemoveShortEdges, NothingAndOnlyFragmentsAreFine) {
+  SkeletonGraph graph;
+  RemoveShortEdges(graph, 0.002);
+  for (int i = 0; i < 50; ++i) graph.AddPolyline({{0.01 * i, 0, 0}, {0.01 * i, 0.001, 0}});
+  RemoveShortEdges(graph, 0.002);
+  EXPECT_TRUE(graph.empty());
+  EXPECT_EQ(graph.node_count(), 0);
+}
+
+TEST(PruneSpurs, OnlyDanglingBranchesAtJunctionsGo) {
+  SkeletonGraph graph = YShape(0.05);
+  const NodeId junction = graph.SplitEdge(0, 25);
+  const Vec3 tip = graph.position(junction) + Vec3(0, 0, 0.008);
+  Connect(graph, junction, graph.AddNode(tip), {graph.position(junction), tip});
+  graph.AddPolyline(StraightLine({1, 0, 0}, {1.005, 0, 0}));
+  PruneSpurs(graph, 0.01);
+  EXPECT_EQ(graph.edge_count(), 4);
+  EXPECT_EQ(CountDegree(graph, 3), 1);
+}
+
+TEST(RemoveSmallLoops, OnlySmallOnesGo) {
+  SkeletonGraph graph;
+  graph.AddPolyline(Ring(0.001, 20));
+  graph.AddPolyline(Ring(0.01, 20));
+  RemoveSmallLoops(graph, 0.01);
+  EXPECT_EQ(graph.edge_count(), 1);
+}
+
+}  // namespace
+}  // namespace curvefusion
