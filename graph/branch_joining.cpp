@@ -26,22 +26,23 @@ struct Junctions {
   std::vector<Vec3> samples;
   std::vector<int> junction_of_sample;
   std::vector<Vec3> positions;
+  std::vector<int> sizes;  // numbers of samples
 };
 
 Junctions ClusterJunctions(std::vector<Vec3> samples, double link_distance) {
-  Junctions junctions{std::move(samples), {}, {}};
+  Junctions junctions{std::move(samples), {}, {}, {}};
   junctions.junction_of_sample = Dbscan(junctions.samples, link_distance, 1);
   const int count = junctions.samples.empty()
                         ? 0
                         : 1 + *std::max_element(junctions.junction_of_sample.begin(),
                                                 junctions.junction_of_sample.end());
   junctions.positions.assign(count, Vec3::Zero());
-  std::vector<int> sizes(count, 0);
+  junctions.sizes.assign(count, 0);
   for (size_t i = 0; i < junctions.samples.size(); ++i) {
     junctions.positions[junctions.junction_of_sample[i]] += junctions.samples[i];
-    ++sizes[junctions.junction_of_sample[i]];
+    ++junctions.sizes[junctions.junction_of_sample[i]];
   }
-  for (int k = 0; k < count; ++k) junctions.positions[k] /= sizes[k];
+  for (int k = 0; k < count; ++k) junctions.positions[k] /= junctions.sizes[k];
   return junctions;
 }
 
@@ -51,7 +52,6 @@ struct BranchEnd {
   bool at_front;
   Vec3 position;
   Vec3 heading;
-  int junction = kNone;
   NodeId node = kNone;
 };
 
@@ -89,8 +89,9 @@ class BranchJoiner {
     size_t first_end;
     size_t second_end;
   };
-  void FindJunctions();
-  bool ProlongLoneEnds();
+  void LookForJunction(int end);
+  int LoneJunction() const;
+  void PassThrough(int junction);
   int JunctionAhead(const BranchEnd& end);
   void Prolong(BranchEnd& end, const Vec3& position);
   bool FaceEachOther(const BranchEnd& a, const BranchEnd& b) const;
@@ -102,6 +103,7 @@ class BranchJoiner {
   std::vector<Polyline> branches_;
   Junctions junctions_;
   PointIndex junction_index_;
+  std::vector<std::vector<int>> ends_at_junction_;
   std::vector<char> is_passed_;               // junctions that have become part of a branch
   std::vector<std::map<int, NodeId>> stops_;  // inner vertices of each branch that became nodes
   double reach_;
@@ -112,38 +114,38 @@ class BranchJoiner {
 };
 
 void BranchJoiner::JoinAtJunctions() {
-  do FindJunctions();
-  while (ProlongLoneEnds());
-  std::vector<NodeId> node_of_junction(junctions_.positions.size(), kNone);
-  for (BranchEnd& end : ends_) {
-    if (end.junction == kNone) continue;
-    NodeId& node = node_of_junction[end.junction];
-    if (node == kNone) node = graph_.AddNode(junctions_.positions[end.junction]);
-    end.node = node;
+  ends_at_junction_.assign(junctions_.positions.size(), {});
+  for (int e = 0; e < static_cast<int>(ends_.size()); ++e) LookForJunction(e);
+  for (int lone = LoneJunction(); lone != kNone; lone = LoneJunction()) PassThrough(lone);
+  for (size_t k = 0; k < ends_at_junction_.size(); ++k) {
+    if (ends_at_junction_[k].empty()) continue;
+    const NodeId node = graph_.AddNode(junctions_.positions[k]);
+    for (const int e : ends_at_junction_[k]) ends_[e].node = node;
   }
 }
 
-void BranchJoiner::FindJunctions() {
-  for (BranchEnd& end : ends_) {
-    if (end.junction == kNone) end.junction = JunctionAhead(end);
-  }
+void BranchJoiner::LookForJunction(int end) {
+  const int junction = JunctionAhead(ends_[end]);
+  if (junction != kNone) ends_at_junction_[junction].push_back(end);
 }
 
-// A cluster reached by one end joins nothing. Returns whether there was one.
-bool BranchJoiner::ProlongLoneEnds() {
-  std::vector<int> end_count(junctions_.positions.size(), 0);
-  for (const BranchEnd& end : ends_) {
-    if (end.junction != kNone) ++end_count[end.junction];
+// The smallest junction that only one branch runs up to: it joins nothing.
+int BranchJoiner::LoneJunction() const {
+  int smallest = kNone;
+  for (int k = 0; k < static_cast<int>(ends_at_junction_.size()); ++k) {
+    if (ends_at_junction_[k].size() != 1) continue;
+    if (smallest == kNone || junctions_.sizes[k] < junctions_.sizes[smallest]) smallest = k;
   }
-  bool any = false;
-  for (BranchEnd& end : ends_) {
-    if (end.junction == kNone || end_count[end.junction] != 1) continue;
-    is_passed_[end.junction] = 1;
-    Prolong(end, junctions_.positions[end.junction]);
-    end.junction = kNone;
-    any = true;
-  }
-  return any;
+  return smallest;
+}
+
+// Makes a lone junction part of its branch, which then looks ahead again.
+void BranchJoiner::PassThrough(int junction) {
+  const int end = ends_at_junction_[junction].front();
+  ends_at_junction_[junction].clear();
+  is_passed_[junction] = 1;
+  Prolong(ends_[end], junctions_.positions[junction]);
+  LookForJunction(end);
 }
 
 int BranchJoiner::JunctionAhead(const BranchEnd& end) {

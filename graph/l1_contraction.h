@@ -15,7 +15,7 @@ struct L1Options {
   double sample_spacing = 0.2;
   double repulsion = 0.35;
   int minimum_neighbours = 5;
-  int maximum_iterations = 30;
+  int maximum_iterations = 15;
   double convergence = 0.002;
   BranchTracingOptions tracing;
 };
