@@ -1,5 +1,6 @@
 #include "graph/branch_joining.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -19,8 +20,13 @@ constexpr int kNone = -1;
 // of a cluster strays from the branches' lines by about as much.
 constexpr double kJunctionCosine = 0.5;
 
-// How many vertices back the heading of an end is measured from.
-constexpr size_t kHeadingVertices = 3;
+// How many vertices back the heading of an end is measured from: the last ones may already be drawn
+// into the junction.
+constexpr size_t kHeadingVertices = 5;
+
+// What the mean of a junction's samples weighs against one branch that points past it. It decides
+// only along the branches, where those are collinear.
+constexpr double kMeanWeight = 0.1;
 
 struct Junctions {
   std::vector<Vec3> samples;
@@ -92,6 +98,7 @@ class BranchJoiner {
   void LookForJunction(int end);
   int LoneJunction() const;
   void PassThrough(int junction);
+  Vec3 MeetingPoint(const std::vector<int>& ends, const Vec3& mean) const;
   int JunctionAhead(const BranchEnd& end);
   void Prolong(BranchEnd& end, const Vec3& position);
   bool FaceEachOther(const BranchEnd& a, const BranchEnd& b) const;
@@ -119,7 +126,7 @@ void BranchJoiner::JoinAtJunctions() {
   for (int lone = LoneJunction(); lone != kNone; lone = LoneJunction()) PassThrough(lone);
   for (size_t k = 0; k < ends_at_junction_.size(); ++k) {
     if (ends_at_junction_[k].empty()) continue;
-    const NodeId node = graph_.AddNode(junctions_.positions[k]);
+    const NodeId node = graph_.AddNode(MeetingPoint(ends_at_junction_[k], junctions_.positions[k]));
     for (const int e : ends_at_junction_[k]) ends_[e].node = node;
   }
 }
@@ -137,6 +144,22 @@ int BranchJoiner::LoneJunction() const {
     if (smallest == kNone || junctions_.sizes[k] < junctions_.sizes[smallest]) smallest = k;
   }
   return smallest;
+}
+
+// The point nearest to the lines that the ends head along. Contraction draws the samples of a
+// corner to its inside, by 4 mm for the paper's radius; the branches still point at the corner
+// itself.
+Vec3 BranchJoiner::MeetingPoint(const std::vector<int>& ends, const Vec3& mean) const {
+  Mat3 normal = kMeanWeight * Mat3::Identity();
+  Vec3 right = kMeanWeight * mean;
+  for (const int e : ends) {
+    const Vec3& d = ends_[e].heading;
+    const Mat3 across = Mat3::Identity() - d * d.transpose();
+    normal += across;
+    right += across * ends_[e].position;
+  }
+  const Vec3 meeting = normal.ldlt().solve(right);
+  return (meeting - mean).norm() <= reach_ ? meeting : mean;
 }
 
 // Makes a lone junction part of its branch, which then looks ahead again.
