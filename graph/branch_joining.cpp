@@ -24,9 +24,12 @@ constexpr double kJunctionCosine = 0.5;
 // into the junction.
 constexpr size_t kHeadingVertices = 5;
 
-// What the mean of a junction's samples weighs against one branch that points past it. It decides
-// only along the branches, where those are collinear.
+// What the mean of a junction's samples weighs against one branch that points past it. Where three
+// and more branches meet it decides only along the branches, should those be collinear; where two
+// meet, a round bend is as likely as a sharp corner, and half-way between mean and corner errs
+// least.
 constexpr double kMeanWeight = 0.1;
+constexpr double kMeanWeightInBend = 1;
 
 struct Junctions {
   std::vector<Vec3> samples;
@@ -146,20 +149,23 @@ int BranchJoiner::LoneJunction() const {
   return smallest;
 }
 
-// The point nearest to the lines that the ends head along. Contraction draws the samples of a
-// corner to its inside, by 4 mm for the paper's radius; the branches still point at the corner
-// itself.
+// The point nearest to the lines that the ends head along, unless it lies behind an end.
+// Contraction draws the samples of a corner to its inside, by 4 mm for the paper's radius; the
+// branches still point at the corner itself.
 Vec3 BranchJoiner::MeetingPoint(const std::vector<int>& ends, const Vec3& mean) const {
-  Mat3 normal = kMeanWeight * Mat3::Identity();
-  Vec3 right = kMeanWeight * mean;
+  const double mean_weight = ends.size() == 2 ? kMeanWeightInBend : kMeanWeight;
+  Mat3 normal = mean_weight * Mat3::Identity();
+  Vec3 right = mean_weight * mean;
   for (const int e : ends) {
-    const Vec3& d = ends_[e].heading;
-    const Mat3 across = Mat3::Identity() - d * d.transpose();
+    const Mat3 across = Mat3::Identity() - ends_[e].heading * ends_[e].heading.transpose();
     normal += across;
     right += across * ends_[e].position;
   }
   const Vec3 meeting = normal.ldlt().solve(right);
-  return (meeting - mean).norm() <= reach_ ? meeting : mean;
+  const bool is_ahead = std::all_of(ends.begin(), ends.end(), [&](int e) {
+    return (meeting - ends_[e].position).dot(ends_[e].heading) >= 0;
+  });
+  return is_ahead && (meeting - mean).norm() <= reach_ ? meeting : mean;
 }
 
 // Makes a lone junction part of its branch, which then looks ahead again.
