@@ -6,7 +6,9 @@
 #include <cmath>
 #include <numeric>
 
+#include "graph/density_kernel.h"
 #include "graph/point_grid.h"
+#include "graph/ridge_scale.h"
 #include "kernel/parallel.h"
 #include "kernel/voxel_grid.h"
 
@@ -14,168 +16,148 @@ namespace curvefusion {
 
 namespace {
 
-// (1 - q / 2k)^k with k = 4 is within .05 of exp(-q / 2), needs no exponential and ends by itself.
-constexpr int kKernelPower = 4;
-const double kSupportSigmas = std::sqrt(2.0 * kKernelPower);
-constexpr double kConvergedStep = 0.02 * kMillimetre;
-constexpr int kGrain = 64;
-
-// What the kernels of the neighbours add up to at one place.
-struct KernelSums {
-  double weight = 0;
-  Vec3 mean = Vec3::Zero();
-  Mat3 covariance = Mat3::Zero();
-};
-
-// The points around a seed, relative to where it started: one gather serves all its iterations.
-struct Neighbourhood {
-  std::vector<Vec3> offsets;
-  std::vector<Vec3> rays;
-  std::vector<double> weights;
-
-  void Clear() {
-    offsets.clear();
-    rays.clear();
-    weights.clear();
-  }
-};
+constexpr double kConvergedStep = 0.01 * kMillimetre;
+constexpr int kGrain = 32;
+// Kernel widths grow by this factor from one level to the next.
+constexpr double kLevelRatio = 1.4142135623730951;
+// After so many steps most seeds have come together and need not all be followed to the end.
+constexpr int kGatheringIterations = 3;
 
 struct RidgeSeed {
   Vec3 position;
-  Vec3 direction;
-  double strength;
+  Vec3 direction = Vec3::Zero();
+  double strength = 0;
+  double elongation = 0;  ///< variance along the direction over that of a uniform curve
+  int level = 0;
 };
 
-ObservedPoints FinitePoints(const ObservedPoints& points) {
-  ObservedPoints finite;
-  finite.Reserve(points.size());
+// One kernel width with the points it is applied to: wide kernels need fewer points.
+struct Level {
+  double spacing;
+  DensityField field;
+};
+
+ObservedPoints UsablePoints(const ObservedPoints& points, double count_limit) {
+  ObservedPoints usable;
+  usable.Reserve(points.size());
   for (size_t i = 0; i < points.size(); ++i) {
     if (points.positions[i].allFinite() && points.viewing_rays[i].allFinite() &&
         points.counts[i] > 0) {
-      finite.Add(points.positions[i], points.viewing_rays[i], points.counts[i]);
+      usable.Add(points.positions[i], points.viewing_rays[i],
+                 std::min(points.counts[i], static_cast<float>(count_limit)));
     }
   }
-  return finite;
+  return usable;
 }
 
-// Weighted by the inverse kernel covariance (I - c v v^T) / sigma^2, so that a point pulls less
-// along its viewing ray than across it.
-KernelSums SumKernels(const Neighbourhood& neighbours, const Vec3& x,
-                      const RidgeProjectionOptions& options) {
-  const double squared_sigma = options.kernel_sigma * options.kernel_sigma;
-  const double ratio = options.kernel_sigma / options.ray_sigma;
-  const double along = 1 - ratio * ratio;
-  KernelSums sums;
-  Mat3 second = Mat3::Zero();
-  Mat3 precision = Mat3::Zero();
-  Vec3 pull = Vec3::Zero();
-  Vec3 first = Vec3::Zero();
-  for (size_t i = 0; i < neighbours.offsets.size(); ++i) {
-    const Vec3 d = neighbours.offsets[i] - x;
-    const Vec3& ray = neighbours.rays[i];
-    const Vec3 across = d - (along * ray.dot(d)) * ray;
-    const double t = 1 - d.dot(across) / (2 * kKernelPower * squared_sigma);
-    if (t <= 0) continue;
-    const double weight = neighbours.weights[i] * t * t * t * t;
-    sums.weight += weight;
-    first += weight * d;
-    pull += weight * across;
-    second.noalias() += weight * d * d.transpose();
-    precision.noalias() += weight * along * ray * ray.transpose();
+std::vector<Level> MakeLevels(const ObservedPoints& points, const RidgeProjectionOptions& options) {
+  std::vector<Level> levels;
+  double factor = 1;
+  for (; options.kernel_sigma * factor < options.max_sigma * 1.01; factor *= kLevelRatio) {
+    const double sigma = options.kernel_sigma * factor;
+    const ObservedPoints level_points = factor > 1 ? ResampleOnGrid(points, 0.7 * sigma) : points;
+    levels.push_back({options.spacing * factor,
+                      DensityField(level_points, sigma, sigma * options.ray_stretch, sigma)});
   }
-  if (sums.weight <= 0) return sums;
-  first /= sums.weight;
-  sums.covariance = second / sums.weight - first * first.transpose();
-  precision = sums.weight * Mat3::Identity() - precision;
-  sums.mean = precision.inverse() * pull;
-  return sums;
+  return levels;
 }
 
-RidgeSeed ProjectSeed(const Vec3& start, const Neighbourhood& neighbours,
-                      const RidgeProjectionOptions& options) {
-  Vec3 x = Vec3::Zero();
-  RidgeSeed seed{start, Vec3::Zero(), 0};
-  for (int iteration = 0; iteration < options.iterations; ++iteration) {
-    const KernelSums sums = SumKernels(neighbours, x, options);
-    seed.strength = sums.weight;
-    if (sums.weight <= 0) break;
-    Eigen::SelfAdjointEigenSolver<Mat3> solver;
-    solver.computeDirect(sums.covariance);
-    seed.direction = solver.eigenvectors().col(2);
-    const Vec3 step = sums.mean - seed.direction.dot(sums.mean) * seed.direction;
-    x += step;
-    if (step.norm() < kConvergedStep) break;
-  }
-  seed.position = start + x;
-  return seed;
-}
-
-std::vector<RidgeSeed> ProjectSeeds(const ObservedPoints& points, const std::vector<Vec3>& starts,
-                                    const RidgeProjectionOptions& options) {
-  // A seed travels about one sigma: the slack keeps its neighbours complete on the way.
-  const double reach =
-      kSupportSigmas * std::max(options.kernel_sigma, options.ray_sigma) + options.kernel_sigma;
-  const PointGrid grid(points.positions, reach);
-  std::vector<RidgeSeed> seeds(starts.size());
-  ParallelChunks(0, static_cast<int64_t>(starts.size()), kGrain, [&](int64_t first, int64_t last) {
-    Neighbourhood neighbours;
-    for (int64_t i = first; i < last; ++i) {
-      neighbours.Clear();
-      grid.ForEachWithin(starts[i], reach, [&](int index, const Vec3& p) {
-        neighbours.offsets.push_back(p - starts[i]);
-        neighbours.rays.push_back(points.viewing_rays[index]);
-        neighbours.weights.push_back(std::min<double>(points.counts[index], options.count_limit));
-      });
-      seeds[i] = ProjectSeed(starts[i], neighbours, options);
+// Seeds at the points, of the level that suits the thickness there; fewer on thick wires.
+std::vector<RidgeSeed> MakeSeeds(const ObservedPoints& points, const std::vector<Level>& levels,
+                                 const RidgeProjectionOptions& options) {
+  RidgeScaleOptions scale;
+  scale.sigma = options.kernel_sigma;
+  std::vector<RidgeSeed> seeds;
+  for (size_t level = 0; level < levels.size(); ++level) {
+    const std::vector<Vec3> starts = ResampleOnGrid(points, levels[level].spacing).positions;
+    const std::vector<double> thickness = LocalThickness(points, starts, scale);
+    for (size_t i = 0; i < starts.size(); ++i) {
+      const double wanted = options.sigma_per_thickness * thickness[i];
+      const bool wide_enough = level + 1 == levels.size() || wanted <= levels[level].field.sigma();
+      const bool too_wide = level > 0 && wanted <= levels[level - 1].field.sigma();
+      if (wide_enough && !too_wide) seeds.push_back({starts[i], {}, 0, 0, static_cast<int>(level)});
     }
-  });
+  }
   return seeds;
 }
 
-double Median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+void ProjectSeed(const DensityField& field, int iterations, RidgeSeed& seed,
+                 DensityField::Neighbours& neighbours) {
+  field.Gather(seed.position, neighbours);
+  for (int iteration = 0; iteration < iterations; ++iteration) {
+    const KernelMoments moments = field.Moments(neighbours, seed.position);
+    seed.strength = moments.weight;
+    if (moments.weight <= 0) return;
+    Eigen::SelfAdjointEigenSolver<Mat3> solver;
+    solver.computeDirect(moments.covariance);
+    seed.direction = solver.eigenvectors().col(2);
+    seed.elongation = solver.eigenvalues()[2] / (kKernelVariance * field.sigma() * field.sigma());
+    const Vec3 step = moments.mean - seed.direction.dot(moments.mean) * seed.direction;
+    seed.position += step;
+    if (step.norm() < kConvergedStep) return;
+  }
+}
+
+void ProjectSeeds(const std::vector<Level>& levels, int iterations, std::vector<RidgeSeed>& seeds) {
+  ParallelChunks(0, static_cast<int64_t>(seeds.size()), kGrain, [&](int64_t first, int64_t last) {
+    DensityField::Neighbours neighbours;
+    for (int64_t i = first; i < last; ++i) {
+      ProjectSeed(levels[seeds[i].level].field, iterations, seeds[i], neighbours);
+    }
+  });
 }
 
 // Keeps the strongest seeds such that no two are nearer than the spacing.
-RidgePoints ThinOut(const std::vector<RidgeSeed>& seeds, const RidgeProjectionOptions& options) {
+std::vector<RidgeSeed> ThinOut(const std::vector<RidgeSeed>& seeds, double spacing) {
   std::vector<Vec3> positions;
-  std::vector<double> strengths;
-  for (const RidgeSeed& seed : seeds) {
-    positions.push_back(seed.position);
-    strengths.push_back(seed.strength);
-  }
-  const double least = options.min_relative_strength * Median(strengths);
+  for (const RidgeSeed& seed : seeds) positions.push_back(seed.position);
   std::vector<int> order(seeds.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(),
-                   [&](int a, int b) { return strengths[a] > strengths[b]; });
-  const PointGrid grid(positions, options.spacing);
+                   [&](int a, int b) { return seeds[a].strength > seeds[b].strength; });
+  const PointGrid grid(positions, spacing);
   std::vector<char> covered(seeds.size(), 0);
-  RidgePoints ridge;
+  std::vector<RidgeSeed> kept;
   for (const int i : order) {
-    if (covered[i] || strengths[i] <= least) continue;
-    grid.ForEachWithin(positions[i], options.spacing, [&](int j, const Vec3&) { covered[j] = 1; });
-    ridge.positions.push_back(positions[i]);
-    ridge.directions.push_back(seeds[i].direction);
-    ridge.strengths.push_back(strengths[i]);
+    if (covered[i]) continue;
+    grid.ForEachWithin(positions[i], spacing, [&](int j, const Vec3&) { covered[j] = 1; });
+    kept.push_back(seeds[i]);
   }
-  return ridge;
+  return kept;
+}
+
+// Drops what is no ridge: outliers, which are weak, and saddles between two wires, where the
+// principal direction leads across, from one to the other.
+void DropFalseSeeds(std::vector<RidgeSeed>& seeds, const RidgeProjectionOptions& options) {
+  if (seeds.empty()) return;
+  std::vector<double> strengths;
+  for (const RidgeSeed& seed : seeds) strengths.push_back(seed.strength);
+  const auto middle = strengths.begin() + static_cast<std::ptrdiff_t>(strengths.size() / 2);
+  std::nth_element(strengths.begin(), middle, strengths.end());
+  const double least = options.min_relative_strength * *middle;
+  std::erase_if(seeds, [&](const RidgeSeed& seed) {
+    return seed.strength <= least || seed.elongation > options.max_elongation;
+  });
 }
 
 }  // namespace
 
 void VisitOptions(RidgeProjectionOptions& options, OptionVisitor& visitor) {
   visitor.Visit({"kernel_sigma", "m", 0.0005, 0.05,
-                 "Deviation: width of the density kernel across the viewing ray; 25 mm as in "
-                 "CurveFusion 3.2 loses wires, 2 mm makes false junctions."},
+                 "Deviation: width of the density kernel on thin wires; 25 mm as in CurveFusion "
+                 "3.2 loses wires, 2 mm makes false junctions."},
                 options.kernel_sigma);
-  visitor.Visit({"ray_sigma", "m", 0.0005, 0.05,
-                 "Deviation: width of the kernel along the viewing ray, where depth noise is "
-                 "larger."},
-                options.ray_sigma);
+  visitor.Visit({"ray_stretch", "", 1, 20,
+                 "Deviation: how much longer the kernel is along the viewing ray, for sensors "
+                 "whose depth noise is far larger than the wires."},
+                options.ray_stretch);
+  visitor.Visit({"max_sigma", "m", 0.0005, 0.05,
+                 "Deviation: width of the kernel on thick wires, which a thin kernel splits into "
+                 "strands."},
+                options.max_sigma);
+  visitor.Visit({"sigma_per_thickness", "", 0, 10,
+                 "Deviation: width of the kernel over the rms half width of the points across."},
+                options.sigma_per_thickness);
   visitor.Visit({"count_limit", "pixels", 1, 1e6,
                  "Deviation: a point counts as often as it was seen, up to this often, so that "
                  "long looks at one part do not pull at their surroundings."},
@@ -187,6 +169,10 @@ void VisitOptions(RidgeProjectionOptions& options, OptionVisitor& visitor) {
   visitor.Visit({"min_relative_strength", "", 0, 1,
                  "Deviation: ridge points weaker than this part of the median are outliers."},
                 options.min_relative_strength);
+  visitor.Visit({"max_elongation", "", 1, 100,
+                 "Deviation: greatest variance along a ridge, over that of a uniform curve; it is "
+                 "larger between parallel wires."},
+                options.max_elongation);
 }
 
 ObservedPoints ShiftAlongRays(const ObservedPoints& points, double distance) {
@@ -203,10 +189,20 @@ ObservedPoints ShiftAlongRays(const ObservedPoints& points, const std::vector<do
 }
 
 RidgePoints ProjectToRidges(const ObservedPoints& points, const RidgeProjectionOptions& options) {
-  const ObservedPoints finite = FinitePoints(points);
-  // One seed per cell covers every ridge: the density is still that of all points.
-  const ObservedPoints starts = ResampleOnGrid(finite, options.spacing);
-  return ThinOut(ProjectSeeds(finite, starts.positions, options), options);
+  const ObservedPoints usable = UsablePoints(points, options.count_limit);
+  const std::vector<Level> levels = MakeLevels(usable, options);
+  std::vector<RidgeSeed> seeds = MakeSeeds(usable, levels, options);
+  ProjectSeeds(levels, kGatheringIterations, seeds);
+  seeds = ThinOut(seeds, options.spacing / 2);
+  ProjectSeeds(levels, options.iterations, seeds);
+  DropFalseSeeds(seeds, options);
+  RidgePoints ridge;
+  for (const RidgeSeed& seed : ThinOut(seeds, options.spacing)) {
+    ridge.positions.push_back(seed.position);
+    ridge.directions.push_back(seed.direction);
+    ridge.strengths.push_back(seed.strength);
+  }
+  return ridge;
 }
 
 }  // namespace curvefusion

@@ -12,11 +12,14 @@ namespace curvefusion {
 /// the L1 axis with a kernel of 15 to 25 mm, which merges wires nearer than that.
 struct RidgeProjectionOptions {
   double kernel_sigma = 0.0035;
-  double ray_sigma = 0.0045;
+  double ray_stretch = 1;
+  double max_sigma = 0.007;
+  double sigma_per_thickness = 1.3;
   double count_limit = 4;
-  int iterations = 20;
+  int iterations = 30;
   double spacing = 0.0015;
   double min_relative_strength = 0.1;
+  double max_elongation = 1.5;
 };
 void VisitOptions(RidgeProjectionOptions& options, OptionVisitor& visitor);
 
