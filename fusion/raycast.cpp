@@ -176,22 +176,44 @@ struct BlockRay {
   Vec3f At(float t) const { return origin + t * direction; }
 };
 
+struct RaySample {
+  float t;
+  float value;
+};
+
+// The crossing between a sample that is not negative and one that is not positive: the regula falsi
+// with halved values of an end that stays (Illinois), because the interpolant along a ray is cubic.
+float RefineCrossing(const CellCorners& corners, const BlockRay& ray, const int cell[3],
+                     RaySample before, RaySample behind) {
+  constexpr int kMaxIterations = 5;
+  constexpr float kTolerance = 1e-4f;  // truncations, below a thousandth of a voxel
+  float t = before.t;
+  for (int i = 0; i < kMaxIterations; ++i) {
+    t = before.t +
+        (behind.t - before.t) * before.value / std::max(before.value - behind.value, kTolerance);
+    const float value = Interpolate(corners, cell, ray.At(t));
+    if (std::abs(value) < kTolerance) break;
+    if (value > 0) {
+      before = {t, value};
+      behind.value *= 0.5f;
+    } else {
+      behind = {t, value};
+      before.value *= 0.5f;
+    }
+  }
+  return t;
+}
+
 // Depth of the crossing from positive to negative between t_enter and t_exit inside a cell; 0 =
 // none.
 float CrossCell(const CellCorners& corners, const BlockRay& ray, const int cell[3], float t_enter,
                 float t_exit) {
   // A crossing on the very face between two cells may round to just below zero in both.
   constexpr float kRounding = 1e-4f;
-  float before = Interpolate(corners, cell, ray.At(t_enter));
-  float behind = Interpolate(corners, cell, ray.At(t_exit));
+  const float before = Interpolate(corners, cell, ray.At(t_enter));
+  const float behind = Interpolate(corners, cell, ray.At(t_exit));
   if (before < -kRounding || behind > 0 || before <= behind) return 0;
-  before = std::max(before, 0.0f);
-  // Regula falsi on the cubic along the ray; one correction leaves far less than depth noise.
-  const float t = before > 0 ? t_enter + (t_exit - t_enter) * before / (before - behind) : t_enter;
-  const float value = Interpolate(corners, cell, ray.At(t));
-  if (value > 0 && value > behind) return t + (t_exit - t) * value / (value - behind);
-  if (value < 0 && before > value) return t_enter + (t - t_enter) * before / (before - value);
-  return t;
+  return RefineCrossing(corners, ray, cell, {t_enter, std::max(before, 0.0f)}, {t_exit, behind});
 }
 
 // Walks the cells of a block's box along a ray (Amanatides and Woo 1987) to the first crossing; 0 =
