@@ -1,8 +1,12 @@
 #include "fusion/raycast.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <cstdlib>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "kernel/parallel.h"
@@ -14,11 +18,23 @@ namespace {
 constexpr int kBandRows = 16;  ///< image rows drawn by one thread at a time
 constexpr int kBlocksPerChunk = 128;
 
-// A block with surface cells and the pixels it may cover.
+// A range of cells in every axis, in voxels of a block: low inclusive, high exclusive.
+struct CellBox {
+  std::array<int, 3> low = {0, 0, 0};
+  std::array<int, 3> high = {kBlockSide, kBlockSide, kBlockSide};
+};
+
+// Pixel ranges, both ends inclusive.
+struct PixelBox {
+  int u_min, u_max, v_min, v_max;
+};
+
+// A block with surface cells, where they are and the pixels they may cover.
 struct SurfaceBlock {
   int block;
   int order;  ///< of blocks on one ray the nearer has the smaller
-  int u_min, u_max, v_min, v_max;
+  CellBox box;
+  PixelBox pixels;
   CellMask cells;
 };
 
@@ -27,51 +43,80 @@ struct VoxelCamera {
   const PinholeCamera& camera;
   RigidTransform T_camera_world;
   Vec3 center;  ///< in voxels
-  Mat3 axes;    ///< voxels per metre of depth
   double voxel_size;
+  Vec3f first_ray;            ///< voxels per metre of depth along the ray of pixel (0, 0)
+  Vec3f per_column, per_row;  ///< change of the ray from pixel to pixel
 
   VoxelCamera(const PinholeCamera& pinhole, const RigidTransform& T_world_camera, double size)
       : camera(pinhole),
         T_camera_world(T_world_camera.inverse()),
         center(T_world_camera.translation() / size),
-        axes(T_world_camera.linear() / size),
-        voxel_size(size) {}
+        voxel_size(size) {
+    const Mat3 axes = T_world_camera.linear() / size;
+    first_ray = (axes * pinhole.Unproject(0, 0, 1)).cast<float>();
+    per_column = (axes.col(0) / pinhole.fx).cast<float>();
+    per_row = (axes.col(1) / pinhole.fy).cast<float>();
+  }
 
-  // Voxels travelled per metre of depth along the ray of a pixel.
-  Vec3 Ray(int u, int v) const { return axes * camera.Unproject(u, v, 1.0); }
+  Vec3f Ray(int u, int v) const {
+    return first_ray + static_cast<float>(u) * per_column + static_cast<float>(v) * per_row;
+  }
 };
 
-// Sets the pixels whose rays may meet the cells of a block; false if there are none.
-bool FindCoveredPixels(const VoxelCamera& view, const VoxelKey& key, SurfaceBlock& found) {
+// Pixels start to end, clipped to [0, size); empty (first > second) outside.
+std::pair<int, int> ClippedPixels(double start, double end, int size) {
+  constexpr double kRounding = 1e-3;  // far above what projection loses
+  return {static_cast<int>(std::ceil(std::clamp(start - kRounding, 0.0, 1.0 * size))),
+          static_cast<int>(std::floor(std::clamp(end + kRounding, -1.0, size - 1.0)))};
+}
+
+// The pixels whose rays may meet some cells of a block; empty if there are none.
+std::optional<PixelBox> FindCoveredPixels(const VoxelCamera& view, const VoxelKey& key,
+                                          const CellBox& box) {
   constexpr double kNearestProjectable = 1e-3;
-  constexpr double kRounding = 1e-3;  // pixels; far above what projection loses
   const PinholeCamera& camera = view.camera;
-  const Vec3 corner = view.voxel_size * kBlockSide * Vec3(key.x, key.y, key.z);
-  const Vec3 center_camera =
-      view.T_camera_world * (corner + Vec3::Constant(view.voxel_size * kBlockSide / 2.0));
+  const Vec3 cell_low(box.low[0], box.low[1], box.low[2]);
+  const Vec3 cell_high(box.high[0], box.high[1], box.high[2]);
+  const Vec3 first_voxel = kBlockSide * Vec3(key.x, key.y, key.z);
+  const Vec3 center =
+      view.T_camera_world * (view.voxel_size * (first_voxel + 0.5 * (cell_low + cell_high)));
   const Vec3 half =
-      view.T_camera_world.linear().cwiseAbs() * Vec3::Constant(view.voxel_size * kBlockSide / 2.0);
-  const Vec3 low = center_camera - half, high = center_camera + half;
-  if (high.z() <= 0) return false;
-  found.u_min = found.v_min = 0;
-  found.u_max = camera.width - 1;
-  found.v_max = camera.height - 1;
-  if (low.z() < kNearestProjectable) return true;
-  const auto clamp = [](double pixel, int end) {
-    return static_cast<int>(std::clamp(pixel, -1.0, static_cast<double>(end)));
-  };
+      view.T_camera_world.linear().cwiseAbs() * (view.voxel_size * 0.5 * (cell_high - cell_low));
+  const Vec3 low = center - half, high = center + half;
+  if (high.z() <= 0) return std::nullopt;
+  if (low.z() < kNearestProjectable) {
+    return PixelBox{0, camera.width - 1, 0, camera.height - 1};
+  }
   const double left = low.x() / (low.x() < 0 ? low.z() : high.z());
   const double right = high.x() / (high.x() > 0 ? low.z() : high.z());
   const double top = low.y() / (low.y() < 0 ? low.z() : high.z());
   const double bottom = high.y() / (high.y() > 0 ? low.z() : high.z());
-  const int width = camera.width, height = camera.height;
-  found.u_min = std::max(0, clamp(std::ceil(camera.fx * left + camera.cx - kRounding), width));
-  found.v_min = std::max(0, clamp(std::ceil(camera.fy * top + camera.cy - kRounding), height));
-  found.u_max =
-      std::min(width - 1, clamp(std::floor(camera.fx * right + camera.cx + kRounding), width));
-  found.v_max =
-      std::min(height - 1, clamp(std::floor(camera.fy * bottom + camera.cy + kRounding), height));
-  return found.u_min <= found.u_max && found.v_min <= found.v_max;
+  const auto [u_min, u_max] =
+      ClippedPixels(camera.fx * left + camera.cx, camera.fx * right + camera.cx, camera.width);
+  const auto [v_min, v_max] =
+      ClippedPixels(camera.fy * top + camera.cy, camera.fy * bottom + camera.cy, camera.height);
+  if (u_min > u_max || v_min > v_max) return std::nullopt;
+  return PixelBox{u_min, u_max, v_min, v_max};
+}
+
+// The smallest box around the set cells, of which there is at least one.
+CellBox BoundingBox(const CellMask& cells) {
+  CellBox box;
+  box.low.fill(kBlockSide);
+  box.high.fill(0);
+  unsigned columns = 0;
+  for (int row = 0; row < kBlockSide * kBlockSide; ++row) {
+    if (cells[row] == 0) continue;
+    columns |= cells[row];
+    const int y = row % kBlockSide, z = row / kBlockSide;
+    box.low[1] = std::min(box.low[1], y);
+    box.low[2] = std::min(box.low[2], z);
+    box.high[1] = std::max(box.high[1], y + 1);
+    box.high[2] = std::max(box.high[2], z + 1);
+  }
+  box.low[0] = std::countr_zero(columns);
+  box.high[0] = std::bit_width(columns);
+  return box;
 }
 
 // Along a ray the grid steps of block coordinates away from the camera's only add up, so their sum
@@ -89,11 +134,14 @@ std::vector<SurfaceBlock> FindSurfaceBlocks(const VoxelBlockGrid& grid, const Vo
     CellCorners corners;
     SurfaceBlock found;
     for (int block = static_cast<int>(first); block < last; ++block) {
-      if (!MayContainSurface(grid, block) || !FindCoveredPixels(view, grid.key(block), found)) {
-        continue;
-      }
+      if (!MayContainSurface(grid, block)) continue;
+      if (!FindCoveredPixels(view, grid.key(block), CellBox())) continue;
       GatherCellCorners(grid, block, corners);
       if (!FindSurfaceCells(corners, found.cells)) continue;
+      found.box = BoundingBox(found.cells);
+      const auto pixels = FindCoveredPixels(view, grid.key(block), found.box);
+      if (!pixels) continue;
+      found.pixels = *pixels;
       found.block = block;
       found.order = FrontToBackOrder(camera_block, grid.key(block));
       of_chunk[first / kBlocksPerChunk].push_back(found);
@@ -128,46 +176,68 @@ struct BlockRay {
   Vec3f At(float t) const { return origin + t * direction; }
 };
 
+struct RaySample {
+  float t;
+  float value;
+};
+
+// The crossing between a sample that is not negative and one that is not positive: the regula falsi
+// with halved values of an end that stays (Illinois), because the interpolant along a ray is cubic.
+float RefineCrossing(const CellCorners& corners, const BlockRay& ray, const int cell[3],
+                     RaySample before, RaySample behind) {
+  constexpr int kMaxIterations = 5;
+  constexpr float kTolerance = 1e-4f;  // truncations, below a thousandth of a voxel
+  float t = before.t;
+  for (int i = 0; i < kMaxIterations; ++i) {
+    t = before.t +
+        (behind.t - before.t) * before.value / std::max(before.value - behind.value, kTolerance);
+    const float value = Interpolate(corners, cell, ray.At(t));
+    if (std::abs(value) < kTolerance) break;
+    if (value > 0) {
+      before = {t, value};
+      behind.value *= 0.5f;
+    } else {
+      behind = {t, value};
+      before.value *= 0.5f;
+    }
+  }
+  return t;
+}
+
 // Depth of the crossing from positive to negative between t_enter and t_exit inside a cell; 0 =
 // none.
 float CrossCell(const CellCorners& corners, const BlockRay& ray, const int cell[3], float t_enter,
                 float t_exit) {
   // A crossing on the very face between two cells may round to just below zero in both.
   constexpr float kRounding = 1e-4f;
-  float before = Interpolate(corners, cell, ray.At(t_enter));
-  float behind = Interpolate(corners, cell, ray.At(t_exit));
-  if (before < -kRounding || behind > 0) return 0;
-  before = std::max(before, 0.0f);
-  // Regula falsi on the cubic along the ray; one correction leaves far less than depth noise.
-  const float t = before > 0 ? t_enter + (t_exit - t_enter) * before / (before - behind) : t_enter;
-  const float value = Interpolate(corners, cell, ray.At(t));
-  if (value > 0 && value > behind) return t + (t_exit - t) * value / (value - behind);
-  if (value < 0 && before > value) return t_enter + (t - t_enter) * before / (before - value);
-  return t;
+  const float before = Interpolate(corners, cell, ray.At(t_enter));
+  const float behind = Interpolate(corners, cell, ray.At(t_exit));
+  if (before < -kRounding || behind > 0 || before <= behind) return 0;
+  return RefineCrossing(corners, ray, cell, {t_enter, std::max(before, 0.0f)}, {t_exit, behind});
 }
 
-// Walks the cells of a block along a ray (Amanatides and Woo 1987) to the first crossing; 0 = none.
-float CrossBlock(const CellCorners& corners, const CellMask& cells, const BlockRay& ray) {
-  constexpr float kSide = kBlockSide;
-  float per_direction[3], t_low[3], t_high[3];
+// Walks the cells of a block's box along a ray (Amanatides and Woo 1987) to the first crossing; 0 =
+// none.
+float CrossBlock(const CellCorners& corners, const SurfaceBlock& block, const BlockRay& ray) {
+  float per_direction[3];
   float t_enter = 0, t_end = INFINITY;
   for (int axis = 0; axis < 3; ++axis) {
     per_direction[axis] = 1 / ray.direction[axis];
-    const float t0 = -ray.origin[axis] * per_direction[axis];
-    const float t1 = (kSide - ray.origin[axis]) * per_direction[axis];
-    t_low[axis] = std::min(t0, t1);
-    t_high[axis] = std::max(t0, t1);
-    t_enter = std::max(t_enter, t_low[axis]);
-    t_end = std::min(t_end, t_high[axis]);
+    const float t0 =
+        (static_cast<float>(block.box.low[axis]) - ray.origin[axis]) * per_direction[axis];
+    const float t1 =
+        (static_cast<float>(block.box.high[axis]) - ray.origin[axis]) * per_direction[axis];
+    t_enter = std::max(t_enter, std::min(t0, t1));
+    t_end = std::min(t_end, std::max(t0, t1));
   }
   if (!(t_enter < t_end)) return 0;
   const Vec3f start = ray.At(t_enter);
   int cell[3], step[3];
-  float t_next[3], t_step[3];
+  float t_next[3];
   for (int axis = 0; axis < 3; ++axis) {
-    cell[axis] = std::clamp(static_cast<int>(start[axis]), 0, kBlockSide - 1);
+    cell[axis] =
+        std::clamp(static_cast<int>(start[axis]), block.box.low[axis], block.box.high[axis] - 1);
     step[axis] = ray.direction[axis] > 0 ? 1 : -1;
-    t_step[axis] = std::abs(per_direction[axis]);
     const float face = static_cast<float>(cell[axis] + (step[axis] > 0));
     t_next[axis] = (face - ray.origin[axis]) * per_direction[axis];
   }
@@ -175,13 +245,13 @@ float CrossBlock(const CellCorners& corners, const CellMask& cells, const BlockR
     const int axis =
         t_next[0] < t_next[1] ? (t_next[0] < t_next[2] ? 0 : 2) : (t_next[1] < t_next[2] ? 1 : 2);
     const float t_exit = t_next[axis];
-    if (cells[cell[1] + kBlockSide * cell[2]] >> cell[0] & 1) {
+    if (block.cells[cell[1] + kBlockSide * cell[2]] >> cell[0] & 1) {
       const float t = CrossCell(corners, ray, cell, t_enter, t_exit);
       if (t > 0) return t;
     }
     cell[axis] += step[axis];
-    if (cell[axis] < 0 || cell[axis] >= kBlockSide) return 0;
-    t_next[axis] += t_step[axis];
+    if (cell[axis] < block.box.low[axis] || cell[axis] >= block.box.high[axis]) return 0;
+    t_next[axis] += std::abs(per_direction[axis]);
     t_enter = t_exit;
   }
 }
@@ -194,17 +264,18 @@ void DrawBlock(const VoxelBlockGrid& grid, const VoxelCamera& view, const Surfac
   const VoxelKey& key = grid.key(block.block);
   BlockRay ray;
   ray.origin = (view.center - kBlockSide * Vec3(key.x, key.y, key.z)).cast<float>();
-  for (int v = std::max(v_first, block.v_min); v <= std::min(v_last, block.v_max); ++v) {
-    for (int u = block.u_min; u <= block.u_max; ++u) {
+  const PixelBox& pixels = block.pixels;
+  for (int v = std::max(v_first, pixels.v_min); v <= std::min(v_last, pixels.v_max); ++v) {
+    for (int u = pixels.u_min; u <= pixels.u_max; ++u) {
       if (depth(u, v) > 0) continue;
       if (!is_gathered) GatherCellCorners(grid, block.block, corners);
       is_gathered = true;
-      ray.direction = view.Ray(u, v).cast<float>();
+      ray.direction = view.Ray(u, v);
       for (int axis = 0; axis < 3; ++axis) {
-        // Parallel to a face: as good as parallel, and no 0 / 0.
+        // Parallel to a face: nearly parallel does as well, and gives no 0 / 0.
         if (std::abs(ray.direction[axis]) < 1e-9f) ray.direction[axis] = 1e-9f;
       }
-      depth(u, v) = CrossBlock(corners, block.cells, ray);
+      depth(u, v) = CrossBlock(corners, block, ray);
     }
   }
 }
@@ -219,7 +290,7 @@ DepthImage RaycastBlocks(const VoxelBlockGrid& grid, double voxel_size, const Pi
   ParallelChunks(0, camera.height, kBandRows, [&](int64_t first, int64_t last) {
     const int v_first = static_cast<int>(first), v_last = static_cast<int>(last) - 1;
     for (const SurfaceBlock& block : blocks) {
-      if (block.v_min > v_last || block.v_max < v_first) continue;
+      if (block.pixels.v_min > v_last || block.pixels.v_max < v_first) continue;
       DrawBlock(grid, view, block, v_first, v_last, depth);
     }
   });

@@ -1,7 +1,8 @@
 #include "fusion/tsdf_integration.h"
 
 #include <algorithm>
-#include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <limits>
 
 #include "kernel/parallel.h"
@@ -10,201 +11,7 @@ namespace curvefusion {
 
 namespace {
 
-constexpr int kTileSide = 4;  ///< pixels; a tile's rays are treated as one tube
-constexpr int kTilePixels = kTileSide * kTileSide;
-constexpr int kTileRowsPerChunk = 4;
 constexpr int kBlocksPerChunk = 64;
-
-DepthImage PadValidDepth(const DepthImage& depth, double max_depth) {
-  DepthImage padded(depth.width() + 2, depth.height() + 2, 0);
-  const float limit = static_cast<float>(max_depth);
-  for (int v = 0; v < depth.height(); ++v) {
-    const float* from = depth.row(v);
-    float* to = padded.row(v + 1) + 1;
-    // NaN compares false and so becomes 0, too.
-    for (int u = 0; u < depth.width(); ++u) to[u] = from[u] > 0 && from[u] <= limit ? from[u] : 0;
-  }
-  return padded;
-}
-
-DepthImage TileMaxima(const DepthImage& padded) {
-  const int width = padded.width() - 2, height = padded.height() - 2;
-  DepthImage maxima((width + kTileSide - 1) / kTileSide, (height + kTileSide - 1) / kTileSide, 0);
-  for (int v = 0; v < height; ++v) {
-    const float* row = padded.row(v + 1) + 1;
-    float* tiles = maxima.row(v / kTileSide);
-    for (int u = 0; u < width; ++u) {
-      tiles[u / kTileSide] = std::max(tiles[u / kTileSide], row[u]);
-    }
-  }
-  return maxima;
-}
-
-DepthImage HalvedByMaximum(const DepthImage& fine) {
-  DepthImage coarse((fine.width() + 1) / 2, (fine.height() + 1) / 2, 0);
-  for (int v = 0; v < fine.height(); ++v) {
-    for (int u = 0; u < fine.width(); ++u) {
-      coarse(u / 2, v / 2) = std::max(coarse(u / 2, v / 2), fine(u, v));
-    }
-  }
-  return coarse;
-}
-
-}  // namespace
-
-IntegrationFrame::IntegrationFrame(const DepthImage& depth, const PinholeCamera& camera,
-                                   const RigidTransform& T_world_camera, double max_depth)
-    : camera_(camera),
-      T_world_camera_(T_world_camera),
-      T_camera_world_(T_world_camera.inverse()),
-      padded_(PadValidDepth(depth, max_depth)) {
-  max_pyramid_.push_back(TileMaxima(padded_));
-  while (max_pyramid_.back().size() > 1) {
-    max_pyramid_.push_back(HalvedByMaximum(max_pyramid_.back()));
-  }
-}
-
-float IntegrationFrame::MaxDepthWithin(double u_min, double v_min, double u_max,
-                                       double v_max) const {
-  if (u_max < -0.5 || v_max < -0.5 || u_min > camera_.width - 0.5 || v_min > camera_.height - 0.5) {
-    return 0;
-  }
-  int u0 = static_cast<int>(std::clamp(u_min, 0.0, camera_.width - 1.0)) / kTileSide;
-  int u1 = static_cast<int>(std::clamp(u_max + 0.5, 0.0, camera_.width - 1.0)) / kTileSide;
-  int v0 = static_cast<int>(std::clamp(v_min, 0.0, camera_.height - 1.0)) / kTileSide;
-  int v1 = static_cast<int>(std::clamp(v_max + 0.5, 0.0, camera_.height - 1.0)) / kTileSide;
-  size_t level = 0;
-  for (; level + 1 < max_pyramid_.size() && std::max(u1 - u0, v1 - v0) > 3; ++level) {
-    u0 /= 2, u1 /= 2, v0 /= 2, v1 /= 2;
-  }
-  float maximum = 0;
-  for (int v = v0; v <= v1; ++v) {
-    for (int u = u0; u <= u1; ++u) maximum = std::max(maximum, max_pyramid_[level](u, v));
-  }
-  return maximum;
-}
-
-namespace {
-
-// Finds the missing blocks along the tubes of some tiles, each reported about once.
-class MissingBlockCollector {
- public:
-  MissingBlockCollector(const IntegrationFrame& frame, const TsdfScale& scale,
-                        const VoxelBlockGrid& grid, std::vector<VoxelKey>& missing)
-      : frame_(frame),
-        grid_(grid),
-        truncation_(scale.truncation),
-        origin_(frame.T_world_camera().translation() / scale.voxel_size),
-        axes_(frame.T_world_camera().linear() / scale.voxel_size),
-        missing_(missing) {
-    const PinholeCamera& camera = frame.camera();
-    spread_ = kTileSide / 2.0 *
-              (axes_.col(0).cwiseAbs() / camera.fx + axes_.col(1).cwiseAbs() / camera.fy);
-    recent_.fill({std::numeric_limits<int>::min(), 0, 0});
-  }
-
-  void AddTile(int tile_u, int tile_v) {
-    std::array<float, kTilePixels> depths;
-    int count = 0;
-    const DepthImage& padded = frame_.padded_depth();
-    const int u_end = std::min((tile_u + 1) * kTileSide, frame_.camera().width);
-    const int v_end = std::min((tile_v + 1) * kTileSide, frame_.camera().height);
-    for (int v = tile_v * kTileSide; v < v_end; ++v) {
-      for (int u = tile_u * kTileSide; u < u_end; ++u) {
-        if (padded(u + 1, v + 1) > 0) depths[count++] = padded(u + 1, v + 1);
-      }
-    }
-    const Vec3 ray = axes_ * frame_.camera().Unproject((tile_u + 0.5) * kTileSide - 0.5,
-                                                       (tile_v + 0.5) * kTileSide - 0.5, 1.0);
-    AddDepths(ray, depths.data(), depths.data() + count);
-  }
-
- private:
-  // Depths within one truncation share a tube; across a discontinuity nothing is to be allocated.
-  void AddDepths(const Vec3& ray, float* first, float* last) {
-    while (first != last) {
-      const float nearest = *std::min_element(first, last);
-      float farthest = nearest;
-      float* rest = std::partition(first, last, [&](float depth) {
-        return depth <= nearest + static_cast<float>(truncation_);
-      });
-      for (; first != rest; ++first) farthest = std::max(farthest, *first);
-      AddTube(ray, std::max(0.0, nearest - truncation_), farthest + truncation_);
-    }
-  }
-
-  // The box of a short piece of the tube is little larger than the piece.
-  void AddTube(const Vec3& ray, double z_near, double z_far) {
-    constexpr double kPieceLength = kBlockSide / 4.0;
-    const int pieces =
-        std::max(1, static_cast<int>(std::ceil((z_far - z_near) * ray.norm() / kPieceLength)));
-    const Vec3 margin = spread_ * z_far;
-    Vec3 start = origin_ + z_near * ray;
-    const Vec3 step = (z_far - z_near) / pieces * ray;
-    for (int i = 0; i < pieces; ++i) {
-      const Vec3 end = start + step;
-      AddBox(start.cwiseMin(end) - margin, start.cwiseMax(end) + margin);
-      start = end;
-    }
-  }
-
-  // The blocks with a voxel inside a box given in voxels.
-  void AddBox(const Vec3& low, const Vec3& high) {
-    // A voxel at or above `low` is at least its ceiling; .999 instead of 1 keeps low itself.
-    const auto first = [](double x) {
-      return static_cast<int>(std::floor((x + 0.999) / kBlockSide));
-    };
-    const auto last = [](double x) { return static_cast<int>(std::floor(x / kBlockSide)); };
-    const int x_end = last(high.x()), y_end = last(high.y()), z_end = last(high.z());
-    for (int x = first(low.x()); x <= x_end; ++x) {
-      for (int y = first(low.y()); y <= y_end; ++y) {
-        for (int z = first(low.z()); z <= z_end; ++z) AddBlock({x, y, z});
-      }
-    }
-  }
-
-  void AddBlock(const VoxelKey& key) {
-    VoxelKey& recent = recent_[(key.x * 73 + key.y * 19 + key.z) & (kRecentCount - 1)];
-    if (recent == key) return;
-    recent = key;
-    if (grid_.Find(key) == VoxelBlockGrid::kNone) missing_.push_back(key);
-  }
-
-  static constexpr int kRecentCount = 512;
-
-  const IntegrationFrame& frame_;
-  const VoxelBlockGrid& grid_;
-  double truncation_;
-  Vec3 origin_;  ///< camera centre, in voxels
-  Mat3 axes_;    ///< camera axes in the world, voxels per metre
-  Vec3 spread_;  ///< half the box around a tile's footprint, voxels per metre of depth
-  std::array<VoxelKey, kRecentCount> recent_;
-  std::vector<VoxelKey>& missing_;
-};
-
-}  // namespace
-
-std::vector<VoxelKey> FindMissingBlocks(const IntegrationFrame& frame, const TsdfScale& scale,
-                                        const VoxelBlockGrid& grid) {
-  const int tile_columns = (frame.camera().width + kTileSide - 1) / kTileSide;
-  const int tile_rows = (frame.camera().height + kTileSide - 1) / kTileSide;
-  std::vector<std::vector<VoxelKey>> of_chunk(tile_rows / kTileRowsPerChunk + 1);
-  ParallelChunks(0, tile_rows, kTileRowsPerChunk, [&](int64_t first, int64_t last) {
-    MissingBlockCollector collector(frame, scale, grid, of_chunk[first / kTileRowsPerChunk]);
-    for (int64_t row = first; row < last; ++row) {
-      for (int column = 0; column < tile_columns; ++column) {
-        collector.AddTile(column, static_cast<int>(row));
-      }
-    }
-  });
-  std::vector<VoxelKey> missing;
-  for (const auto& keys : of_chunk) missing.insert(missing.end(), keys.begin(), keys.end());
-  std::sort(missing.begin(), missing.end());
-  missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
-  return missing;
-}
-
-namespace {
 
 // The affine map from a block's voxels to what projection needs: u = x / z, v = y / z in pixels of
 // the padded image plus one half, so that truncation rounds, and z the depth in metres.
@@ -268,8 +75,13 @@ class BlockVisibility {
   Vec3 half_extent_;
 };
 
-// Integrates into one row of voxels at a time. All loops over a row have a fixed length and no
-// branch, so that the compiler vectorises them.
+// Four voxels of a row at once: the compiler maps these types to the SIMD registers there are.
+constexpr int kLanes = 4;
+typedef float Float4 __attribute__((vector_size(16)));
+typedef int32_t Int4 __attribute__((vector_size(16)));
+typedef int64_t Long2 __attribute__((vector_size(16)));
+typedef uint16_t Count4 __attribute__((vector_size(8)));
+
 class BlockUpdater {
  public:
   BlockUpdater(const IntegrationFrame& frame, const TsdfScale& scale, int max_weight)
@@ -289,49 +101,53 @@ class BlockUpdater {
     for (int row = 0; row < kBlockSide * kBlockSide; ++row) {
       const Vec3f start = origin + static_cast<float>(row % kBlockSide) * step_y_ +
                           static_cast<float>(row / kBlockSide) * step_z_;
-      UpdateRow(start, block.tsdf.data() + row * kBlockSide,
-                block.weight.data() + row * kBlockSide);
+      for (int x = 0; x < kBlockSide; x += kLanes) {
+        UpdateVoxels(start + static_cast<float>(x) * step_x_,
+                     block.tsdf.data() + row * kBlockSide + x,
+                     block.weight.data() + row * kBlockSide + x);
+      }
     }
     SummariseSigns(block);
   }
 
  private:
-  void UpdateRow(const Vec3f& start, float* tsdf, uint16_t* weight) const {
-    float distance[kBlockSide];
-    MeasureRow(start, distance);
-    for (int i = 0; i < kBlockSide; ++i) {
-      const float old_weight = weight[i];
-      const float observed = std::min(distance[i], 1.0f);
-      const float mean = old_weight > 0 ? tsdf[i] : observed;
-      const float new_mean = mean + (observed - mean) / (old_weight + 1);
-      const float new_weight = std::min(old_weight + 1, max_weight_);
-      const bool is_observed = distance[i] >= -1;
-      tsdf[i] = is_observed ? new_mean : tsdf[i];
-      weight[i] = static_cast<uint16_t>(static_cast<int>(is_observed ? new_weight : old_weight));
-    }
+  void UpdateVoxels(const Vec3f& start, float* tsdf, uint16_t* weight) const {
+    constexpr Float4 kSteps = {0, 1, 2, 3};
+    const Float4 z = start.z() + kSteps * step_x_.z();
+    const Float4 inverse_z = 1 / z;
+    Float4 u = (start.x() + kSteps * step_x_.x()) * inverse_z;
+    Float4 v = (start.y() + kSteps * step_x_.y()) * inverse_z;
+    // Outside the image, NaN included, the padding answers that there is no measurement.
+    u = u < u_max_ ? u : Float4{} + u_max_;
+    v = v < v_max_ ? v : Float4{} + v_max_;
+    u = u > 0 ? u : Float4{};
+    v = v > 0 ? v : Float4{};
+    const Int4 pixel =
+        __builtin_convertvector(v, Int4) * depth_.width() + __builtin_convertvector(u, Int4);
+    const float* pixels = depth_.data();
+    const Float4 depth = {pixels[pixel[0]], pixels[pixel[1]], pixels[pixel[2]], pixels[pixel[3]]};
+    const Float4 distance = (depth - z) * per_truncation_;
+    const Int4 is_observed = (depth > 0) & (z > 0) & (distance >= -1);
+    const Long2 any = reinterpret_cast<Long2>(is_observed);
+    if ((any[0] | any[1]) != 0) AddDistances(distance, is_observed, tsdf, weight);
   }
 
-  // Distance of each voxel of a row before its measurement, in truncations; -2 without one.
-  void MeasureRow(const Vec3f& start, float* distance) const {
-    float z[kBlockSide], depth[kBlockSide];
-    int u[kBlockSide], v[kBlockSide];
-    for (int i = 0; i < kBlockSide; ++i) {
-      const float step = static_cast<float>(i);
-      z[i] = start.z() + step * step_x_.z();
-      const float inverse_z = 1 / z[i];
-      const float u_image = (start.x() + step * step_x_.x()) * inverse_z;
-      const float v_image = (start.y() + step * step_x_.y()) * inverse_z;
-      // The padding has no measurement; this order of arguments sends NaN there, too.
-      u[i] = static_cast<int>(std::max(0.0f, std::min(u_image, u_max_)));
-      v[i] = static_cast<int>(std::max(0.0f, std::min(v_image, v_max_)));
-    }
-    const float* pixels = depth_.data();
-    const int stride = depth_.width();
-    for (int i = 0; i < kBlockSide; ++i) depth[i] = pixels[v[i] * stride + u[i]];
-    for (int i = 0; i < kBlockSide; ++i) {
-      const bool is_measured = (depth[i] > 0) & (z[i] > 0);
-      distance[i] = is_measured ? (depth[i] - z[i]) * per_truncation_ : -2.0f;
-    }
+  void AddDistances(const Float4& distance, const Int4& is_observed, float* tsdf,
+                    uint16_t* weight) const {
+    Float4 mean;
+    Count4 count_16;
+    std::memcpy(&mean, tsdf, sizeof(mean));
+    std::memcpy(&count_16, weight, sizeof(count_16));
+    const Float4 count = __builtin_convertvector(count_16, Float4);
+    const Float4 observed = distance < 1 ? distance : Float4{} + 1;
+    const Float4 old_mean = count > 0 ? mean : observed;  // NaN before the first observation
+    const Float4 new_mean = old_mean + (observed - old_mean) / (count + 1);
+    const Float4 new_count = count < max_weight_ ? count + 1 : count;
+    mean = is_observed ? new_mean : mean;
+    const Float4 kept_count = is_observed ? new_count : count;
+    count_16 = __builtin_convertvector(__builtin_convertvector(kept_count, Int4), Count4);
+    std::memcpy(tsdf, &mean, sizeof(mean));
+    std::memcpy(weight, &count_16, sizeof(count_16));
   }
 
   static void SummariseSigns(VoxelBlock& block) {

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
-#include <map>
-#include <set>
+#include <vector>
 
 #include "kernel/error.h"
 #include "kernel/parallel.h"
 #include "tests/fusion/analytic_depth.h"
+#include "tests/fusion/mesh_topology.h"
 
 namespace curvefusion {
 namespace {
@@ -64,38 +64,6 @@ DepthComparison Compare(const DepthImage& rendering, const DepthImage& truth) {
   }
   result.mean_error /= std::max(1, result.compared);
   return result;
-}
-
-// How often each directed edge occurs.
-std::map<std::pair<int, int>, int> DirectedEdges(const TriangleMesh& mesh) {
-  std::map<std::pair<int, int>, int> edges;
-  for (const auto& triangle : mesh.triangles) {
-    for (int i = 0; i < 3; ++i) ++edges[{triangle[i], triangle[(i + 1) % 3]}];
-  }
-  return edges;
-}
-
-bool IsClosedOrientedManifold(const TriangleMesh& mesh) {
-  const auto edges = DirectedEdges(mesh);
-  return std::all_of(edges.begin(), edges.end(), [&](const auto& edge) {
-    const auto opposite = edges.find({edge.first.second, edge.first.first});
-    return edge.second == 1 && opposite != edges.end() && opposite->second == 1;
-  });
-}
-
-int EulerCharacteristic(const TriangleMesh& mesh) {
-  const int edges = static_cast<int>(DirectedEdges(mesh).size()) / 2;
-  return static_cast<int>(mesh.vertices.size()) - edges + static_cast<int>(mesh.triangles.size());
-}
-
-double SignedVolume(const TriangleMesh& mesh) {
-  double volume = 0;
-  for (const auto& [a, b, c] : mesh.triangles) {
-    volume += mesh.vertices[a].cast<double>().dot(
-                  mesh.vertices[b].cast<double>().cross(mesh.vertices[c].cast<double>())) /
-              6;
-  }
-  return volume;
 }
 
 TEST(TsdfVolume, EmptyVolumeHasNoSurface) {

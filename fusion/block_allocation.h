@@ -1,0 +1,21 @@
+#pragma once
+
+#include <vector>
+
+#include "fusion/integration_frame.h"
+#include "fusion/voxel_blocks.h"
+
+namespace curvefusion {
+
+/// Lengths of a volume, in metres.
+struct TsdfScale {
+  double voxel_size = 0;
+  double truncation = 0;
+};
+
+/// Keys of the blocks with a voxel within the truncation of a measurement that the grid has not
+/// yet, sorted. Conservative: a few blocks beside or behind may come along.
+std::vector<VoxelKey> FindMissingBlocks(const IntegrationFrame& frame, const TsdfScale& scale,
+                                        const VoxelBlockGrid& grid);
+
+}  // namespace curvefusion

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <functional>
+
+#include "fusion/voxel_blocks.h"
+#include "kernel/geometry.h"
+
+namespace curvefusion {
+
+/// Blocks low .. high (inclusive, along every axis) sampled from a field given in voxels.
+inline VoxelBlockGrid SampleField(const std::function<double(const Vec3&)>& field, int low,
+                                  int high) {
+  VoxelBlockGrid grid;
+  for (int z = low; z <= high; ++z) {
+    for (int y = low; y <= high; ++y) {
+      for (int x = low; x <= high; ++x) {
+        VoxelBlock& block = grid.block(grid.Insert({x, y, z}));
+        for (int i = 0; i < kBlockVoxels; ++i) {
+          const Vec3 voxel(8 * x + (i & 7), 8 * y + (i >> 3 & 7), 8 * z + (i >> 6));
+          block.tsdf[i] = static_cast<float>(field(voxel));
+          block.weight[i] = 1;
+          block.has_inside |= block.tsdf[i] < 0;
+          block.has_outside |= block.tsdf[i] >= 0;
+        }
+      }
+    }
+  }
+  return grid;
+}
+
+}  // namespace curvefusion
