@@ -6,7 +6,13 @@
 #include <vector>
 
 #include "capture/sequence.h"
+#include "fusion/alignment.h"
+#include "fusion/carried_points.h"
+#include "fusion/radius.h"
+#include "fusion/segmentation.h"
 #include "fusion/tsdf_volume.h"
+#include "graph/l1_contraction.h"
+#include "graph/ridge_skeleton.h"
 #include "graph/skeleton_graph.h"
 #include "kernel/observed_points.h"
 #include "kernel/options.h"
@@ -19,6 +25,15 @@ enum class Profile { kPaper, kBest };
 /// The options of every stage, one section of the config file each.
 struct PipelineOptions {
   TsdfOptions volume;
+  int volume_stride = 1;
+  SegmentationOptions segmentation;
+  bool carry_points = false;
+  CarriedPointsOptions carried;
+  AlignmentOptions alignment;
+  L1Options l1;
+  RidgeOptions ridge;
+  double axis_depth = 0;
+  RadiusOptions radius;
 };
 
 /// The options a profile starts from, before the config file and --set.

@@ -1,0 +1,35 @@
+#include "fusion/carried_points.h"
+
+#include "kernel/voxel_grid.h"
+
+namespace curvefusion {
+
+void VisitOptions(CarriedPointsOptions& options, OptionVisitor& visitor) {
+  visitor.Visit({"carried_voxel_size", "m", 0.0005, 0.05,
+                 "Deviation: grid on which the points of all bundles are merged."},
+                options.voxel_size);
+  visitor.Visit({"min_inliers", "", 0, 1,
+                 "Deviation: a bundle of which a smaller share fits the curves so far keeps its pose."},
+                options.min_inliers);
+}
+
+AlignmentResult CarriedPoints::AddBundle(const ObservedPoints& bundle,
+                                         const RidgeProjectionOptions& ridges,
+                                         const AlignmentOptions& alignment) {
+  AlignmentResult result;
+  if (!points_.empty() && !bundle.empty()) {
+    const RidgePoints curves = ProjectToRidges(points_, ridges);
+    result = AlignPointsToPoints(bundle.positions, curves.positions, curves.directions, alignment);
+    if (!result.converged || result.inlier_fraction < options_.min_inliers) {
+      result.T_target_source = RigidTransform::Identity();
+    }
+  }
+  for (size_t i = 0; i < bundle.size(); ++i) {
+    points_.Add(result.T_target_source * bundle.positions[i],
+                result.T_target_source.linear() * bundle.viewing_rays[i], bundle.counts[i]);
+  }
+  points_ = ResampleOnGrid(points_, options_.voxel_size);
+  return result;
+}
+
+}  // namespace curvefusion
