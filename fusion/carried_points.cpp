@@ -8,9 +8,10 @@ void VisitOptions(CarriedPointsOptions& options, OptionVisitor& visitor) {
   visitor.Visit({"carried_voxel_size", "m", 0.0005, 0.05,
                  "Deviation: grid on which the points of all bundles are merged."},
                 options.voxel_size);
-  visitor.Visit({"min_inliers", "", 0, 1,
-                 "Deviation: a bundle of which a smaller share fits the curves so far keeps its pose."},
-                options.min_inliers);
+  visitor.Visit(
+      {"min_inliers", "", 0, 1,
+       "Deviation: a bundle of which a smaller share fits the curves so far keeps its pose."},
+      options.min_inliers);
 }
 
 AlignmentResult CarriedPoints::AddBundle(const ObservedPoints& bundle,

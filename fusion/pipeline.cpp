@@ -37,7 +37,8 @@ TsdfVolume FuseVolume(const Sequence& sequence, const PipelineOptions& options,
     observer.OnProgress("volume", frame.index + 1, sequence.frame_count());
   });
   observer.OnVolume(volume);
-  result.stages.push_back({"volume", SecondsSince(start),
+  result.stages.push_back({"volume",
+                           SecondsSince(start),
                            {{"frames", static_cast<double>(frames.size())},
                             {"blocks", static_cast<double>(volume.block_count())},
                             {"bytes", static_cast<double>(volume.memory_bytes())}}});
@@ -64,7 +65,8 @@ std::vector<ObservedPoints> SegmentBundles(const Sequence& sequence, const TsdfV
     candidates += static_cast<double>(bundle.difference_set.points.size());
     points += static_cast<double>(bundle.points.size());
   }
-  result.stages.push_back({"segmentation", SecondsSince(start),
+  result.stages.push_back({"segmentation",
+                           SecondsSince(start),
                            {{"bundles", static_cast<double>(bundles.size())},
                             {"candidates", candidates},
                             {"points", points}}});
@@ -87,7 +89,8 @@ ObservedPoints CarryPoints(const std::vector<ObservedPoints>& bundles,
                         static_cast<int64_t>(bundles.size()));
   }
   observer.OnPoints("carried_points", carried.points());
-  result.stages.push_back({"registration", SecondsSince(start),
+  result.stages.push_back({"registration",
+                           SecondsSince(start),
                            {{"registered bundles", static_cast<double>(registered)},
                             {"points", static_cast<double>(carried.points().size())}}});
   return carried.points();
@@ -98,7 +101,8 @@ SkeletonGraph ContractOnce(const ObservedPoints& points, const PipelineOptions& 
   const Clock::time_point start = Clock::now();
   SkeletonGraph skeleton = ExtractRidgeSkeleton(points, options.ridge);
   observer.OnGraph("contracted", skeleton);
-  result.stages.push_back({"contraction", SecondsSince(start),
+  result.stages.push_back({"contraction",
+                           SecondsSince(start),
                            {{"edges", static_cast<double>(skeleton.edge_count())}}});
   return skeleton;
 }
@@ -110,8 +114,8 @@ RadiusEstimate MeasureRadii(const SkeletonGraph& skeleton, const Sequence& seque
   std::vector<int> frames(sequence.frame_count());
   std::iota(frames.begin(), frames.end(), 0);
   const RadiusEstimate estimate = EstimateRadius(skeleton, sequence, frames, options.radius);
-  result.stages.push_back({"radius", SecondsSince(start),
-                           {{"strips", static_cast<double>(estimate.strips.size())}}});
+  result.stages.push_back(
+      {"radius", SecondsSince(start), {{"strips", static_cast<double>(estimate.strips.size())}}});
   return estimate;
 }
 
@@ -138,7 +142,9 @@ PipelineOptions ProfileOptions(Profile profile) {
 void VisitOptions(PipelineOptions& options, OptionVisitor& visitor) {
   visitor.BeginSection("volume");
   VisitOptions(options.volume, visitor);
-  visitor.Visit({"stride", "frames", 1, 100, "Deviation: only every so many-th frame is integrated; large surfaces are seen often enough."},
+  visitor.Visit({"stride", "frames", 1, 100,
+                 "Deviation: only every so many-th frame is integrated; large surfaces are seen "
+                 "often enough."},
                 options.volume_stride);
   VisitOptions(options.segmentation, visitor);
 }

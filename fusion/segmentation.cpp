@@ -37,10 +37,11 @@ SegmentedFrame SegmentFrame(const Sequence& sequence, int frame, const TsdfVolum
 
 void VisitOptions(SegmentationOptions& options, OptionVisitor& visitor) {
   visitor.BeginSection("segmentation");
-  visitor.Visit({"render_divisor", "", 1, 8,
-                 "Deviation: the volume is rendered with so many times fewer rows and columns; it only "
-                 "holds large surfaces."},
-                options.render_divisor);
+  visitor.Visit(
+      {"render_divisor", "", 1, 8,
+       "Deviation: the volume is rendered with so many times fewer rows and columns; it only "
+       "holds large surfaces."},
+      options.render_divisor);
   VisitOptions(options.opening, visitor);
   VisitOptions(options.difference, visitor);
   visitor.BeginSection("bundle");
@@ -50,8 +51,8 @@ void VisitOptions(SegmentationOptions& options, OptionVisitor& visitor) {
   VisitOptions(options.ghosts, visitor);
 }
 
-SegmentedBundle SegmentBundle(const Sequence& sequence, int first, int last, const TsdfVolume& volume,
-                              const SegmentationOptions& options) {
+SegmentedBundle SegmentBundle(const Sequence& sequence, int first, int last,
+                              const TsdfVolume& volume, const SegmentationOptions& options) {
   SegmentedBundle segmented;
   segmented.T_world_bundle = sequence.frames[first].T_world_camera;
   BundleDifferenceSet difference_set(options.bundle);

@@ -26,14 +26,14 @@ void VisitOptions(SegmentationOptions& options, OptionVisitor& visitor);
 
 /// What was found in one bundle.
 struct SegmentedBundle {
-  BundlePoints difference_set;   ///< before ghosts were removed, in the frame of the first camera
-  ObservedPoints points;         ///< after, in the frame of the first camera
-  RigidTransform T_world_bundle; ///< pose of the first camera
+  BundlePoints difference_set;    ///< before ghosts were removed, in the frame of the first camera
+  ObservedPoints points;          ///< after, in the frame of the first camera
+  RigidTransform T_world_bundle;  ///< pose of the first camera
 };
 
 /// Segments frames [first, last) of a sequence against the volume of all frames.
 /// Throws Error(kBadInput) for an image that cannot be read.
-SegmentedBundle SegmentBundle(const Sequence& sequence, int first, int last, const TsdfVolume& volume,
-                              const SegmentationOptions& options);
+SegmentedBundle SegmentBundle(const Sequence& sequence, int first, int last,
+                              const TsdfVolume& volume, const SegmentationOptions& options);
 
 }  // namespace curvefusion
