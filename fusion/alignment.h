@@ -1,0 +1,63 @@
+#pragma once
+
+#include <vector>
+
+#include "graph/skeleton_graph.h"
+#include "kernel/geometry.h"
+#include "kernel/options.h"
+
+namespace curvefusion {
+
+/// Rigid alignment by iterative closest points (Besl and McKay 1992), CurveFusion 3.3.
+struct AlignmentOptions {
+  double max_distance = 30 * kMillimetre;
+  double inlier_distance = 4 * kMillimetre;
+  double sample_step = 2 * kMillimetre;
+  int max_points = 2000;
+  int max_iterations = 40;
+  bool point_to_line = true;
+};
+void VisitOptions(AlignmentOptions& options, OptionVisitor& visitor);
+
+/// The options as the paper has them.
+AlignmentOptions PaperAlignmentOptions();
+
+/// Outcome of an alignment; look at `converged` and `inlier_fraction` before using it.
+struct AlignmentResult {
+  RigidTransform T_target_source = RigidTransform::Identity();
+  double inlier_fraction = 0;  ///< part of the source points within the last gate of the target
+  double rms = 0;              ///< of those points' distances to the target's lines, metres
+  bool converged = false;      ///< the motion came to rest on enough points
+  int iterations = 0;
+};
+
+/// Aligns points to points that lie on lines. `target_tangents` holds unit tangents, one per target
+/// point, or is empty: distances are then to points. Motions that the correspondences do not
+/// determine (along a straight line, around it) are left alone. Robust: only pairs within a gate
+/// that shrinks with the median distance count, with Tukey's weights. Of more than `max_points`
+/// points evenly many are used. O(n log m) per iteration; the same bits for any number of threads.
+AlignmentResult AlignPointsToPoints(const std::vector<Vec3>& points,
+                                    const std::vector<Vec3>& target_points,
+                                    const std::vector<Vec3>& target_tangents,
+                                    const AlignmentOptions& options);
+
+/// Aligns points to the curves of a graph, sampled every `sample_step`.
+AlignmentResult AlignPointsToCurves(const std::vector<Vec3>& points, const SkeletonGraph& target,
+                                    const AlignmentOptions& options);
+
+/// Aligns two graphs by dense uniform samples of their curves; samples pair only where the curves
+/// run in similar directions. CurveFusion 3.3 (i).
+AlignmentResult AlignSkeletons(const SkeletonGraph& source, const SkeletonGraph& target,
+                               const AlignmentOptions& options);
+
+/// Points every `step` along all curves of a graph, with their unit tangents.
+struct CurveSamples {
+  std::vector<Vec3> points;
+  std::vector<Vec3> tangents;
+};
+CurveSamples SampleCurves(const SkeletonGraph& graph, double step);
+
+/// The graph after a rigid motion.
+SkeletonGraph Transformed(const SkeletonGraph& graph, const RigidTransform& T);
+
+}  // namespace curvefusion
