@@ -74,13 +74,14 @@ BranchEnd EndOf(const std::vector<Polyline>& branches, int branch, bool at_front
 
 class BranchJoiner {
  public:
-  BranchJoiner(std::vector<Polyline> branches, Junctions junctions, double reach,
+  BranchJoiner(std::vector<Polyline> branches, Junctions junctions, double link, double reach,
                double maximum_bend)
       : branches_(std::move(branches)),
         junctions_(std::move(junctions)),
         junction_index_(junctions_.samples),
         is_passed_(junctions_.positions.size(), 0),
         stops_(branches_.size()),
+        link_(link),
         reach_(reach),
         minimum_cosine_(std::cos(maximum_bend)) {
     for (int b = 0; b < static_cast<int>(branches_.size()); ++b)
@@ -98,6 +99,12 @@ class BranchJoiner {
     size_t first_end;
     size_t second_end;
   };
+  struct Side {
+    Vec3 position;
+    int branch;  // kNone for a node
+    int vertex;
+    NodeId node;  // kNone for a vertex
+  };
   void LookForJunction(int end);
   int LoneJunction() const;
   void PassThrough(int junction);
@@ -106,6 +113,7 @@ class BranchJoiner {
   void Prolong(BranchEnd& end, const Vec3& position);
   bool FaceEachOther(const BranchEnd& a, const BranchEnd& b) const;
   std::vector<Gap> Gaps();
+  std::vector<Side> Sides() const;
   bool IsOwnTip(const BranchEnd& end, int branch, int vertex) const;
   NodeId NodeAtVertex(int branch, int vertex);
   Polyline CurveBetweenNodes(int branch) const;
@@ -116,6 +124,7 @@ class BranchJoiner {
   std::vector<std::vector<int>> ends_at_junction_;
   std::vector<char> is_passed_;               // junctions that have become part of a branch
   std::vector<std::map<int, NodeId>> stops_;  // inner vertices of each branch that became nodes
+  double link_;
   double reach_;
   double minimum_cosine_;
   std::vector<BranchEnd> ends_;  // front and back of branch b at 2 b and 2 b + 1
@@ -163,7 +172,7 @@ Vec3 BranchJoiner::MeetingPoint(const std::vector<int>& ends, const Vec3& mean) 
   }
   const Vec3 meeting = normal.ldlt().solve(right);
   const bool is_ahead = std::all_of(ends.begin(), ends.end(), [&](int e) {
-    return (meeting - ends_[e].position).dot(ends_[e].heading) >= 0;
+    return (meeting - ends_[e].position).dot(ends_[e].heading) >= -link_;
   });
   return is_ahead && (meeting - mean).norm() <= reach_ ? meeting : mean;
 }
@@ -173,7 +182,9 @@ void BranchJoiner::PassThrough(int junction) {
   const int end = ends_at_junction_[junction].front();
   ends_at_junction_[junction].clear();
   is_passed_[junction] = 1;
-  Prolong(ends_[end], junctions_.positions[junction]);
+  const Vec3 step = junctions_.positions[junction] - ends_[end].position;
+  if (step.dot(ends_[end].heading) >= kJunctionCosine * step.norm())
+    Prolong(ends_[end], junctions_.positions[junction]);
   LookForJunction(end);
 }
 
@@ -186,7 +197,8 @@ int BranchJoiner::JunctionAhead(const BranchEnd& end) {
     const Vec3 to_center = junctions_.positions[junction] - end.position;
     const double distance = (junctions_.samples[i] - end.position).norm();
     if (is_passed_[junction] || distance >= nearest_distance) continue;
-    if (to_center.dot(end.heading) < kJunctionCosine * to_center.norm()) continue;
+    const bool is_ahead = to_center.dot(end.heading) >= kJunctionCosine * to_center.norm();
+    if (!is_ahead && distance > link_) continue;
     nearest = junction;
     nearest_distance = distance;
   }
@@ -256,31 +268,40 @@ NodeId BranchJoiner::NodeAtVertex(int branch, int vertex) {
   return node;
 }
 
-void BranchJoiner::JoinAtSides() {
-  std::vector<Vec3> vertices;
-  std::vector<std::pair<int, int>> places;  // branch and vertex
+// The vertices of all branches, and the nodes made so far.
+std::vector<BranchJoiner::Side> BranchJoiner::Sides() const {
+  std::vector<Side> sides;
+  for (const NodeId node : graph_.Nodes())
+    sides.push_back({graph_.position(node), kNone, kNone, node});
   for (int b = 0; b < static_cast<int>(branches_.size()); ++b) {
-    for (int v = 0; v < static_cast<int>(branches_[b].size()); ++v) {
-      vertices.push_back(branches_[b][v]);
-      places.emplace_back(b, v);
-    }
+    for (int v = 0; v < static_cast<int>(branches_[b].size()); ++v)
+      sides.push_back({branches_[b][v], b, v, kNone});
   }
-  const PointIndex index(vertices);
+  return sides;
+}
+
+void BranchJoiner::JoinAtSides() {
+  const std::vector<Side> sides = Sides();
+  std::vector<Vec3> positions;
+  for (const Side& side : sides) positions.push_back(side.position);
+  const PointIndex index(positions);
   for (BranchEnd& end : ends_) {
     if (end.node != kNone) continue;
     index.WithinRadius(end.position, reach_, neighbours_);
-    int nearest = kNone;
+    const Side* nearest = nullptr;
     double nearest_distance = std::numeric_limits<double>::infinity();
     for (const int i : neighbours_) {
-      const Vec3 step = vertices[i] - end.position;
+      const Vec3 step = positions[i] - end.position;
       const double distance = step.norm();
       if (distance >= nearest_distance || step.dot(end.heading) <= minimum_cosine_ * distance)
         continue;
-      if (IsOwnTip(end, places[i].first, places[i].second)) continue;
-      nearest = i;
+      if (IsOwnTip(end, sides[i].branch, sides[i].vertex)) continue;
+      nearest = &sides[i];
       nearest_distance = distance;
     }
-    if (nearest != kNone) end.node = NodeAtVertex(places[nearest].first, places[nearest].second);
+    if (nearest == nullptr) continue;
+    end.node =
+        nearest->node != kNone ? nearest->node : NodeAtVertex(nearest->branch, nearest->vertex);
   }
 }
 
@@ -323,10 +344,9 @@ SkeletonGraph BranchJoiner::Build() {
 
 SkeletonGraph JoinBranches(std::vector<Polyline> branches, std::vector<Vec3> junction_samples,
                            double spacing, const BranchTracingOptions& options) {
-  BranchJoiner joiner(
-      std::move(branches),
-      ClusterJunctions(std::move(junction_samples), options.junction_link * spacing),
-      options.join_reach * spacing, options.maximum_bend);
+  const double link = options.junction_link * spacing;
+  BranchJoiner joiner(std::move(branches), ClusterJunctions(std::move(junction_samples), link),
+                      link, options.join_reach * spacing, options.maximum_bend);
   joiner.JoinAtJunctions();
   joiner.BridgeGaps();
   joiner.JoinAtSides();

@@ -1,13 +1,11 @@
 #include "graph/l1_contraction.h"
 
-#include <fmt/format.h>
-
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 
-#include "kernel/error.h"
 #include "kernel/parallel.h"
 #include "kernel/spatial_search.h"
 
@@ -29,16 +27,6 @@ Anisotropy AnisotropyOf(const Mat3& covariance) {
   Eigen::SelfAdjointEigenSolver<Mat3> solver;
   solver.computeDirect(covariance / trace);
   return {solver.eigenvectors().col(2), std::clamp(solver.eigenvalues()(2), 1.0 / 3, 1.0)};
-}
-
-void RequireFinite(const std::vector<Vec3>& points) {
-  for (size_t i = 0; i < points.size(); ++i) {
-    if (!points[i].allFinite()) {
-      throw Error(ErrorKind::kBadInput,
-                  fmt::format("point {} of {} is ({}, {}, {}): remove points without a position", i,
-                              points.size(), points[i].x(), points[i].y(), points[i].z()));
-    }
-  }
 }
 
 // A subset in which no two points are nearer than `spacing` and every point has one within it.
@@ -108,7 +96,6 @@ class Contraction {
   Vec3 LocalMedian(int64_t i, const Kernel& theta) const;
   Repulsion RepulsionAt(int64_t i, const Kernel& theta, const std::vector<int>& neighbours) const;
   double Step(double radius);
-  void SmoothDirectionality(const PointIndex& sample_index);
 
   const std::vector<Vec3>& points_;
   const L1Options& options_;
@@ -253,32 +240,6 @@ ContractedSamples Contraction::Result() const {
   return result;
 }
 
-// Width of the neighbourhood across its principal direction: that of a uniform strip with the same
-// variance.
-double ThicknessAround(const Vec3& p, const std::vector<Vec3>& points,
-                       const std::vector<int>& neighbours) {
-  Vec3 mean = Vec3::Zero();
-  for (const int j : neighbours) mean += points[j] - p;
-  mean /= static_cast<double>(neighbours.size());
-  Mat3 covariance = Mat3::Zero();
-  for (const int j : neighbours) {
-    const Vec3 offset = points[j] - p - mean;
-    covariance += offset * offset.transpose();
-  }
-  covariance /= static_cast<double>(neighbours.size());
-  const double trace = covariance.trace();
-  if (!(trace > 0)) return 0;
-  Eigen::SelfAdjointEigenSolver<Mat3> solver;
-  solver.computeDirect(covariance / trace, Eigen::EigenvaluesOnly);
-  return std::sqrt(12 * trace * std::max(0.0, solver.eigenvalues()(1)));
-}
-
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 }  // namespace
 
 L1Options OptionsForRadius(double initial_radius, L1Options options) {
@@ -287,50 +248,6 @@ L1Options OptionsForRadius(double initial_radius, L1Options options) {
   options.maximum_radius *= factor;
   options.growth *= factor;
   return options;
-}
-
-double SuggestedRadius(const ObservedPoints& points) {
-  constexpr size_t kProbes = 400;
-  constexpr int kLeastNeighbours = 16;
-  constexpr double kRadiusStep = 1.15;
-  constexpr double kRadiusToThickness = 3;
-  const std::vector<Vec3>& positions = points.positions;
-  if (positions.empty()) return 0;
-  RequireFinite(positions);
-  const PointIndex index(positions);
-  std::vector<Vec3> probes;
-  const size_t stride = std::max<size_t>(1, positions.size() / kProbes);
-  for (size_t i = 0; i < positions.size(); i += stride) probes.push_back(positions[i]);
-
-  std::vector<double> values(probes.size());
-  ParallelFor(0, static_cast<int64_t>(probes.size()), kGrain, [&](int64_t i) {
-    values[i] = (positions[index.NearestK(probes[i], kLeastNeighbours).back()] - probes[i]).norm();
-  });
-  Vec3 low = positions[0], high = positions[0];
-  for (const Vec3& p : positions) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  const double diagonal = (high - low).norm();
-  double best_ratio = 1.1, best_radius = 0;
-  for (double radius = Median(values); radius < diagonal; radius *= kRadiusStep) {
-    ParallelChunks(0, static_cast<int64_t>(probes.size()), kGrain,
-                   [&](int64_t first, int64_t last) {
-                     std::vector<int> neighbours;
-                     for (int64_t i = first; i < last; ++i) {
-                       index.WithinRadius(probes[i], radius, neighbours);
-                       values[i] = ThicknessAround(probes[i], positions, neighbours);
-                     }
-                   });
-    const double ratio = radius / Median(values);
-    if (ratio >= best_ratio) {
-      best_ratio = ratio;
-      best_radius = radius;
-    }
-    if (ratio >= kRadiusToThickness || (best_radius > 0 && ratio < 0.95 * best_ratio))
-      return best_radius;
-  }
-  return 2 * diagonal / std::cbrt(static_cast<double>(positions.size()));
 }
 
 void VisitOptions(L1Options& options, OptionVisitor& visitor) {
@@ -367,12 +284,16 @@ void VisitOptions(L1Options& options, OptionVisitor& visitor) {
 }
 
 ContractedSamples ContractToMedian(const ObservedPoints& points, const L1Options& options) {
-  RequireFinite(points.positions);
+  assert(options.initial_radius > 0 && options.growth > 0);
+  RequireFinitePositions(points);
   Contraction contraction(points.positions, options);
-  for (double radius = options.initial_radius; radius <= options.maximum_radius;
-       radius += options.growth) {
-    contraction.Contract(radius);
+  // Scaled options may miss the last radius by rounding.
+  const double last_radius = options.maximum_radius * (1 - 1e-9);
+  for (double radius = options.initial_radius;; radius += options.growth) {
+    contraction.Contract(
+        std::min(radius, std::max(options.initial_radius, options.maximum_radius)));
     contraction.FixBranches();
+    if (radius >= last_radius) break;
   }
   return contraction.Result();
 }

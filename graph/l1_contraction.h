@@ -25,11 +25,6 @@ void VisitOptions(L1Options& options, OptionVisitor& visitor);
 /// other length in proportion.
 L1Options OptionsForRadius(double initial_radius, L1Options options = {});
 
-/// The initial radius that fits a cloud of unknown scale: the smallest one that is three times as
-/// large as the median thickness of the neighbourhoods of that radius, which is the paper's ratio
-/// (15 mm for wires of about 5 mm). In the unit of the cloud; 0 for a cloud without extent.
-double SuggestedRadius(const ObservedPoints& points);
-
 /// Contracts a well-spread subset of the points onto local medians of all points while keeping the
 /// samples apart along the curves (Huang et al. 2013, Eq. 1 to 7). The neighbourhood grows from
 /// initial_radius to maximum_radius; samples whose neighbourhood has become a line stop there and

@@ -27,4 +27,7 @@ struct ObservedPoints {
   }
 };
 
+/// Throws Error(kBadInput) naming the first point whose position is not finite.
+void RequireFinitePositions(const ObservedPoints& points);
+
 }  // namespace curvefusion
