@@ -1,0 +1,181 @@
+#include "fusion/radius.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <utility>
+
+#include "capture/frame_stream.h"
+#include "fusion/strip_box.h"
+#include "fusion/strip_samples.h"
+#include "fusion/strip_widths.h"
+
+namespace curvefusion {
+
+namespace {
+
+constexpr double kNeighbourStep = 0.002;  // metres, between points of strands kept clear of
+constexpr double kMaxClearancePx = 40;    // a strip and its background fit in
+constexpr double kBorderPx = 8;           // samples nearer to the image border are left out
+constexpr double kAgreement = 0.25;       // strips this near to the mode count, relative
+constexpr double kGaussianMad = 1.4826;   // standard deviation of a Gaussian over its MAD
+
+// At most max_frames of the frames, evenly spread.
+std::vector<int> ThinFrames(const std::vector<int>& frames, int max_frames) {
+  const auto count = static_cast<int64_t>(frames.size());
+  if (count <= max_frames) return frames;
+  std::vector<int> thinned;
+  for (int64_t i = 0; i < max_frames; ++i) {
+    thinned.push_back(frames[static_cast<size_t>((2 * i + 1) * count / (2 * max_frames))]);
+  }
+  return thinned;
+}
+
+template <class T>
+void Append(std::vector<T> more, std::vector<T>& all) {
+  all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+}
+
+// CurveFusion 3.3: boxes around the samples, widths in pixels times depth over focal length.
+std::vector<StripWidth> MeasureBoxes(const ColorImage& image, int frame,
+                                     const std::vector<ProjectedSample>& samples,
+                                     const PinholeCamera& camera, const RadiusOptions& options) {
+  const StripRegions regions = LabelStrips(image, options.box_size_px);
+  std::vector<StripWidth> widths;
+  for (const ProjectedSample& sample : samples) {
+    const double width_px = StripWidthInBox(regions, sample.pixel, options.box_size_px);
+    const double diameter = width_px * sample.depth / camera.fx;
+    if (diameter <= 0 || diameter > options.max_diameter) continue;
+    widths.push_back({sample.edge, sample.arc_length, frame, diameter});
+  }
+  return widths;
+}
+
+struct Agreement {
+  double diameter = 0;
+  double spread = 0;
+  int count = 0;
+};
+
+// Median and spread of the diameters that agree with the most prominent one.
+Agreement Agree(const std::vector<double>& diameters, const RadiusOptions& options) {
+  Agreement agreement;
+  const double mode = MostProminent(diameters, options.histogram_bin);
+  std::vector<double> agreeing;
+  for (const double diameter : diameters) {
+    if (std::abs(diameter - mode) <= kAgreement * mode) agreeing.push_back(diameter);
+  }
+  agreement.count = static_cast<int>(agreeing.size());
+  if (agreeing.empty()) return agreement;
+  agreement.diameter = Median(agreeing);
+  for (double& diameter : agreeing) diameter = std::abs(diameter - agreement.diameter);
+  agreement.spread = kGaussianMad * Median(agreeing);
+  return agreement;
+}
+
+void Summarize(const SkeletonGraph& skeleton, const RadiusOptions& options,
+               RadiusEstimate& estimate) {
+  std::vector<double> all;
+  std::map<EdgeId, std::vector<double>> by_edge;
+  for (const StripWidth& strip : estimate.strips) {
+    all.push_back(strip.diameter);
+    by_edge[strip.edge].push_back(strip.diameter);
+  }
+  estimate.global_radius = 0.5 * (options.strip_model ? Agree(all, options).diameter
+                                                      : MostProminent(all, options.histogram_bin));
+  for (const EdgeId edge : skeleton.Edges()) {
+    const Agreement own = Agree(by_edge[edge], options);
+    const double radius = own.count >= options.min_strips ? 0.5 * own.diameter : 0;
+    estimate.edges.push_back({edge, radius, 0.5 * own.spread, own.count});
+  }
+}
+
+}  // namespace
+
+RadiusEstimate EstimateRadius(const SkeletonGraph& skeleton, const Sequence& sequence,
+                              const std::vector<int>& frames, const RadiusOptions& options) {
+  RadiusEstimate estimate;
+  const std::vector<CurveSample> samples = SampleCurves(skeleton, options.sample_step);
+  const std::vector<CurveSample> neighbours = SampleCurves(skeleton, kNeighbourStep);
+  std::vector<FoundStrip> found;
+  ForEachFrame(
+      sequence, ThinFrames(frames, options.max_frames), {false, true},
+      [&](const DecodedFrame& frame) {
+        const RigidTransform T_camera_world =
+            sequence.T_color_depth * sequence.frames[frame.index].T_world_camera.inverse();
+        const auto projected = ProjectSamples(samples, neighbours, sequence.color_camera,
+                                              T_camera_world, kBorderPx, kMaxClearancePx);
+        if (options.strip_model) {
+          Append(FindStrips(frame.color, frame.index, projected, options), found);
+        } else {
+          Append(MeasureBoxes(frame.color, frame.index, projected, sequence.color_camera, options),
+                 estimate.strips);
+        }
+      });
+  if (options.strip_model) estimate.strips = SolveStripWidths(std::move(found), options);
+  Summarize(skeleton, options, estimate);
+  return estimate;
+}
+
+void AssignRadii(const RadiusEstimate& estimate, const RadiusOptions& options,
+                 SkeletonGraph& skeleton) {
+  if (estimate.global_radius <= 0) return;
+  for (const EdgeRadius& own : estimate.edges) {
+    if (!skeleton.HasEdge(own.edge)) continue;
+    const bool use_own = options.per_edge && own.radius > 0;
+    const SkeletonEdge& edge = skeleton.edge(own.edge);
+    skeleton.SetCurve(
+        own.edge, edge.points,
+        std::vector<double>(edge.points.size(), use_own ? own.radius : estimate.global_radius),
+        edge.observations);
+  }
+}
+
+void VisitOptions(RadiusOptions& options, OptionVisitor& visitor) {
+  visitor.Visit(
+      {"sample_step", "m", 0.0005, 0.1,
+       "Distance along the curves of the places where widths are measured. CurveFusion 3.3 "
+       "gives no number."},
+      options.sample_step);
+  visitor.Visit({"histogram_bin", "m", 0.00001, 0.01,
+                 "Bin of the histogram of diameters. CurveFusion 3.3 gives no number."},
+                options.histogram_bin);
+  visitor.Visit({"box_size_px", "px", 4, 128,
+                 "Side of the box that must hold exactly one strip. CurveFusion 3.3."},
+                options.box_size_px);
+  visitor.Visit({"max_frames", "frames", 1, 1000000,
+                 "Colour images used; more are thinned evenly. CurveFusion 3.3 uses all; beyond 30 "
+                 "the result hardly changes."},
+                options.max_frames);
+  visitor.Visit(
+      {"strip_model", "", 0, 1,
+       "Deviation: solve widths from what strips take away from the background instead of "
+       "counting pixels between edges in a box: unbiased by blur and shade."},
+      options.strip_model);
+  visitor.Visit({"per_edge", "", 0, 1,
+                 "Deviation: one radius for each edge; CurveFusion 3.3 has one for all."},
+                options.per_edge);
+  visitor.Visit({"search_px", "px", 0, 40,
+                 "Deviation: how far from its projection a strip is looked for by the strip model, "
+                 "since poses drift."},
+                options.search_px);
+  visitor.Visit({"max_diameter", "m", 0.001, 0.2,
+                 "Wider strips are no wires. CurveFusion 4 shows wires up to 12 mm."},
+                options.max_diameter);
+  visitor.Visit(
+      {"luma_blur_px", "px", 0.1, 5,
+       "Blur of luma in the strip model, standard deviation. Measured on simulated scans."},
+      options.luma_blur_px);
+  visitor.Visit({"chroma_blur_px", "px", 0.1, 5,
+                 "The same for colour differences, where strips are too alike to calibrate it."},
+                options.chroma_blur_px);
+  visitor.Visit({"min_contrast", "grey levels", 0, 255,
+                 "Colour distance of a strip to both of its sides in the strip model."},
+                options.min_contrast);
+  visitor.Visit(
+      {"min_strips", "", 1, 100000, "An edge with fewer agreeing strips gets the global radius."},
+      options.min_strips);
+}
+
+}  // namespace curvefusion

@@ -1,0 +1,162 @@
+#include "fusion/strip_samples.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernel/polyline.h"
+
+namespace curvefusion {
+
+namespace {
+
+constexpr double kMinDepth = 0.05;          // metres
+constexpr double kMaxForeshortening = 0.9;  // FINDINGS of the curve adjustment: beyond it, ends
+
+struct ImagePoint {
+  Vec2 pixel;
+  EdgeId edge = 0;
+  double arc_length = 0;
+  double px_per_metre = 0;
+};
+
+// Projected points in square cells, for queries by distance.
+class PointCells {
+ public:
+  PointCells(const PinholeCamera& camera, double cell_px)
+      : cell_px_(cell_px),
+        columns_(static_cast<int>(camera.width / cell_px) + 3),
+        rows_(static_cast<int>(camera.height / cell_px) + 3),
+        cells_(static_cast<size_t>(columns_) * rows_) {}
+
+  void Add(const ImagePoint& point) {
+    const int column = Cell(point.pixel.x());
+    const int row = Cell(point.pixel.y());
+    if (column < 0 || row < 0 || column >= columns_ || row >= rows_) return;
+    cells_[static_cast<size_t>(row) * columns_ + column].push_back(point);
+  }
+
+  // Calls visit(point) for all points of the nine cells around a pixel of the image.
+  template <class Visit>
+  void VisitAround(const Vec2& pixel, const Visit& visit) const {
+    for (int row = Cell(pixel.y()) - 1; row <= Cell(pixel.y()) + 1; ++row) {
+      for (int column = Cell(pixel.x()) - 1; column <= Cell(pixel.x()) + 1; ++column) {
+        if (column < 0 || row < 0 || column >= columns_ || row >= rows_) continue;
+        for (const ImagePoint& point : cells_[static_cast<size_t>(row) * columns_ + column]) {
+          visit(point);
+        }
+      }
+    }
+  }
+
+ private:
+  // The first cell lies outside the image, so that points beyond the border count too.
+  int Cell(double coordinate) const {
+    return static_cast<int>(std::floor(coordinate / cell_px_)) + 1;
+  }
+
+  double cell_px_;
+  int columns_;
+  int rows_;
+  std::vector<std::vector<ImagePoint>> cells_;
+};
+
+PointCells ProjectNeighbours(const std::vector<CurveSample>& neighbours,
+                             const PinholeCamera& camera, const RigidTransform& T_camera_world,
+                             double cell_px) {
+  PointCells cells(camera, cell_px);
+  for (const CurveSample& sample : neighbours) {
+    const Vec3 p = T_camera_world * sample.position;
+    if (p.z() < kMinDepth) continue;
+    cells.Add({camera.Project(p), sample.edge, sample.arc_length, camera.fx / p.z()});
+  }
+  return cells;
+}
+
+double Clearance(const ProjectedSample& sample, const PointCells& cells, double max_clearance_px) {
+  double clearance = max_clearance_px;
+  cells.VisitAround(sample.pixel, [&](const ImagePoint& point) {
+    const double distance = (point.pixel - sample.pixel).norm();
+    if (distance >= clearance) return;
+    const double along_px = std::abs(point.arc_length - sample.arc_length) * point.px_per_metre;
+    // Foreshortening below .9 stretches the way along the curve 2.3 times at most.
+    const bool is_same_strand = point.edge == sample.edge && along_px < 3 * distance + 6;
+    if (!is_same_strand) clearance = distance;
+  });
+  return clearance;
+}
+
+// The derivative of the pixel by the point in the camera frame.
+Eigen::Matrix<double, 2, 3> ProjectionJacobian(const PinholeCamera& camera, const Vec3& p) {
+  Eigen::Matrix<double, 2, 3> jacobian;
+  jacobian << camera.fx / p.z(), 0, -camera.fx * p.x() / (p.z() * p.z()), 0, camera.fy / p.z(),
+      -camera.fy * p.y() / (p.z() * p.z());
+  return jacobian;
+}
+
+// Fills what does not depend on other samples; false where the sample cannot be measured.
+bool ProjectSample(const CurveSample& sample, const PinholeCamera& camera,
+                   const RigidTransform& T_camera_world, double border_px,
+                   ProjectedSample& projected) {
+  const Vec3 p = T_camera_world * sample.position;
+  if (p.z() < kMinDepth) return false;
+  const Vec2 pixel = camera.Project(p);
+  if (pixel.x() < border_px || pixel.y() < border_px || pixel.x() > camera.width - 1 - border_px ||
+      pixel.y() > camera.height - 1 - border_px) {
+    return false;
+  }
+  const Vec3 tangent = T_camera_world.linear() * sample.tangent;
+  const Vec3 ray = p.normalized();
+  if (std::abs(ray.dot(tangent)) > kMaxForeshortening) return false;
+  const auto jacobian = ProjectionJacobian(camera, p);
+  projected.edge = sample.edge;
+  projected.arc_length = sample.arc_length;
+  projected.pixel = pixel;
+  projected.tangent = (jacobian * tangent).normalized();
+  projected.normal = Vec2(-projected.tangent.y(), projected.tangent.x());
+  projected.depth = p.z();
+  // The silhouette's two lines touch the cylinder where its normal is perpendicular to axis and
+  // ray.
+  const Vec3 across = tangent.cross(ray).normalized();
+  projected.metres_per_px = 1 / std::abs(projected.normal.dot(jacobian * across));
+  return true;
+}
+
+}  // namespace
+
+std::vector<CurveSample> SampleCurves(const SkeletonGraph& skeleton, double step) {
+  std::vector<CurveSample> samples;
+  for (const EdgeId edge : skeleton.Edges()) {
+    const Polyline& points = skeleton.edge(edge).points;
+    const std::vector<double> cumulative = CumulativeLength(points);
+    const double length = cumulative.back();
+    const int count = std::max(1, static_cast<int>(std::lround(length / step)));
+    const double half_step = 0.5 * length / count;
+    for (int i = 0; i < count; ++i) {
+      const double arc_length = (2 * i + 1) * half_step;
+      const Vec3 chord = PointAt(points, cumulative, arc_length + half_step) -
+                         PointAt(points, cumulative, arc_length - half_step);
+      if (chord.norm() <= 0) continue;
+      samples.push_back(
+          {edge, arc_length, PointAt(points, cumulative, arc_length), chord.normalized()});
+    }
+  }
+  return samples;
+}
+
+std::vector<ProjectedSample> ProjectSamples(const std::vector<CurveSample>& samples,
+                                            const std::vector<CurveSample>& neighbours,
+                                            const PinholeCamera& camera,
+                                            const RigidTransform& T_camera_world, double border_px,
+                                            double max_clearance_px) {
+  const PointCells cells = ProjectNeighbours(neighbours, camera, T_camera_world, max_clearance_px);
+  std::vector<ProjectedSample> visible;
+  for (const CurveSample& sample : samples) {
+    ProjectedSample projected;
+    if (!ProjectSample(sample, camera, T_camera_world, border_px, projected)) continue;
+    projected.clearance_px = Clearance(projected, cells, max_clearance_px);
+    visible.push_back(projected);
+  }
+  return visible;
+}
+
+}  // namespace curvefusion

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <vector>
+
+#include "capture/sequence.h"
+#include "graph/skeleton_graph.h"
+#include "kernel/camera.h"
+
+namespace curvefusion {
+
+/// A point of a curve with its direction.
+struct CurveSample {
+  EdgeId edge = 0;
+  double arc_length = 0;  ///< metres from the front of the edge
+  Vec3 position;
+  Vec3 tangent;  ///< unit
+};
+
+/// Points of all edges at equal arc-length steps as near to `step` (metres) as divides each edge,
+/// in the middle of their steps, so that ends are half a step away.
+std::vector<CurveSample> SampleCurves(const SkeletonGraph& skeleton, double step);
+
+/// A sample of a curve as one camera sees it.
+struct ProjectedSample {
+  EdgeId edge = 0;
+  double arc_length = 0;
+  Vec2 pixel;
+  Vec2 tangent;              ///< unit, in the image
+  Vec2 normal;               ///< unit, in the image
+  double depth = 0;          ///< metres along the optical axis
+  double metres_per_px = 0;  ///< diameter of the cylinder whose strip is one pixel wide
+  double clearance_px = 0;   ///< to the nearest strand that is not this piece of curve
+};
+
+/// Projects `samples` into a camera. Left out are samples behind or outside the image (or nearer to
+/// its border than `border_px`) and those seen nearly end on (foreshortened by more than .9).
+/// `neighbours` are samples of the same skeleton at a step of a few millimetres; clearances look at
+/// them and are exact up to `max_clearance_px`. A neighbour on the same edge belongs to another
+/// strand when it is much farther along the curve than across the image.
+std::vector<ProjectedSample> ProjectSamples(const std::vector<CurveSample>& samples,
+                                            const std::vector<CurveSample>& neighbours,
+                                            const PinholeCamera& camera,
+                                            const RigidTransform& T_camera_world, double border_px,
+                                            double max_clearance_px);
+
+}  // namespace curvefusion
