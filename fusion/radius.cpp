@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <utility>
 
 #include "capture/frame_stream.h"
@@ -51,36 +52,42 @@ std::vector<StripWidth> MeasureBoxes(const ColorImage& image, int frame,
   return widths;
 }
 
+struct Agreement {
+  double diameter = 0;
+  double spread = 0;
+  int count = 0;
+};
+
 // Median and spread of the diameters that agree with the most prominent one.
-EdgeRadius SummarizeEdge(EdgeId edge, const std::vector<double>& diameters,
-                         const RadiusOptions& options) {
-  EdgeRadius summary;
-  summary.edge = edge;
+Agreement Agree(const std::vector<double>& diameters, const RadiusOptions& options) {
+  Agreement agreement;
   const double mode = MostProminent(diameters, options.histogram_bin);
   std::vector<double> agreeing;
   for (const double diameter : diameters) {
     if (std::abs(diameter - mode) <= kAgreement * mode) agreeing.push_back(diameter);
   }
-  summary.count = static_cast<int>(agreeing.size());
-  if (summary.count < options.min_strips) return summary;
-  const double median = Median(agreeing);
-  summary.radius = 0.5 * median;
-  for (double& diameter : agreeing) diameter = std::abs(diameter - median);
-  summary.spread = 0.5 * kGaussianMad * Median(agreeing);
-  return summary;
+  agreement.count = static_cast<int>(agreeing.size());
+  if (agreeing.empty()) return agreement;
+  agreement.diameter = Median(agreeing);
+  for (double& diameter : agreeing) diameter = std::abs(diameter - agreement.diameter);
+  agreement.spread = kGaussianMad * Median(agreeing);
+  return agreement;
 }
 
 void Summarize(const SkeletonGraph& skeleton, const RadiusOptions& options,
                RadiusEstimate& estimate) {
   std::vector<double> all;
-  for (const StripWidth& strip : estimate.strips) all.push_back(strip.diameter);
-  estimate.global_radius = 0.5 * MostProminent(all, options.histogram_bin);
+  std::map<EdgeId, std::vector<double>> by_edge;
+  for (const StripWidth& strip : estimate.strips) {
+    all.push_back(strip.diameter);
+    by_edge[strip.edge].push_back(strip.diameter);
+  }
+  estimate.global_radius = 0.5 * (options.strip_model ? Agree(all, options).diameter
+                                                      : MostProminent(all, options.histogram_bin));
   for (const EdgeId edge : skeleton.Edges()) {
-    std::vector<double> own;
-    for (const StripWidth& strip : estimate.strips) {
-      if (strip.edge == edge) own.push_back(strip.diameter);
-    }
-    estimate.edges.push_back(SummarizeEdge(edge, own, options));
+    const Agreement own = Agree(by_edge[edge], options);
+    const double radius = own.count >= options.min_strips ? 0.5 * own.diameter : 0;
+    estimate.edges.push_back({edge, radius, 0.5 * own.spread, own.count});
   }
 }
 
@@ -89,8 +96,8 @@ void Summarize(const SkeletonGraph& skeleton, const RadiusOptions& options,
 RadiusEstimate EstimateRadius(const SkeletonGraph& skeleton, const Sequence& sequence,
                               const std::vector<int>& frames, const RadiusOptions& options) {
   RadiusEstimate estimate;
-  const std::vector<CurveSample> samples = SampleStrips(skeleton, options.sample_step);
-  const std::vector<CurveSample> neighbours = SampleStrips(skeleton, kNeighbourStep);
+  const std::vector<CurveSample> samples = SampleCurves(skeleton, options.sample_step);
+  const std::vector<CurveSample> neighbours = SampleCurves(skeleton, kNeighbourStep);
   std::vector<FoundStrip> found;
   ForEachFrame(
       sequence, ThinFrames(frames, options.max_frames), {false, true},
@@ -126,56 +133,49 @@ void AssignRadii(const RadiusEstimate& estimate, const RadiusOptions& options,
 }
 
 void VisitOptions(RadiusOptions& options, OptionVisitor& visitor) {
-  visitor.Visit({"sample_step", "m", 0.0005, 0.1,
-                 "Distance of the places along the curves where "
-                 "widths are measured. CurveFusion 3.3 samples the skeleton, without a number."},
-                options.sample_step);
+  visitor.Visit(
+      {"sample_step", "m", 0.0005, 0.1,
+       "Distance along the curves of the places where widths are measured. CurveFusion 3.3 "
+       "gives no number."},
+      options.sample_step);
   visitor.Visit({"histogram_bin", "m", 0.00001, 0.01,
-                 "Bin of the histogram of diameters whose "
-                 "fullest bin is chosen. CurveFusion 3.3, without a number."},
+                 "Bin of the histogram of diameters. CurveFusion 3.3 gives no number."},
                 options.histogram_bin);
   visitor.Visit({"box_size_px", "px", 4, 128,
-                 "Side of the box that must hold exactly one strip. "
-                 "CurveFusion 3.3."},
+                 "Side of the box that must hold exactly one strip. CurveFusion 3.3."},
                 options.box_size_px);
   visitor.Visit({"max_frames", "frames", 1, 1000000,
-                 "Colour images used; more are thinned evenly. "
-                 "CurveFusion 3.3 uses all; beyond 30 the result no longer changes."},
+                 "Colour images used; more are thinned evenly. CurveFusion 3.3 uses all; beyond 30 "
+                 "the result hardly changes."},
                 options.max_frames);
   visitor.Visit(
       {"strip_model", "", 0, 1,
-       "Deviation: fit a blurred, shaded strip to the colours "
-       "across the curve instead of counting pixels between edges in a box: subpixel, and "
-       "finds strips away from the projection."},
+       "Deviation: solve widths from what strips take away from the background instead of "
+       "counting pixels between edges in a box: unbiased by blur and shade."},
       options.strip_model);
   visitor.Visit({"per_edge", "", 0, 1,
-                 "Deviation: one radius for each edge; CurveFusion 3.3 has one "
-                 "for all."},
+                 "Deviation: one radius for each edge; CurveFusion 3.3 has one for all."},
                 options.per_edge);
   visitor.Visit({"search_px", "px", 0, 40,
-                 "Deviation: how far from its projection a strip is looked "
-                 "for by the strip model, since poses drift."},
+                 "Deviation: how far from its projection a strip is looked for by the strip model, "
+                 "since poses drift."},
                 options.search_px);
   visitor.Visit({"max_diameter", "m", 0.001, 0.2,
-                 "Wider strips are no wires. CurveFusion 5 shows "
-                 "wires up to 12 mm."},
+                 "Wider strips are no wires. CurveFusion 4 shows wires up to 12 mm."},
                 options.max_diameter);
-  visitor.Visit({"luma_blur_px", "px", 0.1, 5,
-                 "Blur of the strip model, as standard deviation: "
-                 "lens, demosaicing and interpolation. Fitted on simulated scans."},
-                options.luma_blur_px);
+  visitor.Visit(
+      {"luma_blur_px", "px", 0.1, 5,
+       "Blur of luma in the strip model, standard deviation. Measured on simulated scans."},
+      options.luma_blur_px);
   visitor.Visit({"chroma_blur_px", "px", 0.1, 5,
-                 "The same for colour differences, which JPEG stores "
-                 "at half resolution."},
+                 "The same for colour differences, where strips are too alike to calibrate it."},
                 options.chroma_blur_px);
   visitor.Visit({"min_contrast", "grey levels", 0, 255,
-                 "Colour distance of a strip to both of its "
-                 "sides for the strip model."},
+                 "Colour distance of a strip to both of its sides in the strip model."},
                 options.min_contrast);
-  visitor.Visit({"min_strips", "", 1, 100000,
-                 "An edge with fewer agreeing strips gets the global "
-                 "radius."},
-                options.min_strips);
+  visitor.Visit(
+      {"min_strips", "", 1, 100000, "An edge with fewer agreeing strips gets the global radius."},
+      options.min_strips);
 }
 
 }  // namespace curvefusion

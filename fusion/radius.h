@@ -8,7 +8,8 @@
 
 namespace curvefusion {
 
-/// Wire radius estimation, CurveFusion 3.3 ("Wire radius estimation").
+/// Wire radius estimation, CurveFusion 3.3 ("Wire radius estimation"). Units, ranges and sources
+/// stand in VisitOptions; the paper's way is strip_model = per_edge = false.
 struct RadiusOptions {
   double sample_step = 0.010;
   double histogram_bin = 0.00025;

@@ -14,7 +14,7 @@ constexpr int kMinWidth = 3;     // steps
 constexpr int kGuard = 2;        // steps; around an edge the blur mixes both colours
 constexpr int kSide = 7;         // steps of background compared on either side
 constexpr float kNoise = 3;      // grey levels; keeps flat regions from winning by zero noise
-constexpr double kTailPx = 2.5;  // the blur carries a strip's colour no farther
+constexpr double kTailPx = 3;    // the blur carries a strip's colour no farther
 constexpr double kSidePx = 2;    // background measured beyond the tail
 
 Eigen::Vector3f Bilinear(const ColorImage& image, double u, double v) {
@@ -86,8 +86,10 @@ Separation Separate(const PrefixSums& sums, int begin, int end) {
   const Eigen::Array3f left = sums.Mean(left_end - kSide, left_end);
   const Eigen::Array3f right = sums.Mean(right_begin, right_begin + kSide);
   Separation result;
+  // The product is negative across a mere edge, whose blur would pass for a shaded strip.
   result.squared_contrast =
-      std::min((inside - left).square().sum(), (inside - right).square().sum());
+      std::min({(inside - left).square().sum(), (inside - right).square().sum(),
+                ((inside - left) * (inside - right)).sum()});
   const float scatter =
       sums.Scatter(left_end - kSide, left_end) + sums.Scatter(right_begin, right_begin + kSide) +
       sums.Scatter(begin + guard, end - guard) - sums.LinearPart(begin + guard, end - guard);

@@ -38,7 +38,7 @@ std::optional<StripPosition> FindStrip(const StripProfile& profile, double searc
                                        double max_width_px, double min_contrast);
 
 /// How far beside a strip its profile must reach for MeasureStrip, in pixels.
-inline constexpr double kStripMarginPx = 4.5;
+inline constexpr double kStripMarginPx = 5;
 
 /// What the colours of a strip say of its width whatever the blur: blur moves colour across the
 /// edges, but the integral of what the strip takes away from the background stays.
@@ -49,7 +49,7 @@ struct StripColors {
   Eigen::Vector3d interior;    ///< mean colour over the width, blurred
 };
 
-/// Integrates over a strip and 2.5 px on either side; the background is the straight line through
+/// Integrates over a strip and 3 px on either side; the background is the straight line through
 /// the means of the next 2 px on either side. Nothing where the profile does not reach so far.
 std::optional<StripColors> MeasureStrip(const StripProfile& profile, const StripPosition& position);
 

@@ -15,7 +15,8 @@ constexpr int kRounds = 3;                  // colour from widths, widths from c
 constexpr double kClearWidths = 1.5;        // another strand must be farther away
 constexpr int kHalfLengthPx = 4;            // of the stretch that a profile is averaged over
 constexpr int64_t kGrain = 16;              // samples looked at by one task
-constexpr double kMaxCenterSpreadPx = 1.5;  // of the strips of one edge in one image
+constexpr double kMaxCenterSpreadPx = 1.5;  // from the strips around on the same edge
+constexpr size_t kConsistencyReach = 3;     // strips before and behind one on its edge
 constexpr double kMinSignificance = 4;
 constexpr double kMaxMisfit = 3;
 constexpr size_t kMinOwnStrips = 20;  // for an edge to have a colour of its own
@@ -88,16 +89,25 @@ void Reposition(const std::vector<SolvedWidth>& solved, double bin,
   }
 }
 
-// Drops the strips far from the median centre of the same edge; all belong to one image.
-std::vector<FoundStrip> KeepConsistent(const std::vector<FoundStrip>& strips) {
-  std::map<EdgeId, std::vector<double>> centers;
-  for (const FoundStrip& strip : strips) {
-    centers[strip.sample.edge].push_back(strip.position.center_px);
+// The median centre of the strips around strip i on the same edge.
+double MedianCenterAround(const std::vector<FoundStrip>& strips, size_t i) {
+  std::vector<double> centers;
+  const size_t begin = i - std::min<size_t>(i, kConsistencyReach);
+  const size_t end = std::min(strips.size(), i + kConsistencyReach + 1);
+  for (size_t j = begin; j < end; ++j) {
+    if (strips[j].sample.edge == strips[i].sample.edge) {
+      centers.push_back(strips[j].position.center_px);
+    }
   }
+  return Median(std::move(centers));
+}
+
+// Drops the strips off the line of their neighbours; all belong to one image, ordered along edges.
+std::vector<FoundStrip> KeepConsistent(const std::vector<FoundStrip>& strips) {
   std::vector<FoundStrip> kept;
-  for (const FoundStrip& strip : strips) {
-    const double median = Median(centers[strip.sample.edge]);
-    if (std::abs(strip.position.center_px - median) <= kMaxCenterSpreadPx) kept.push_back(strip);
+  for (size_t i = 0; i < strips.size(); ++i) {
+    const double distance = strips[i].position.center_px - MedianCenterAround(strips, i);
+    if (std::abs(distance) <= kMaxCenterSpreadPx) kept.push_back(strips[i]);
   }
   return kept;
 }

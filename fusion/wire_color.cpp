@@ -8,8 +8,9 @@ namespace curvefusion {
 
 namespace {
 
-constexpr double kMassNoise = 12;      // grey levels x px: a background that is not straight
-constexpr double kMinShadeSpread = 5;  // grey levels
+constexpr double kBackgroundNoise = 1.3;  // grey levels, mean over a window: it is not straight
+constexpr double kWindowMarginPx = 5;     // of background in the window of a strip
+constexpr double kMinShadeSpread = 5;     // grey levels
 constexpr double kMaxChromaBlurPx = 2.5;
 constexpr double kBlurStepPx = 0.05;
 constexpr size_t kMinCalibrationStrips = 40;
@@ -111,8 +112,9 @@ WireColor EstimateWireColor(const std::vector<ColoredStrip>& strips, const Image
 SolvedWidth SolveWidth(const ColoredStrip& strip, const WireColor& color) {
   const Eigen::Vector3d contrast = strip.colors.background - color.shade * color.direction;
   const double spread = color.shade_spread * strip.width_px;
+  const double noise = kBackgroundNoise * (strip.width_px + kWindowMarginPx);
   const Eigen::Matrix3d covariance =
-      kMassNoise * kMassNoise * Eigen::Matrix3d::Identity() +
+      noise * noise * Eigen::Matrix3d::Identity() +
       spread * spread * color.direction * color.direction.transpose();
   const Eigen::Matrix3d information = covariance.inverse();
   SolvedWidth solved;
