@@ -96,8 +96,8 @@ void Summarize(const SkeletonGraph& skeleton, const RadiusOptions& options,
 RadiusEstimate EstimateRadius(const SkeletonGraph& skeleton, const Sequence& sequence,
                               const std::vector<int>& frames, const RadiusOptions& options) {
   RadiusEstimate estimate;
-  const std::vector<CurveSample> samples = SampleCurves(skeleton, options.sample_step);
-  const std::vector<CurveSample> neighbours = SampleCurves(skeleton, kNeighbourStep);
+  const std::vector<CurveSample> samples = SampleStrips(skeleton, options.sample_step);
+  const std::vector<CurveSample> neighbours = SampleStrips(skeleton, kNeighbourStep);
   std::vector<FoundStrip> found;
   ForEachFrame(
       sequence, ThinFrames(frames, options.max_frames), {false, true},

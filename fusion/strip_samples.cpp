@@ -123,7 +123,7 @@ bool ProjectSample(const CurveSample& sample, const PinholeCamera& camera,
 
 }  // namespace
 
-std::vector<CurveSample> SampleCurves(const SkeletonGraph& skeleton, double step) {
+std::vector<CurveSample> SampleStrips(const SkeletonGraph& skeleton, double step) {
   std::vector<CurveSample> samples;
   for (const EdgeId edge : skeleton.Edges()) {
     const Polyline& points = skeleton.edge(edge).points;

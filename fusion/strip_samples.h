@@ -18,7 +18,7 @@ struct CurveSample {
 
 /// Points of all edges at equal arc-length steps as near to `step` (metres) as divides each edge,
 /// in the middle of their steps, so that ends are half a step away.
-std::vector<CurveSample> SampleCurves(const SkeletonGraph& skeleton, double step);
+std::vector<CurveSample> SampleStrips(const SkeletonGraph& skeleton, double step);
 
 /// A sample of a curve as one camera sees it.
 struct ProjectedSample {

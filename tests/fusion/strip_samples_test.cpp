@@ -10,14 +10,14 @@ namespace {
 constexpr PinholeCamera kCamera = {640, 480, 580, 580, 319.5, 239.5};
 
 std::vector<ProjectedSample> ProjectAll(const SkeletonGraph& skeleton, double step) {
-  return ProjectSamples(SampleCurves(skeleton, step), SampleCurves(skeleton, 0.001), kCamera,
+  return ProjectSamples(SampleStrips(skeleton, step), SampleStrips(skeleton, 0.001), kCamera,
                         RigidTransform::Identity(), 8, 40);
 }
 
-TEST(SampleCurvesTest, SamplesLieInTheMiddleOfEqualSteps) {
+TEST(SampleStripsTest, SamplesLieInTheMiddleOfEqualSteps) {
   SkeletonGraph skeleton;
   const EdgeId edge = skeleton.AddPolyline({{0, 0, 1}, {0.05, 0, 1}, {0.1, 0, 1}});
-  const auto samples = SampleCurves(skeleton, 0.026);
+  const auto samples = SampleStrips(skeleton, 0.026);
   ASSERT_EQ(samples.size(), 4u);  // 0.1 / 0.026 rounds to 4 steps of 0.025
   EXPECT_EQ(samples[1].edge, edge);
   EXPECT_NEAR(samples[1].arc_length, 0.0375, 1e-15);
@@ -25,7 +25,7 @@ TEST(SampleCurvesTest, SamplesLieInTheMiddleOfEqualSteps) {
   EXPECT_TRUE(samples[1].tangent.isApprox(Vec3(1, 0, 0), 1e-12));
 }
 
-TEST(SampleCurvesTest, AnEmptySkeletonHasNone) { EXPECT_TRUE(SampleCurves({}, 0.01).empty()); }
+TEST(SampleStripsTest, AnEmptySkeletonHasNone) { EXPECT_TRUE(SampleStrips({}, 0.01).empty()); }
 
 // Oracle: the extent, across the projected axis, of the projections of a cylinder's surface points.
 TEST(ProjectSamplesTest, MetresPerPixelIsThatOfACylindersSilhouette) {
