@@ -195,12 +195,15 @@ class PartAttacher {
   // only around.
   bool IsNoise(const Stretch& stretch, const SkeletonEdge& curve, const std::optional<Place>& from,
                const std::optional<Place>& to) const {
-    const std::vector<Match>& matches = matches_[stretch.edge];
-    for (size_t i = stretch.first; i <= stretch.last; ++i)
-      if (!matches[i].is_near) return false;
     const double length = Length(curve.points);
-    if (from && to)
-      return Gap(*from, *to) <= 2 * distances_.overlap && length <= 3 * distances_.overlap;
+    const std::vector<Match>& matches = matches_[stretch.edge];
+    const bool stays_near =
+        std::all_of(matches.begin() + static_cast<std::ptrdiff_t>(stretch.first),
+                    matches.begin() + static_cast<std::ptrdiff_t>(stretch.last) + 1,
+                    [](const Match& match) { return match.is_near; });
+    if (from && to && Gap(*from, *to) <= 2 * distances_.overlap)
+      return length <= (stays_near ? 3 : 1) * distances_.overlap;
+    if (!stays_near) return false;
     const std::array<NodeId, 2>& nodes = bundle_.edge(stretch.edge).nodes;
     const bool dangles =
         (!from && bundle_.Degree(nodes[0]) == 1) || (!to && bundle_.Degree(nodes[1]) == 1);

@@ -112,11 +112,11 @@ class GraphMatcher {
     return std::abs(a.dot(b)) >= min_cosine_;
   }
 
-  // Whether a point lies beyond a free end of the target curve it projects to.
-  bool IsBeyondFreeEnd(const Vec3& p, int near, const Projection& projection) const {
+  // Whether a point lies beyond the end of the target curve it projects to. At a junction other
+  // curves may go on there and match it; at a free end none does.
+  bool IsBeyondEnd(const Vec3& p, int near, const Projection& projection) const {
     const SkeletonEdge& edge = target_.graph.edge(target_.edges[near]);
     for (int end = 0; end < 2; ++end) {
-      if (target_.graph.Degree(edge.nodes[end]) != 1) continue;
       const double last = static_cast<double>(edge.points.size() - 1);
       if (projection.parameter != (end == 0 ? 0.0 : last)) continue;
       const Vec3 outward = (end == 0 ? -1 : 1) * target_.directions[near];
@@ -135,7 +135,7 @@ class GraphMatcher {
       const Projection projection = ProjectAround(target_, j, p);
       const double distance = (projection.point - p).norm();
       if (!projection.is_local || distance > criteria_.distance) continue;
-      if (IsBeyondFreeEnd(p, j, projection)) continue;
+      if (IsBeyondEnd(p, j, projection)) continue;
       match.is_near = true;
       if (distance > nearest || !SameDirection(source_.directions[i], target_.directions[j]))
         continue;

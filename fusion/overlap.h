@@ -23,11 +23,12 @@ struct Match {
 };
 
 /// Matches every point of every edge of `source` (indexed by edge handle, then point) with the
-/// nearest curve of `target` that meets the criteria. A point beyond a free end matches nothing:
-/// there the curve goes on. With keep_neighbours a point matches nothing where its counterpart is
-/// clearly nearer to some other part of `source`, one that is not close by along the graph: a
-/// second wire beside the first is a wire of its own. Both graphs should be sampled evenly at about
-/// `step`. O(n log n + k) in points and in pairs of points within the distance.
+/// nearest curve of `target` that meets the criteria. A point beyond the end of a
+/// curve does not match that curve: there the source goes on. With keep_neighbours a point matches
+/// nothing where its counterpart is clearly nearer to some other part of `source`, one that is not
+/// close by along the graph: a second wire beside the first is a wire of its own. Both graphs
+/// should be sampled evenly at about `step`. O(n log n + k) in points and in pairs of points within
+/// the distance.
 std::vector<std::vector<Match>> MatchGraphs(const SkeletonGraph& source,
                                             const SkeletonGraph& target, double step,
                                             const OverlapCriteria& criteria);

@@ -96,6 +96,31 @@ ObservedPoints CarryPoints(const std::vector<ObservedPoints>& bundles,
   return carried.points();
 }
 
+// Paper profile: a skeleton for every bundle, fused one after the other, CurveFusion 3.2 and 3.3.
+SkeletonGraph FuseBundleSkeletons(const std::vector<ObservedPoints>& bundles,
+                                  const PipelineOptions& options, PipelineObserver& observer,
+                                  Reconstruction& result) {
+  SkeletonGraph partial;
+  double contraction_seconds = 0, fusion_seconds = 0;
+  for (size_t i = 0; i < bundles.size(); ++i) {
+    const Clock::time_point start = Clock::now();
+    const SkeletonGraph bundle = ExtractL1Skeleton(bundles[i], options.l1);
+    contraction_seconds += SecondsSince(start);
+    const Clock::time_point fusion_start = Clock::now();
+    partial = i == 0 ? SmoothGraph(bundle, options.fusion.smoothing)
+                     : FuseSkeletons(partial, bundle, static_cast<int>(i), options.fusion);
+    fusion_seconds += SecondsSince(fusion_start);
+    observer.OnGraph(fmt::format("bundle_{:03}_skeleton", i), bundle);
+    observer.OnGraph(fmt::format("bundle_{:03}_fused", i), partial);
+    observer.OnProgress("skeletons", static_cast<int64_t>(i + 1),
+                        static_cast<int64_t>(bundles.size()));
+  }
+  result.stages.push_back({"contraction", contraction_seconds, {}});
+  result.stages.push_back(
+      {"fusion", fusion_seconds, {{"edges", static_cast<double>(partial.edge_count())}}});
+  return partial;
+}
+
 SkeletonGraph ContractOnce(const ObservedPoints& points, const PipelineOptions& options,
                            PipelineObserver& observer, Reconstruction& result) {
   const Clock::time_point start = Clock::now();
@@ -123,7 +148,14 @@ RadiusEstimate MeasureRadii(const SkeletonGraph& skeleton, const Sequence& seque
 
 PipelineOptions ProfileOptions(Profile profile) {
   PipelineOptions options;
-  if (profile == Profile::kPaper) return options;
+  if (profile == Profile::kPaper) {
+    options.segmentation.difference.front_distance = 0.02;
+    options.segmentation.difference.accept_where_nothing_rendered = false;
+    options.fusion = PaperSkeletonFusionOptions();
+    options.radius.strip_model = false;
+    options.radius.per_edge = false;
+    return options;
+  }
   options.volume.voxel_size = 0.01;
   options.volume_stride = 2;
   options.segmentation.render_divisor = 2;
@@ -155,8 +187,17 @@ Reconstruction Reconstruct(const Sequence& sequence, const PipelineOptions& opti
   const TsdfVolume volume = FuseVolume(sequence, options, observer, result);
   const std::vector<ObservedPoints> bundles =
       SegmentBundles(sequence, volume, options, observer, result);
-  result.points = CarryPoints(bundles, options, observer, result);
-  result.skeleton = ContractOnce(result.points, options, observer, result);
+  if (options.carry_points) {
+    result.points = CarryPoints(bundles, options, observer, result);
+    result.skeleton = ContractOnce(result.points, options, observer, result);
+  } else {
+    for (const ObservedPoints& bundle : bundles) {
+      for (size_t i = 0; i < bundle.size(); ++i) {
+        result.points.Add(bundle.positions[i], bundle.viewing_rays[i], bundle.counts[i]);
+      }
+    }
+    result.skeleton = FuseBundleSkeletons(bundles, options, observer, result);
+  }
   const RadiusEstimate radii = MeasureRadii(result.skeleton, sequence, options, result);
   result.global_radius = radii.global_radius;
   AssignRadii(radii, options.radius, result.skeleton);

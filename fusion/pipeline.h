@@ -10,6 +10,7 @@
 #include "fusion/carried_points.h"
 #include "fusion/radius.h"
 #include "fusion/segmentation.h"
+#include "fusion/skeleton_fusion.h"
 #include "fusion/tsdf_volume.h"
 #include "graph/l1_contraction.h"
 #include "graph/ridge_skeleton.h"
@@ -31,6 +32,7 @@ struct PipelineOptions {
   CarriedPointsOptions carried;
   AlignmentOptions alignment;
   L1Options l1;
+  SkeletonFusionOptions fusion;
   RidgeOptions ridge;
   double axis_depth = 0;
   RadiusOptions radius;

@@ -1,11 +1,14 @@
 #include "fusion/skeleton_fusion.h"
 
 #include <cassert>
+#include <set>
 #include <utility>
+#include <vector>
 
 #include "fusion/new_parts.h"
 #include "fusion/overlap.h"
 #include "fusion/overlap_merging.h"
+#include "graph/cycles.h"
 #include "graph/edge_curve.h"
 #include "graph/intersections.h"
 #include "graph/merge.h"
@@ -46,6 +49,32 @@ AlignmentResult Align(SkeletonGraph& partial, SkeletonGraph& bundle,
   return result;
 }
 
+std::set<NodeId> JunctionsOf(const SkeletonGraph& graph) {
+  std::set<NodeId> junctions;
+  for (const NodeId node : graph.Nodes())
+    if (graph.Degree(node) >= 3) junctions.insert(node);
+  return junctions;
+}
+
+// Paper: "we identify pairs of junctions [of both skeletons] that are close to each other [...] and
+// merge them". Pairs that match each other are one by now; what is left are junctions that a bundle
+// has beside one of the partial skeleton, on a curve of it.
+void MergeNewJunctions(SkeletonGraph& graph, const std::set<NodeId>& old_junctions,
+                       double distance) {
+  std::vector<EdgeId> links;
+  do {
+    links.clear();
+    for (const EdgeId id : graph.Edges()) {
+      const SkeletonEdge& edge = graph.edge(id);
+      const auto [a, b] = edge.nodes;
+      if (a == b || graph.Degree(a) < 3 || graph.Degree(b) < 3) continue;
+      if (old_junctions.count(a) == old_junctions.count(b)) continue;
+      if (Length(edge.points) <= distance) links.push_back(id);
+    }
+    ContractEdges(graph, links);
+  } while (!links.empty());
+}
+
 // Paper, (ii) Merging: overlapping parts, junctions, and what is new.
 void Merge(SkeletonGraph& partial, const SkeletonGraph& bundle, int bundles_so_far,
            const SkeletonFusionOptions& options) {
@@ -55,13 +84,16 @@ void Merge(SkeletonGraph& partial, const SkeletonGraph& bundle, int bundles_so_f
   AverageOverlaps(
       partial, bundle, matches,
       {options.weights_by_observation, 1.0 / (bundles_so_far + 1), options.junction_distance});
+  const std::set<NodeId> old_junctions = JunctionsOf(partial);
   AddNewParts(partial, bundle, matches,
               {options.overlap_distance, options.junction_distance, options.intersection_distance});
+  MergeNewJunctions(partial, old_junctions, options.junction_distance);
 }
 
 // Paper, end of (ii) and (iii) Smoothing.
 SkeletonGraph CleanedAndSmoothed(SkeletonGraph graph, const SkeletonFusionOptions& options) {
   ResolveIntersections(graph, options.intersection_distance);
+  RemoveSmallCycles(graph, options.min_cycle_length);
   RemoveShortEdges(graph, options.min_edge_length);
   graph = SmoothGraph(graph, options.smoothing);
   // Moved curves may touch anew.
@@ -117,6 +149,7 @@ SkeletonFusionOptions PaperSkeletonFusionOptions() {
   options.move_partial = true;
   options.keep_neighbours = false;
   options.weights_by_observation = false;
+  options.min_cycle_length = 0;
   options.alignment = PaperAlignmentOptions();
   options.smoothing = PaperSmoothingOptions();
   return options;

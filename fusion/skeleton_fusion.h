@@ -20,6 +20,7 @@ struct SkeletonFusionOptions {
   double junction_distance = 10 * kMillimetre;
   double intersection_distance = 3 * kMillimetre;
   double min_edge_length = 2 * kMillimetre;
+  double min_cycle_length = 20 * kMillimetre;
   AlignmentOptions alignment;
   SmoothingOptions smoothing;
 };

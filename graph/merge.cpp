@@ -180,26 +180,6 @@ bool IsDangling(const SkeletonGraph& graph, const SkeletonEdge& edge) {
   return graph.Degree(edge.nodes[0]) == 1 || graph.Degree(edge.nodes[1]) == 1;
 }
 
-// Shrinks short links to one node each; of links that share a node only the shortest.
-void ContractLinks(SkeletonGraph& graph, const std::vector<EdgeId>& links, double length) {
-  std::vector<NodeGroup> groups;
-  std::set<NodeId> touched;
-  for (const EdgeId id : links) {
-    const std::array<NodeId, 2> nodes = graph.edge(id).nodes;
-    const bool is_free = std::none_of(nodes.begin(), nodes.end(),
-                                      [&touched](NodeId node) { return touched.count(node) > 0; });
-    if (!is_free) continue;
-    NodeGroup group;
-    for (const NodeId node : nodes) {
-      group.nodes.push_back(node);
-      group.weights.push_back(graph.Degree(node));
-      touched.insert(node);
-    }
-    groups.push_back(std::move(group));
-  }
-  MergeNodeGroups(graph, groups, length);
-}
-
 }  // namespace
 
 void MergeNearbyJunctions(SkeletonGraph& graph, double distance) {
@@ -245,6 +225,27 @@ void MergeOverlappingEdges(SkeletonGraph& graph, double distance) {
   MergeParallelEdges(graph, kParallelSlack * distance);
 }
 
+void ContractEdges(SkeletonGraph& graph, const std::vector<EdgeId>& edges) {
+  std::vector<NodeGroup> groups;
+  std::set<NodeId> touched;
+  double longest = 0;
+  for (const EdgeId id : edges) {
+    const std::array<NodeId, 2> nodes = graph.edge(id).nodes;
+    const bool is_free = std::none_of(nodes.begin(), nodes.end(),
+                                      [&touched](NodeId node) { return touched.count(node) > 0; });
+    if (!is_free) continue;
+    NodeGroup group;
+    for (const NodeId node : nodes) {
+      group.nodes.push_back(node);
+      group.weights.push_back(graph.Degree(node));
+      touched.insert(node);
+    }
+    groups.push_back(std::move(group));
+    longest = std::max(longest, Length(graph.edge(id).points));
+  }
+  MergeNodeGroups(graph, groups, longest);
+}
+
 void RemoveShortEdges(SkeletonGraph& graph, double length) {
   graph.DissolveDegree2Nodes();
   for (std::vector<EdgeId> edges = ShortEdges(graph, length); !edges.empty();
@@ -258,7 +259,7 @@ void RemoveShortEdges(SkeletonGraph& graph, double length) {
         links.push_back(id);
       }
     }
-    ContractLinks(graph, links, length);
+    ContractEdges(graph, links);
     graph.RemoveIsolatedNodes();
     graph.DissolveDegree2Nodes();
   }

@@ -26,6 +26,10 @@ void MergeParallelEdges(SkeletonGraph& graph, double distance);
 /// CurveFusion 3.3, within one graph.
 void MergeOverlappingEdges(SkeletonGraph& graph, double distance);
 
+/// Shrinks edges between two different nodes to one node each, at the mean of both weighted by
+/// degree; of edges that share a node only the first.
+void ContractEdges(SkeletonGraph& graph, const std::vector<EdgeId>& edges);
+
 /// Removes edges shorter than `length`, shortest first: dangling and isolated ones and self-loops
 /// disappear, links between junctions shrink to one junction. Nodes of degree 2 are dissolved
 /// before and after. CurveFusion 3.3: "we remove any curve segment shorter than a threshold".

@@ -114,18 +114,17 @@ class VertexTable {
 class NormalEquations {
  public:
   explicit NormalEquations(int vertices)
-      : rhs_(Eigen::MatrixX3d::Zero(vertices, 3)), held_(vertices, 0), start_(vertices) {}
+      : start_(Eigen::MatrixX3d::Zero(vertices, 3)),
+        weights_(Eigen::VectorXd::Zero(vertices)),
+        held_(vertices, 0) {}
 
-  void SetStart(int vertex, const Vec3& position) { start_[vertex] = position; }
+  void SetStart(int vertex, const Vec3& position) { start_.row(vertex) = position.transpose(); }
   void Hold(int vertex) { held_[vertex] = 1; }
 
   // weight |v - v0|^2.
-  void AddDataTerm(int vertex, double weight) {
-    entries_.emplace_back(vertex, vertex, weight);
-    rhs_.row(vertex) += weight * start_[vertex].transpose();
-  }
+  void AddDataTerm(int vertex, double weight) { weights_[vertex] += weight; }
 
-  // lambda |a - 2 b + c|^2.
+  // lambda |a - 2 b + c|^2. All held vertices must be known.
   void AddSmoothnessTerm(const std::array<int, 3>& vertices, double lambda) {
     constexpr std::array<double, 3> kStencil = {1, -2, 1};
     for (int i = 0; i < 3; ++i) {
@@ -133,7 +132,7 @@ class NormalEquations {
       for (int j = 0; j < 3; ++j) {
         const double entry = lambda * kStencil[i] * kStencil[j];
         if (held_[vertices[j]]) {
-          rhs_.row(vertices[i]) -= entry * start_[vertices[j]].transpose();
+          to_held_.emplace_back(vertices[i], vertices[j], entry);
         } else if (vertices[j] <= vertices[i]) {
           entries_.emplace_back(vertices[i], vertices[j], entry);
         }
@@ -141,20 +140,34 @@ class NormalEquations {
     }
   }
 
-  Eigen::MatrixX3d Solve() const {
-    const int n = static_cast<int>(start_.size());
+  // The minimum; with twicing, plus the minimum for what is left of the data.
+  Eigen::MatrixX3d Solve(bool twicing) const {
+    const int n = static_cast<int>(start_.rows());
+    std::vector<Eigen::Triplet<double>> lower = entries_;
+    for (int i = 0; i < n; ++i) lower.emplace_back(i, i, weights_[i]);
     Eigen::SparseMatrix<double> matrix(n, n);
-    matrix.setFromTriplets(entries_.begin(), entries_.end());
+    matrix.setFromTriplets(lower.begin(), lower.end());
     const Eigen::CholmodSimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> solver(matrix);
     assert(solver.info() == Eigen::Success);  // positive definite: every vertex has a data term
-    return solver.solve(rhs_);
+    const Eigen::MatrixX3d smooth = solver.solve(RightHandSide(start_));
+    if (!twicing) return smooth;
+    const Eigen::MatrixX3d lost = start_ - smooth;
+    return smooth + solver.solve(RightHandSide(lost));
   }
 
  private:
-  std::vector<Eigen::Triplet<double>> entries_;  // lower triangle
-  Eigen::MatrixX3d rhs_;
+  Eigen::MatrixX3d RightHandSide(const Eigen::MatrixX3d& data) const {
+    Eigen::MatrixX3d rhs = weights_.asDiagonal() * data;
+    for (const Eigen::Triplet<double>& entry : to_held_)
+      rhs.row(entry.row()) -= entry.value() * data.row(entry.col());
+    return rhs;
+  }
+
+  Eigen::MatrixX3d start_;
+  Eigen::VectorXd weights_;
   std::vector<char> held_;
-  std::vector<Vec3> start_;
+  std::vector<Eigen::Triplet<double>> entries_;  // lower triangle, without the data terms
+  std::vector<Eigen::Triplet<double>> to_held_;  // of free vertices in the columns of held ones
 };
 
 // An end of an edge: its index, and whether it is the last point.
@@ -248,12 +261,17 @@ void VisitOptions(SmoothingOptions& options, OptionVisitor& visitor) {
                  "Deviation: bends sharper than this stay sharp; pi rounds all off as the paper "
                  "does."},
                 options.corner_angle);
+  visitor.Visit({"keep_curvature", "", 0, 1,
+                 "Deviation: smooths what smoothing took away and adds it again (Tukey's twicing), "
+                 "because bends shrink with every fusion step otherwise."},
+                options.keep_curvature);
 }
 
 SmoothingOptions PaperSmoothingOptions() {
   SmoothingOptions options;
   options.hold_free_ends = false;
   options.corner_angle = M_PI;
+  options.keep_curvature = false;
   return options;
 }
 
@@ -275,7 +293,7 @@ SkeletonGraph SmoothGraph(const SkeletonGraph& graph, const SmoothingOptions& op
   }
   AddEdgeTerms(graph, edges, table, options.lambda, equations);
   AddNodeTerms(graph, edges, table, options, equations);
-  return WithPositions(graph, std::move(edges), table, equations.Solve());
+  return WithPositions(graph, std::move(edges), table, equations.Solve(options.keep_curvature));
 }
 
 }  // namespace curvefusion

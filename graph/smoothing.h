@@ -11,6 +11,7 @@ struct SmoothingOptions {
   double lambda = 60;
   bool hold_free_ends = true;
   double corner_angle = 1.0;
+  bool keep_curvature = true;
 };
 void VisitOptions(SmoothingOptions& options, OptionVisitor& visitor);
 
@@ -21,6 +22,8 @@ SmoothingOptions PaperSmoothingOptions();
 ///   sum |v_k - v0_k|^2 + lambda sum |v_(k-1) - 2 v_k + v_(k+1)|^2,
 /// both sums over each edge; junctions are shared, so their first term counts once per incident
 /// edge. Nodes of degree 2 count as points inside a curve, so a closed curve is smooth all around.
+/// With keep_curvature what smoothing took away is smoothed and added again (Tukey's twicing): a
+/// curve's shape shrinks by the square of what it would, while noise of a few steps still goes.
 /// Radii and observations are interpolated, not smoothed. One sparse factorisation: nearly linear
 /// in vertices.
 SkeletonGraph SmoothGraph(const SkeletonGraph& graph, const SmoothingOptions& options);

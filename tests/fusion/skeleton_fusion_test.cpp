@@ -62,7 +62,6 @@ TEST_P(FuseSkeletonsTest, TwoHalvesOfAHelixBecomeOne) {
   EXPECT_EQ(fused.node_count(), 2);
   // Smoothing shrinks a circle of 60 mm by lambda (step / radius)^4 = 0.05 %.
   EXPECT_NEAR(fused.TotalLength(), whole.TotalLength(), 0.002 * whole.TotalLength());
-  if (getenv("DUMP")) WriteSkeleton("/tmp/hel.json", fused);
   EXPECT_LT(MaxDistance(fused, whole), 0.0005);
 }
 
@@ -141,7 +140,6 @@ TEST_P(FuseSkeletonsTest, ALatticeSeenInSixBundlesIsTheLattice) {
           Perturbed(Lattice(4, 3, kSpacing), T, 0.0007, 10 * seed + bundle);
       fused = Fuse(fused, window, bundle);
     }
-    if (getenv("DUMP")) WriteSkeleton("/tmp/lat" + std::to_string(seed) + ".json", fused);
     EXPECT_EQ(fused.CycleRank(), truth.CycleRank()) << seed;
     EXPECT_EQ(fused.ComponentCount(), 1) << seed;
     EXPECT_EQ(fused.edge_count(), truth.edge_count() - 4) << seed;

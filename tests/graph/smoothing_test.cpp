@@ -51,16 +51,20 @@ TEST(SmoothGraph, ARingStaysClosedAndShrinksAsTheorySays) {
   const double radius = 0.001 / (2 * std::sin(M_PI / kPoints));  // steps of exactly 1 mm
   SkeletonGraph graph;
   graph.AddPolyline(Ring(radius, kPoints));
-  const SkeletonGraph smooth = SmoothGraph(graph, SmoothingOptions());
-  const Polyline& points = smooth.edge(0).points;
-  EXPECT_EQ(points.front(), points.back());
-  ASSERT_EQ(points.size(), kPoints + 1u);
-  // The circle is an eigenvector of the second difference.
+  // The circle is an eigenvector of the second difference; twicing squares what is lost.
   const double eigenvalue = 2 - 2 * std::cos(2 * M_PI / kPoints);
-  const double expected = radius / (1 + 60 * eigenvalue * eigenvalue);
-  // Rounding of the arc length against 14 um of shrinkage.
-  const double tolerance = 1e-10;
-  for (const Vec3& p : points) EXPECT_NEAR(p.norm(), expected, tolerance);
+  const double kept = 1 / (1 + 60 * eigenvalue * eigenvalue);
+  for (const bool keep_curvature : {false, true}) {
+    SmoothingOptions options;
+    options.keep_curvature = keep_curvature;
+    const SkeletonGraph smooth = SmoothGraph(graph, options);
+    const Polyline& points = smooth.edge(0).points;
+    EXPECT_EQ(points.front(), points.back());
+    ASSERT_EQ(points.size(), kPoints + 1u);
+    const double expected = radius * (keep_curvature ? 1 - (1 - kept) * (1 - kept) : kept);
+    // Rounding of the arc length, against a shrinkage of 4 um or 0.6 nm.
+    for (const Vec3& p : points) EXPECT_NEAR(p.norm(), expected, 1e-11);
+  }
 }
 
 TEST(SmoothGraph, AYKeepsItsJunctionShared) {
@@ -96,10 +100,10 @@ TEST(SmoothGraph, ACornerIsKeptOnlyOnRequest) {
 TEST(SmoothGraph, ABendOfAWireIsNoCorner) {
   SkeletonGraph graph;
   graph.AddPolyline(Resample(Helix(0.012, 0, 0.5), 0.001));
-  SmoothingOptions literal = Literal();
-  literal.hold_free_ends = true;
+  SmoothingOptions no_corners;
+  no_corners.corner_angle = M_PI;
   EXPECT_EQ(SmoothGraph(graph, SmoothingOptions()).edge(0).points,
-            SmoothGraph(graph, literal).edge(0).points);
+            SmoothGraph(graph, no_corners).edge(0).points);
 }
 
 TEST(SmoothGraph, AttributesAreCarriedAlong) {
