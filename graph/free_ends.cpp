@@ -87,22 +87,23 @@ NodeId NodeNear(const SkeletonGraph& graph, const CurvePoint& target, double dis
   return first <= last ? edge.nodes[0] : edge.nodes[1];
 }
 
-// What a join costs: its length, more where it leaves the direction of the end; infinite where it
+// What a join costs: its length over how far the end may reach in that direction; infinite where it
 // is not allowed.
 double JoinCost(const SkeletonGraph& graph, const FreeEnd& end, const CurvePoint& target,
                 const std::vector<const FreeEnd*>& end_of_node, const FreeEndOptions& options) {
   constexpr double kForbidden = std::numeric_limits<double>::infinity();
   const Vec3 gap = graph.edge(target.edge).points[target.index] - end.position;
   const double length = gap.norm();
-  const double least_cosine = std::cos(options.max_angle);
   const NodeId node = NodeNear(graph, target, options.snap_distance);
   if (node == end.node || length <= 0) return kForbidden;
-  const double cosine = end.outward.dot(gap) / length;
-  if (cosine < least_cosine) return kForbidden;
-  if (LoopLength(graph, end, target) < options.min_loop) return kForbidden;
   const FreeEnd* other = node >= 0 ? end_of_node[node] : nullptr;
-  if (other != nullptr && -other->outward.dot(gap) < least_cosine * length) return kForbidden;
-  return length * (2 - cosine) * (other != nullptr ? 0.5 : 1.0);
+  double cosine = end.outward.dot(gap) / length;
+  if (other != nullptr) cosine = std::min(cosine, -other->outward.dot(gap) / length);
+  const double max_gap = other != nullptr ? options.max_facing_gap : options.max_gap;
+  const double least = std::cos(other != nullptr ? options.max_facing_angle : options.max_angle);
+  const double reach = max_gap * (cosine - least) / (1 - least);
+  if (length > reach || LoopLength(graph, end, target) < options.min_loop) return kForbidden;
+  return length / reach;
 }
 
 std::vector<Join> CandidateJoins(const SkeletonGraph& graph, const std::vector<FreeEnd>& ends,
@@ -124,10 +125,11 @@ std::vector<Join> CandidateJoins(const SkeletonGraph& graph, const std::vector<F
   for (const NodeId node : graph.Nodes()) {
     end_of_node.resize(std::max<size_t>(end_of_node.size(), node + 1), nullptr);
   }
-  const PointGrid grid(positions, options.max_gap);
+  const double reach = std::max(options.max_gap, options.max_facing_gap);
+  const PointGrid grid(positions, reach);
   std::vector<Join> joins;
   for (size_t e = 0; e < ends.size(); ++e) {
-    grid.ForEachWithin(ends[e].position, options.max_gap, [&](int i, const Vec3&) {
+    grid.ForEachWithin(ends[e].position, reach, [&](int i, const Vec3&) {
       const double cost = JoinCost(graph, ends[e], targets[i], end_of_node, options);
       if (std::isfinite(cost)) {
         joins.push_back({cost, static_cast<int>(e), targets[i].edge, targets[i].index});
@@ -157,11 +159,18 @@ std::vector<Join> SelectJoins(const SkeletonGraph& graph, const std::vector<Free
 }  // namespace
 
 void VisitOptions(FreeEndOptions& options, OptionVisitor& visitor) {
-  visitor.Visit({"max_gap", "m", 0, 0.1, "Deviation: longest gap that is bridged."},
-                options.max_gap);
-  visitor.Visit({"max_angle", "rad", 0, 1.6,
-                 "Deviation: greatest angle between an end's direction and the bridge."},
+  visitor.Visit(
+      {"max_gap", "m", 0, 0.1, "Deviation: how far an end may reach for a curve straight ahead."},
+      options.max_gap);
+  visitor.Visit({"max_angle", "rad", 0.01, 1.6,
+                 "Deviation: the angle at which an end reaches nothing any more."},
                 options.max_angle);
+  visitor.Visit({"max_facing_gap", "m", 0, 0.1,
+                 "Deviation: how far an end may reach for another end that faces it."},
+                options.max_facing_gap);
+  visitor.Visit({"max_facing_angle", "rad", 0.01, 1.6,
+                 "Deviation: the angle at which two ends do not face each other any more."},
+                options.max_facing_angle);
   visitor.Visit({"fit_length", "m", 0.001, 0.5,
                  "Deviation: length of the end piece that gives its direction."},
                 options.fit_length);

@@ -13,7 +13,6 @@ namespace {
 
 // Keeps the fit where all lines are nearly parallel; a full line pulls with weight 1.
 constexpr double kPriorWeight = 0.02;
-constexpr int kFitRounds = 3;
 
 // A branch as a straight line near its junction.
 struct BranchLine {
@@ -52,25 +51,50 @@ std::vector<BranchEnd> BranchEnds(const SkeletonGraph& graph, const std::vector<
   return ends;
 }
 
-// The points of a branch between the two spheres around the centre, in order from the junction.
-// Ends at the far node's own blurred zone.
-std::vector<Vec3> FitZone(const SkeletonGraph& graph, const BranchEnd& end, const Vec3& center,
-                          const JunctionRefinementOptions& options) {
-  const SkeletonEdge& edge = graph.edge(end.edge);
-  const NodeId far_node = edge.nodes[1 - end.side];
-  const bool far_is_junction = graph.Degree(far_node) >= 3;
-  const int n = static_cast<int>(edge.points.size());
-  std::vector<Vec3> zone;
-  for (int i = 0; i < n; ++i) {
-    const Vec3& p = edge.points[end.side == 0 ? i : n - 1 - i];
-    const double distance = (p - center).norm();
-    if (distance > options.outer_radius && !zone.empty()) break;
-    const bool blurred =
-        far_is_junction && (p - graph.position(far_node)).norm() < options.inner_radius;
-    if (blurred && !zone.empty()) break;
-    if (distance >= options.inner_radius && !blurred) zone.push_back(p);
+// The first points of a branch in order from its junction, as far as they can matter.
+Polyline NearPoints(const SkeletonGraph& graph, const BranchEnd& end, double length) {
+  const Polyline& points = graph.edge(end.edge).points;
+  const size_t n = points.size();
+  Polyline near;
+  double arc_length = 0;
+  for (size_t i = 0; i < n && arc_length <= length; ++i) {
+    near.push_back(points[end.side == 0 ? i : n - 1 - i]);
+    if (i > 0) arc_length += (near[i] - near[i - 1]).norm();
   }
-  return zone;
+  return near;
+}
+
+bool IsBlurred(const Vec3& p, const std::vector<Polyline>& branches, size_t own, double radius) {
+  for (size_t other = 0; other < branches.size(); ++other) {
+    if (other == own) continue;
+    for (const Vec3& q : branches[other]) {
+      if ((p - q).squaredNorm() < radius * radius) return true;
+    }
+  }
+  return false;
+}
+
+// The stretch of a branch that lies clear of all others: [first, last) of its near points. Where
+// wires part at a small angle it begins far from the junction. It ends before the far node's own
+// blurred zone.
+std::pair<size_t, size_t> ClearStretch(const SkeletonGraph& graph, const BranchEnd& end,
+                                       const std::vector<Polyline>& branches, size_t own,
+                                       const JunctionRefinementOptions& options) {
+  const Polyline& points = branches[own];
+  const NodeId far_node = graph.edge(end.edge).nodes[1 - end.side];
+  const bool far_is_junction = graph.Degree(far_node) >= 3;
+  const auto near_far_node = [&](const Vec3& p) {
+    return far_is_junction && (p - graph.position(far_node)).norm() < options.inner_radius;
+  };
+  size_t first = points.size();
+  while (first > 0 && !IsBlurred(points[first - 1], branches, own, options.inner_radius)) --first;
+  size_t last = first;
+  double length = 0;
+  while (last < points.size() && length <= options.fit_length && !near_far_node(points[last])) {
+    if (last > first) length += (points[last] - points[last - 1]).norm();
+    ++last;
+  }
+  return {first, last};
 }
 
 BranchLine FitLine(const std::vector<Vec3>& points) {
@@ -85,14 +109,19 @@ BranchLine FitLine(const std::vector<Vec3>& points) {
 }
 
 std::vector<BranchLine> FitBranches(const SkeletonGraph& graph, const std::vector<BranchEnd>& ends,
-                                    const Vec3& center, const JunctionRefinementOptions& options) {
-  std::vector<BranchLine> lines;
+                                    const JunctionRefinementOptions& options) {
+  std::vector<Polyline> branches;
   for (const BranchEnd& end : ends) {
-    const std::vector<Vec3> zone = FitZone(graph, end, center, options);
-    if (zone.size() < 3) continue;
-    BranchLine line = FitLine(zone);
-    const double full = options.outer_radius - options.inner_radius;
-    line.weight = std::min(1.0, 2 * (zone.back() - zone.front()).norm() / full);
+    branches.push_back(NearPoints(graph, end, options.reach + options.fit_length));
+  }
+  std::vector<BranchLine> lines;
+  for (size_t i = 0; i < ends.size(); ++i) {
+    const auto [first, last] = ClearStretch(graph, ends[i], branches, i, options);
+    if (last - first < 3) continue;
+    const Polyline stretch(branches[i].begin() + static_cast<std::ptrdiff_t>(first),
+                           branches[i].begin() + static_cast<std::ptrdiff_t>(last));
+    BranchLine line = FitLine(stretch);
+    line.weight = std::min(1.0, 2 * Length(stretch) / options.fit_length);
     lines.push_back(line);
   }
   return lines;
@@ -121,33 +150,50 @@ JunctionFit FitJunction(const SkeletonGraph& graph, const std::vector<NodeId>& n
   Vec3 start = Vec3::Zero();
   for (const NodeId node : nodes) start += graph.position(node);
   start /= static_cast<double>(nodes.size());
-  const std::vector<BranchEnd> ends = BranchEnds(graph, nodes);
-  JunctionFit fit{start, 0};
-  for (int round = 0; round < kFitRounds; ++round) {
-    fit = MeetingPoint(FitBranches(graph, ends, fit.position, options), start);
-    if ((fit.position - start).norm() > options.max_move) {
-      return {start, std::numeric_limits<double>::infinity()};
-    }
+  const JunctionFit fit =
+      MeetingPoint(FitBranches(graph, BranchEnds(graph, nodes), options), start);
+  if ((fit.position - start).norm() > options.reach) {
+    return {start, std::numeric_limits<double>::infinity()};
   }
   return fit;
 }
 
-// A branch runs straight from its junction to where it leaves the blurred zone.
-void StraightenEnd(SkeletonGraph& graph, const BranchEnd& end, double radius) {
-  Polyline points = graph.edge(end.edge).points;
-  if (end.side == 1) std::reverse(points.begin(), points.end());
-  size_t first = 1;
-  while (first + 1 < points.size() && (points[first] - points[0]).norm() < radius) ++first;
-  points.erase(points.begin() + 1, points.begin() + static_cast<std::ptrdiff_t>(first));
-  if (end.side == 1) std::reverse(points.begin(), points.end());
-  graph.SetCurve(end.edge, std::move(points));
+// A branch runs straight from its junction, which has moved, to where it leaves the blurred zone
+// around the junction's new and old places.
+Polyline StraightenedBranch(const Polyline& branch, const Vec3& junction, double radius) {
+  const double moved = (junction - branch.front()).norm();
+  size_t nearest = 0;
+  double arc_length = 0;
+  for (size_t i = 1; i < branch.size() && arc_length <= moved + radius; ++i) {
+    arc_length += (branch[i] - branch[i - 1]).norm();
+    if ((branch[i] - junction).norm() < (branch[nearest] - junction).norm()) nearest = i;
+  }
+  size_t first = nearest;
+  while (first + 1 < branch.size() && ((branch[first] - junction).norm() < radius ||
+                                       (branch[first] - branch.front()).norm() < radius)) {
+    ++first;
+  }
+  first = std::max<size_t>(first, 1);
+  Polyline straightened{junction};
+  straightened.insert(straightened.end(), branch.begin() + static_cast<std::ptrdiff_t>(first),
+                      branch.end());
+  return straightened;
 }
 
 void PlaceJunction(SkeletonGraph& graph, NodeId node, const Vec3& position,
                    const JunctionRefinementOptions& options) {
-  graph.MoveNode(node, position);
+  std::vector<std::pair<BranchEnd, Polyline>> branches;
   for (const BranchEnd& end : BranchEnds(graph, {node})) {
-    StraightenEnd(graph, end, options.inner_radius);
+    Polyline points = graph.edge(end.edge).points;
+    if (end.side == 1) std::reverse(points.begin(), points.end());
+    branches.emplace_back(end, StraightenedBranch(points, position, options.inner_radius));
+  }
+  graph.MoveNode(node, position);
+  for (auto& [end, points] : branches) {
+    const SkeletonEdge& edge = graph.edge(end.edge);
+    if (edge.nodes[0] == edge.nodes[1]) continue;
+    if (end.side == 1) std::reverse(points.begin(), points.end());
+    graph.SetCurve(end.edge, std::move(points));
   }
 }
 
@@ -196,18 +242,19 @@ void VisitOptions(JunctionRefinementOptions& options, OptionVisitor& visitor) {
                  "Deviation: branches are not trusted nearer than this to a junction, where the "
                  "kernel blends them."},
                 options.inner_radius);
-  visitor.Visit({"outer_radius", "m", 0.001, 0.5,
-                 "Deviation: lines are fitted to branches up to this distance from a junction."},
-                options.outer_radius);
+  visitor.Visit({"fit_length", "m", 0.001, 0.5,
+                 "Deviation: length of the lines fitted to branches beyond that."},
+                options.fit_length);
+  visitor.Visit({"reach", "m", 0.001, 0.5,
+                 "Deviation: how far a junction may move, as it must where wires part at a small "
+                 "angle."},
+                options.reach);
   visitor.Visit(
       {"merge_distance", "m", 0, 0.5, "Deviation: junctions joined by a shorter edge may be one."},
       options.merge_distance);
   visitor.Visit({"max_residual", "m", 0, 0.1,
                  "Deviation: greatest distance of a branch's line from a merged junction."},
                 options.max_residual);
-  visitor.Visit(
-      {"max_move", "m", 0, 0.5, "Deviation: a junction that would move farther stays where it is."},
-      options.max_move);
 }
 
 void RefineJunctions(SkeletonGraph& graph, const JunctionRefinementOptions& options) {

@@ -9,10 +9,10 @@ namespace curvefusion {
 /// the junction, which blurs it by the kernel's width.
 struct JunctionRefinementOptions {
   double inner_radius = 0.007;
-  double outer_radius = 0.025;
+  double fit_length = 0.018;
+  double reach = 0.025;
   double merge_distance = 0.014;
   double max_residual = 0.0025;
-  double max_move = 0.012;
 };
 void VisitOptions(JunctionRefinementOptions& options, OptionVisitor& visitor);
 

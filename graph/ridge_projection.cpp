@@ -37,17 +37,56 @@ struct Level {
   DensityField field;
 };
 
-ObservedPoints UsablePoints(const ObservedPoints& points, double count_limit) {
+ObservedPoints UsablePoints(const ObservedPoints& points) {
   ObservedPoints usable;
   usable.Reserve(points.size());
   for (size_t i = 0; i < points.size(); ++i) {
     if (points.positions[i].allFinite() && points.viewing_rays[i].allFinite() &&
         points.counts[i] > 0) {
-      usable.Add(points.positions[i], points.viewing_rays[i],
-                 std::min(points.counts[i], static_cast<float>(count_limit)));
+      usable.Add(points.positions[i], points.viewing_rays[i], points.counts[i]);
     }
   }
   return usable;
+}
+
+double Median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// The strength that half of the summed strength lies below: outliers, however many, hardly count.
+double TypicalStrength(std::vector<double> strengths) {
+  std::sort(strengths.begin(), strengths.end());
+  const double half = std::accumulate(strengths.begin(), strengths.end(), 0.0) / 2;
+  double sum = 0;
+  for (const double strength : strengths) {
+    sum += strength;
+    if (sum >= half) return strength;
+  }
+  return 0;
+}
+
+// Divides the counts by what is usual nearby, the count-weighted mean within the radius: wires seen
+// often and seldom become equally strong, while their profile across stays.
+void EqualizeCounts(ObservedPoints& points, double radius, double least_relative_count) {
+  const PointGrid grid(points.positions, radius);
+  std::vector<double> usual(points.size());
+  ParallelFor(0, static_cast<int64_t>(points.size()), kGrain, [&](int64_t i) {
+    double sum = 0;
+    double squares = 0;
+    grid.ForEachWithin(points.positions[i], radius, [&](int j, const Vec3&) {
+      const double count = points.counts[j];
+      sum += count;
+      squares += count * count;
+    });
+    usual[i] = squares / sum;
+  });
+  const double least = least_relative_count * Median(usual);
+  for (size_t i = 0; i < points.size(); ++i) {
+    points.counts[i] = static_cast<float>(points.counts[i] / std::max(usual[i], least));
+  }
 }
 
 std::vector<Level> MakeLevels(const ObservedPoints& points, const RidgeProjectionOptions& options) {
@@ -91,8 +130,10 @@ void ProjectSeed(const DensityField& field, int iterations, RidgeSeed& seed,
     Eigen::SelfAdjointEigenSolver<Mat3> solver;
     solver.computeDirect(moments.covariance);
     seed.direction = solver.eigenvectors().col(2);
-    seed.elongation = solver.eigenvalues()[2] / (kKernelVariance * field.sigma() * field.sigma());
-    const Vec3 step = moments.mean - seed.direction.dot(moments.mean) * seed.direction;
+    const double along = seed.direction.dot(moments.mean);
+    seed.elongation = (solver.eigenvalues()[2] + along * along) /
+                      (kKernelVariance * field.sigma() * field.sigma());
+    const Vec3 step = moments.mean - along * seed.direction;
     seed.position += step;
     if (step.norm() < kConvergedStep) return;
   }
@@ -126,18 +167,39 @@ std::vector<RidgeSeed> ThinOut(const std::vector<RidgeSeed>& seeds, double spaci
   return kept;
 }
 
-// Drops what is no ridge: outliers, which are weak, and saddles between two wires, where the
-// principal direction leads across, from one to the other.
-void DropFalseSeeds(std::vector<RidgeSeed>& seeds, const RidgeProjectionOptions& options) {
-  if (seeds.empty()) return;
+// The typical strength of the seeds of one level around each seed.
+std::vector<double> UsualStrengths(const std::vector<RidgeSeed>& seeds, double radius) {
+  std::vector<Vec3> positions;
+  for (const RidgeSeed& seed : seeds) positions.push_back(seed.position);
+  const PointGrid grid(positions, radius);
+  std::vector<double> usual(seeds.size());
+  ParallelFor(0, static_cast<int64_t>(seeds.size()), kGrain, [&](int64_t i) {
+    std::vector<double> around;
+    grid.ForEachWithin(positions[i], radius, [&](int j, const Vec3&) {
+      if (seeds[j].level == seeds[i].level) around.push_back(seeds[j].strength);
+    });
+    usual[i] = TypicalStrength(std::move(around));
+  });
+  return usual;
+}
+
+// Drops what is no ridge: outliers, which are weaker than the ridge nearby, and saddles between two
+// wires, where the principal direction leads across, from one to the other.
+std::vector<RidgeSeed> TrueRidgeSeeds(const std::vector<RidgeSeed>& seeds,
+                                      const RidgeProjectionOptions& options) {
+  const std::vector<double> usual = UsualStrengths(seeds, options.strength_radius);
   std::vector<double> strengths;
   for (const RidgeSeed& seed : seeds) strengths.push_back(seed.strength);
-  const auto middle = strengths.begin() + static_cast<std::ptrdiff_t>(strengths.size() / 2);
-  std::nth_element(strengths.begin(), middle, strengths.end());
-  const double least = options.min_relative_strength * *middle;
-  std::erase_if(seeds, [&](const RidgeSeed& seed) {
-    return seed.strength <= least || seed.elongation > options.max_elongation;
-  });
+  const double least = options.min_relative_strength * TypicalStrength(std::move(strengths));
+  std::vector<RidgeSeed> kept;
+  for (size_t i = 0; i < seeds.size(); ++i) {
+    const double strength = seeds[i].strength;
+    if (strength > least && strength >= options.min_local_strength * usual[i] &&
+        seeds[i].elongation <= options.max_elongation) {
+      kept.push_back(seeds[i]);
+    }
+  }
+  return kept;
 }
 
 }  // namespace
@@ -158,17 +220,28 @@ void VisitOptions(RidgeProjectionOptions& options, OptionVisitor& visitor) {
   visitor.Visit({"sigma_per_thickness", "", 0, 10,
                  "Deviation: width of the kernel over the rms half width of the points across."},
                 options.sigma_per_thickness);
-  visitor.Visit({"count_limit", "pixels", 1, 1e6,
-                 "Deviation: a point counts as often as it was seen, up to this often, so that "
-                 "long looks at one part do not pull at their surroundings."},
-                options.count_limit);
+  visitor.Visit({"equalization_radius", "m", 0.0005, 0.1,
+                 "Deviation: counts are divided by what is usual within this distance, so that "
+                 "parts seen seldom hold their own beside parts seen often."},
+                options.equalization_radius);
+  visitor.Visit({"least_relative_count", "", 0, 1,
+                 "Deviation: what is seen less often than this part of the median stays weak: it "
+                 "is outliers."},
+                options.least_relative_count);
   visitor.Visit({"iterations", "", 1, 1000, "Deviation: most mean-shift steps of a point."},
                 options.iterations);
   visitor.Visit({"spacing", "m", 0.0002, 0.02, "Deviation: least distance of ridge points."},
                 options.spacing);
   visitor.Visit({"min_relative_strength", "", 0, 1,
-                 "Deviation: ridge points weaker than this part of the median are outliers."},
+                 "Deviation: ridge points weaker than this part of the typical one are outliers."},
                 options.min_relative_strength);
+  visitor.Visit({"strength_radius", "m", 0.001, 0.1,
+                 "Deviation: neighbourhood in which ridge points are compared."},
+                options.strength_radius);
+  visitor.Visit({"min_local_strength", "", 0, 1,
+                 "Deviation: ridge points weaker than this part of what is typical in their "
+                 "neighbourhood lie beyond an end or beside a wire."},
+                options.min_local_strength);
   visitor.Visit({"max_elongation", "", 1, 100,
                  "Deviation: greatest variance along a ridge, over that of a uniform curve; it is "
                  "larger between parallel wires."},
@@ -189,15 +262,16 @@ ObservedPoints ShiftAlongRays(const ObservedPoints& points, const std::vector<do
 }
 
 RidgePoints ProjectToRidges(const ObservedPoints& points, const RidgeProjectionOptions& options) {
-  const ObservedPoints usable = UsablePoints(points, options.count_limit);
+  ObservedPoints usable = UsablePoints(points);
+  EqualizeCounts(usable, options.equalization_radius, options.least_relative_count);
   const std::vector<Level> levels = MakeLevels(usable, options);
   std::vector<RidgeSeed> seeds = MakeSeeds(usable, levels, options);
   ProjectSeeds(levels, kGatheringIterations, seeds);
   seeds = ThinOut(seeds, options.spacing / 2);
   ProjectSeeds(levels, options.iterations, seeds);
-  DropFalseSeeds(seeds, options);
+  seeds = ThinOut(seeds, options.spacing);
   RidgePoints ridge;
-  for (const RidgeSeed& seed : ThinOut(seeds, options.spacing)) {
+  for (const RidgeSeed& seed : TrueRidgeSeeds(seeds, options)) {
     ridge.positions.push_back(seed.position);
     ridge.directions.push_back(seed.direction);
     ridge.strengths.push_back(seed.strength);

@@ -15,11 +15,14 @@ struct RidgeProjectionOptions {
   double ray_stretch = 1;
   double max_sigma = 0.007;
   double sigma_per_thickness = 1.3;
-  double count_limit = 4;
+  double equalization_radius = 0.01;
+  double least_relative_count = 0.2;
   int iterations = 30;
   double spacing = 0.0015;
-  double min_relative_strength = 0.1;
-  double max_elongation = 1.5;
+  double min_relative_strength = 0.2;
+  double strength_radius = 0.01;
+  double min_local_strength = 0.5;
+  double max_elongation = 1.6;
 };
 void VisitOptions(RidgeProjectionOptions& options, OptionVisitor& visitor);
 

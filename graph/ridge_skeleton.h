@@ -18,7 +18,7 @@ struct RidgeOptions {
   JunctionRefinementOptions junctions;
   double fragment_length = 0.008;
   double min_component = 0.03;
-  double smoothing_length = 0.004;
+  double smoothing_length = 0.003;
   double step = 0.0015;
 };
 
