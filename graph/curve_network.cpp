@@ -185,11 +185,11 @@ SkeletonGraph ConnectRidgePoints(const RidgePoints& ridge, const CurveNetworkOpt
     if (!links.HasWay(link.a, link.b, options.min_loop)) links.Add(link);
   }
   SkeletonGraph graph = TraceChains(links, ridge);
-  PruneSpurs(graph, options.min_spur);
+  PruneDeadEnds(graph, options.min_spur);
   return graph;
 }
 
-void PruneSpurs(SkeletonGraph& graph, double min_length) {
+void PruneDeadEnds(SkeletonGraph& graph, double min_length) {
   for (auto spurs = Spurs(graph, min_length); !spurs.empty(); spurs = Spurs(graph, min_length)) {
     for (const auto& [length, id] : spurs) {
       if (StillSpur(graph, id)) graph.RemoveEdge(id);

@@ -25,7 +25,7 @@ SkeletonGraph ConnectRidgePoints(const RidgePoints& ridge, const CurveNetworkOpt
 
 /// Removes dead ends shorter than `min_length`, the shortest first, and joins the two edges that
 /// are left at a node. Whole components are kept.
-void PruneSpurs(SkeletonGraph& graph, double min_length);
+void PruneDeadEnds(SkeletonGraph& graph, double min_length);
 
 /// Removes components whose edges are together shorter than `min_length`.
 void DropSmallComponents(SkeletonGraph& graph, double min_length);

@@ -84,7 +84,7 @@ SkeletonGraph ExtractRidgeSkeleton(const ObservedPoints& points, const RidgeOpti
   SmoothEdges(graph, options.smoothing_length, options.step);
   CloseFreeEnds(graph, options.free_ends);
   RefineJunctions(graph, options.junctions);
-  PruneSpurs(graph, options.network.min_spur);
+  PruneDeadEnds(graph, options.network.min_spur);
   DropSmallComponents(graph, options.min_component);
   SmoothEdges(graph, options.smoothing_length, options.step);
   return graph;
