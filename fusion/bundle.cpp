@@ -59,14 +59,18 @@ void BundleDifferenceSet::AddFrame(const MaskImage& mask, const MaskImage& on_ed
       const Vec3 p_camera = camera.Unproject(u, v, depth(u, v));
       const Vec3 p_bundle = T_bundle_camera * p_camera;
       Voxel& voxel = VoxelAt(p_bundle);
-      voxel.position_sum += p_bundle;
-      voxel.ray_sum += T_bundle_camera.linear() * p_camera.normalized();
-      ++voxel.pixels;
+      if (voxel.sightings.empty() || voxel.sightings.back().frame != frame) {
+        voxel.sightings.push_back({});
+        voxel.sightings.back().frame = frame;
+      }
+      Sighting& sighting = voxel.sightings.back();
+      sighting.position_sum += p_bundle;
+      sighting.ray_sum += T_bundle_camera.linear() * p_camera.normalized();
+      ++sighting.pixels;
       const int outline = OnOutline(mask, u, v);
       voxel.evidence.edge_pixels += on_edge(u, v);
       voxel.evidence.outline_pixels += outline;
       voxel.evidence.outline_edge_pixels += outline & on_edge(u, v);
-      if (voxel.frames.empty() || voxel.frames.back() != frame) voxel.frames.push_back(frame);
     }
   }
 }
@@ -78,7 +82,7 @@ int BundleDifferenceSet::FramesAround(const VoxelKey& key) const {
       for (int dx = -1; dx <= 1; ++dx) {
         const auto it = slot_of_voxel_.find({key.x + dx, key.y + dy, key.z + dz});
         if (it == slot_of_voxel_.end()) continue;
-        for (const int frame : voxels_[it->second].frames) seen[frame] = 1;
+        for (const Sighting& sighting : voxels_[it->second].sightings) seen[sighting.frame] = 1;
       }
     }
   }
@@ -87,16 +91,33 @@ int BundleDifferenceSet::FramesAround(const VoxelKey& key) const {
 
 BundlePoints BundleDifferenceSet::Points() const {
   BundlePoints bundle;
+  const int min_frames = std::min(options_.min_frames, frame_count_);
   for (size_t i = 0; i < voxels_.size(); ++i) {
-    if (options_.min_frames > 1 &&
-        FramesAround(keys_[i]) < std::min(options_.min_frames, frame_count_))
-      continue;
-    const Voxel& voxel = voxels_[i];
-    bundle.points.Add(voxel.position_sum / voxel.pixels, voxel.ray_sum.normalized(),
-                      static_cast<float>(voxel.pixels));
-    bundle.evidence.push_back(voxel.evidence);
+    if (min_frames > 1 && FramesAround(keys_[i]) < min_frames) continue;
+    Vec3 position_sum = Vec3::Zero(), ray_sum = Vec3::Zero();
+    int pixels = 0;
+    for (const Sighting& sighting : voxels_[i].sightings) {
+      position_sum += sighting.position_sum;
+      ray_sum += sighting.ray_sum;
+      pixels += sighting.pixels;
+    }
+    bundle.points.Add(position_sum / pixels, ray_sum.normalized(), static_cast<float>(pixels));
+    bundle.evidence.push_back(voxels_[i].evidence);
+    bundle.voxels.push_back(static_cast<int>(i));
   }
   return bundle;
+}
+
+std::vector<ObservedPoints> BundleDifferenceSet::FramePoints(const std::vector<int>& voxels) const {
+  std::vector<ObservedPoints> frames(frame_count_);
+  for (const int voxel : voxels) {
+    for (const Sighting& sighting : voxels_[voxel].sightings) {
+      frames[sighting.frame].Add(sighting.position_sum / sighting.pixels,
+                                 sighting.ray_sum.normalized(),
+                                 static_cast<float>(sighting.pixels));
+    }
+  }
+  return frames;
 }
 
 }  // namespace curvefusion

@@ -31,6 +31,7 @@ struct ColourEvidence {
 struct BundlePoints {
   ObservedPoints points;
   std::vector<ColourEvidence> evidence;  ///< as many as points
+  std::vector<int> voxels;               ///< handles of the points' voxels in their difference set
 };
 
 /// First and one past the last frame of every bundle. A last bundle of less than half the size
@@ -53,15 +54,22 @@ class BundleDifferenceSet {
   /// frames.
   BundlePoints Points() const;
 
+  /// What each frame saw of the voxels given (BundlePoints::voxels): one point per frame and voxel.
+  std::vector<ObservedPoints> FramePoints(const std::vector<int>& voxels) const;
+
   int frame_count() const { return frame_count_; }
 
  private:
-  struct Voxel {
+  // What one frame saw of one voxel.
+  struct Sighting {
+    int frame = 0;
+    int pixels = 0;
     Vec3 position_sum = Vec3::Zero();
     Vec3 ray_sum = Vec3::Zero();
-    int pixels = 0;
+  };
+  struct Voxel {
+    std::vector<Sighting> sightings;  // by ascending frame
     ColourEvidence evidence;
-    std::vector<int> frames;  // ascending
   };
   Voxel& VoxelAt(const Vec3& p_bundle);
   int FramesAround(const VoxelKey& key) const;

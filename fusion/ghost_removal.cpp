@@ -103,7 +103,7 @@ void VisitOptions(GhostRemovalOptions& options, OptionVisitor& visitor) {
                 options.verified_outline);
 }
 
-ObservedPoints RemoveGhosts(const BundlePoints& bundle, const GhostRemovalOptions& options) {
+BundlePoints RemoveGhosts(const BundlePoints& bundle, const GhostRemovalOptions& options) {
   const std::vector<Vec3>& positions = bundle.points.positions;
   std::vector<Cluster> clusters = LargeClusters(positions, options);
   const auto unverified = [&](const Cluster& cluster) {
@@ -115,12 +115,13 @@ ObservedPoints RemoveGhosts(const BundlePoints& bundle, const GhostRemovalOption
     kept.insert(kept.end(), cluster.begin(), cluster.end());
   }
   std::sort(kept.begin(), kept.end());
-  ObservedPoints points;
-  points.Reserve(kept.size());
+  BundlePoints remaining;
   for (const int i : kept) {
-    points.Add(positions[i], bundle.points.viewing_rays[i], bundle.points.counts[i]);
+    remaining.points.Add(positions[i], bundle.points.viewing_rays[i], bundle.points.counts[i]);
+    remaining.evidence.push_back(bundle.evidence[i]);
+    remaining.voxels.push_back(bundle.voxels[i]);
   }
-  return points;
+  return remaining;
 }
 
 }  // namespace curvefusion

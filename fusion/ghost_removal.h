@@ -1,7 +1,6 @@
 #pragma once
 
 #include "fusion/bundle.h"
-#include "kernel/observed_points.h"
 #include "kernel/options.h"
 
 namespace curvefusion {
@@ -23,6 +22,6 @@ void VisitOptions(GhostRemovalOptions& options, OptionVisitor& visitor);
 /// The paper drops clusters "more than 10 cm away from any other cluster". Read literally that
 /// deletes an object that is alone because the segmentation was clean, so isolation is measured to
 /// larger clusters only: the largest one always stays.
-ObservedPoints RemoveGhosts(const BundlePoints& bundle, const GhostRemovalOptions& options);
+BundlePoints RemoveGhosts(const BundlePoints& bundle, const GhostRemovalOptions& options);
 
 }  // namespace curvefusion

@@ -69,8 +69,11 @@ SegmentedBundle SegmentBundle(const Sequence& sequence, int first, int last,
           segmented.T_world_bundle.inverse() * sequence.frames[frame].T_world_camera);
     }
   }
-  segmented.difference_set = difference_set.Points();
-  segmented.points = RemoveGhosts(segmented.difference_set, options.ghosts);
+  BundlePoints candidates = difference_set.Points();
+  BundlePoints remaining = RemoveGhosts(candidates, options.ghosts);
+  segmented.frames = difference_set.FramePoints(remaining.voxels);
+  segmented.difference_set = std::move(candidates.points);
+  segmented.points = std::move(remaining.points);
   return segmented;
 }
 

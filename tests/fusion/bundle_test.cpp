@@ -54,6 +54,18 @@ TEST(BundleDifferenceSet, PointsSeenInTooFewFramesAreDropped) {
   EXPECT_EQ(points.evidence[0].edge_pixels, 0);
 }
 
+TEST(BundleDifferenceSet, FramePointsAreWhatEachFrameSaw) {
+  BundleDifferenceSet set({});
+  const OnePixel first(0.5f), second(0.7f);
+  set.AddFrame(first.mask, first.none, first.depth, kCamera, RigidTransform::Identity());
+  set.AddFrame(second.mask, second.none, second.depth, kCamera, RigidTransform::Identity());
+  const std::vector<ObservedPoints> frames = set.FramePoints(set.Points().voxels);
+  ASSERT_EQ(frames.size(), 2u);
+  ASSERT_EQ(frames[1].size(), 1u);
+  EXPECT_NEAR(frames[1].positions[0].z(), 0.7, 1e-7);  // depth is a float
+  EXPECT_TRUE(set.FramePoints({})[0].empty());
+}
+
 TEST(BundleDifferenceSet, ABundleOfFewFramesAsksForNoMoreThanItHas) {
   BundleOptions options;
   options.min_frames = 3;
