@@ -42,9 +42,19 @@ class ClosestPointAligner {
                       const AlignmentOptions& options)
       : source_(source), target_(target), options_(options), index_(target.points) {}
 
+  // Starts wide and starts narrow, and takes what brings more points close. A wide start finds
+  // large drifts; a narrow one is not drawn away by curves that have no counterpart.
   AlignmentResult Align() {
+    const AlignmentResult wide = AlignWithin(options_.max_distance);
+    const AlignmentResult narrow = AlignWithin(options_.inlier_distance);
+    return Closeness(narrow) > Closeness(wide) ? narrow : wide;
+  }
+
+ private:
+  AlignmentResult AlignWithin(double max_distance) {
     AlignmentResult result;
     if (source_.points.empty() || target_.points.empty()) return result;
+    max_distance_ = std::min(max_distance, options_.max_distance);
     for (int i = 0; i < options_.max_iterations && !result.converged; ++i) {
       FindPairs(result.T_target_source);
       UpdateGate();
@@ -59,7 +69,23 @@ class ClosestPointAligner {
     return result;
   }
 
- private:
+  // How close an alignment brings the points: the sum of their weights with the narrowest gate.
+  double Closeness(const AlignmentResult& result) {
+    if (result.iterations == 0) return 0;
+    FindPairs(result.T_target_source);
+    gate_ = options_.inlier_distance;
+    double sum = 0;
+    for (const Pair& pair : pairs_) sum += Weight(pair);
+    return sum;
+  }
+
+  // Tukey's biweight; 0 for what is not paired.
+  double Weight(const Pair& pair) const {
+    if (pair.target < 0 || pair.distance >= gate_) return 0;
+    const double ratio = pair.distance / gate_;
+    return (1 - ratio * ratio) * (1 - ratio * ratio);
+  }
+
   // The part of an offset from a target point that counts as distance.
   Vec3 Residual(int target, const Vec3& offset) const {
     if (target_.tangents.empty() || !options_.point_to_line) return offset;
@@ -82,7 +108,7 @@ class ClosestPointAligner {
       const int j =
           by_direction ? NearestCompatible(p, T.linear() * source_.tangents[i]) : index_.Nearest(p);
       pairs_[i] = {};
-      if (j < 0 || (p - target_.points[j]).norm() > options_.max_distance) return;
+      if (j < 0 || (p - target_.points[j]).norm() > max_distance_) return;
       pairs_[i] = {j, Residual(j, p - target_.points[j]).norm()};
     });
   }
@@ -96,7 +122,7 @@ class ClosestPointAligner {
       const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
       std::nth_element(distances.begin(), middle, distances.end());
       gate_ = std::clamp(kGateInMedians * *middle, options_.inlier_distance,
-                         std::max(options_.inlier_distance, options_.max_distance));
+                         std::max(options_.inlier_distance, max_distance_));
     }
     inliers_ = static_cast<int>(std::count_if(pairs_.begin(), pairs_.end(), [this](const Pair& p) {
       return p.target >= 0 && p.distance < gate_;
@@ -118,9 +144,8 @@ class ClosestPointAligner {
     Vec6 gradient = Vec6::Zero();
     for (size_t i = 0; i < pairs_.size(); ++i) {
       const Pair& pair = pairs_[i];
-      if (pair.target < 0 || pair.distance >= gate_) continue;
-      const double ratio = pair.distance / gate_;
-      const double weight = (1 - ratio * ratio) * (1 - ratio * ratio);
+      const double weight = Weight(pair);
+      if (weight == 0) continue;
       const Vec3 arm = (moved_[i] - center) / scale;
       Eigen::Matrix<double, 3, 6> jacobian;
       for (int axis = 0; axis < 3; ++axis) {
@@ -174,6 +199,7 @@ class ClosestPointAligner {
   PointIndex index_;
   std::vector<Pair> pairs_;
   std::vector<Vec3> moved_;
+  double max_distance_ = 0;
   double gate_ = 0;
   int inliers_ = 0;
 };

@@ -34,7 +34,8 @@ struct AlignmentResult {
 /// Aligns points to points that lie on lines. `target_tangents` holds unit tangents, one per target
 /// point, or is empty: distances are then to points. Motions that the correspondences do not
 /// determine (along a straight line, around it) are left alone. Robust: only pairs within a gate
-/// that shrinks with the median distance count, with Tukey's weights. Of more than `max_points`
+/// that shrinks with the median distance count, with Tukey's weights; of a wide and a narrow first
+/// gate the better result is taken. Of more than `max_points`
 /// points evenly many are used. O(n log m) per iteration; the same bits for any number of threads.
 AlignmentResult AlignPointsToPoints(const std::vector<Vec3>& points,
                                     const std::vector<Vec3>& target_points,

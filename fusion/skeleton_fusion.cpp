@@ -12,10 +12,13 @@
 #include "graph/edge_curve.h"
 #include "graph/intersections.h"
 #include "graph/merge.h"
+#include "graph/validate.h"
 
 namespace curvefusion {
 
 namespace {
+
+constexpr int kMaxCleaningRounds = 10;
 
 // The graph at even steps, every point with observations.
 SkeletonGraph Prepared(const SkeletonGraph& graph, double observations, double step) {
@@ -96,7 +99,13 @@ SkeletonGraph CleanedAndSmoothed(SkeletonGraph graph, const SkeletonFusionOption
   RemoveSmallCycles(graph, options.min_cycle_length);
   RemoveShortEdges(graph, options.min_edge_length);
   graph = SmoothGraph(graph, options.smoothing);
-  // Moved curves may touch anew.
+  // Moved curves may touch anew, and new junctions leave short edges. One round is the rule.
+  for (int round = 0; round < kMaxCleaningRounds; ++round) {
+    ResolveIntersections(graph, options.intersection_distance);
+    const int edges = graph.edge_count();
+    RemoveShortEdges(graph, options.min_edge_length);
+    if (graph.edge_count() == edges) return graph;
+  }
   ResolveIntersections(graph, options.intersection_distance);
   return graph;
 }
@@ -142,6 +151,10 @@ void VisitOptions(SkeletonFusionOptions& options, OptionVisitor& visitor) {
   visitor.Visit(
       {"min_edge_length", "m", 0, 0.1, "Shorter edges are removed after merging. CurveFusion 3.3."},
       options.min_edge_length);
+  visitor.Visit({"min_cycle_length", "m", 0, 1,
+                 "Deviation: shorter cycles are opened; spurs that touch a neighbouring branch "
+                 "make them. 0 keeps all, as the paper does."},
+                options.min_cycle_length);
 }
 
 SkeletonFusionOptions PaperSkeletonFusionOptions() {
@@ -159,6 +172,8 @@ SkeletonGraph FuseSkeletons(const SkeletonGraph& partial, const SkeletonGraph& b
                             int bundles_so_far, const SkeletonFusionOptions& options,
                             AlignmentResult* alignment) {
   assert(bundles_so_far >= 1 || partial.empty());
+  RequireFinite(partial, "partial skeleton");
+  RequireFinite(bundle, "bundle skeleton");
   const double step = options.smoothing.step;
   SkeletonGraph fused = Prepared(partial, bundles_so_far, step);
   SkeletonGraph next = Prepared(bundle, 1, step);

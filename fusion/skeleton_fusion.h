@@ -36,8 +36,9 @@ SkeletonFusionOptions PaperSkeletonFusionOptions();
 /// may be empty. The result is valid for `intersection_distance` (graph/validate.h), sampled at the
 /// smoothing step, and carries observations: bundles, or whatever unit the inputs carry; inputs
 /// without count as bundles_so_far and 1. Where `alignment` is given it receives how the bundle was
-/// aligned to the partial skeleton; with no trustworthy alignment nothing is moved. Near-linear in
-/// points.
+/// aligned to the partial skeleton; with no trustworthy alignment nothing is moved. The first
+/// bundle is cleaned and smoothed like the others. Throws Error(kBadInput) for coordinates that are
+/// not finite. Near-linear in points.
 SkeletonGraph FuseSkeletons(const SkeletonGraph& partial, const SkeletonGraph& bundle,
                             int bundles_so_far, const SkeletonFusionOptions& options,
                             AlignmentResult* alignment = nullptr);

@@ -9,6 +9,7 @@
 #include "graph/edge_curve.h"
 #include "graph/junctions.h"
 #include "graph/merge.h"
+#include "graph/validate.h"
 
 namespace curvefusion {
 
@@ -92,6 +93,7 @@ void CutContactsAway(SkeletonGraph& graph, const std::vector<Contact>& contacts)
 }  // namespace
 
 void ResolveIntersections(SkeletonGraph& graph, double threshold) {
+  RequireFinite(graph, "graph with intersections to resolve");
   for (int round = 0; true; ++round) {
     Tidy(graph, threshold);
     const std::vector<Contact> contacts = FindContacts(graph, threshold);

@@ -10,9 +10,9 @@ namespace curvefusion {
 /// result has no contacts, so a second call changes nothing. Which segments meet is decided
 /// exactly; new points are rounded once. Near-linear in segments for graphs with few contacts;
 /// terminates for every graph: what cannot be joined after some rounds is cut away, the shorter
-/// edge first. CurveFusion 3.3: "if any two curve segments intersect (within a proximity threshold)
-/// at an internal point, we create a new junction at this intersection and split each of the
-/// segments".
+/// edge first. Throws Error(kBadInput) for coordinates that are not finite. CurveFusion 3.3: "if
+/// any two curve segments intersect (within a proximity threshold) at an internal point, we create
+/// a new junction at this intersection and split each of the segments".
 void ResolveIntersections(SkeletonGraph& graph, double threshold);
 
 }  // namespace curvefusion

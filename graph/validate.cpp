@@ -20,6 +20,10 @@ bool HasInvalidValue(const std::vector<double>& values, bool zero_allowed) {
   });
 }
 
+bool AllFinite(const Polyline& points) {
+  return std::all_of(points.begin(), points.end(), [](const Vec3& p) { return p.allFinite(); });
+}
+
 bool IsPerPoint(const std::vector<double>& values, const Polyline& points) {
   return values.empty() || values.size() == points.size();
 }
@@ -28,9 +32,7 @@ bool IsPerPoint(const std::vector<double>& values, const Polyline& points) {
 std::vector<std::string> EdgeFaults(const SkeletonGraph& graph, const SkeletonEdge& edge) {
   std::vector<std::string> faults;
   if (edge.points.size() < 2) return {"has fewer than two points"};
-  const auto is_finite = [](const Vec3& p) { return p.allFinite(); };
-  if (!std::all_of(edge.points.begin(), edge.points.end(), is_finite))
-    faults.push_back("has a coordinate that is not finite");
+  if (!AllFinite(edge.points)) faults.push_back("has a coordinate that is not finite");
   if (edge.points.front() != graph.position(edge.nodes[0]) ||
       edge.points.back() != graph.position(edge.nodes[1]))
     faults.push_back("does not end in its nodes");
@@ -82,6 +84,13 @@ void Validate(const SkeletonGraph& graph, double proximity, const std::string& s
   for (size_t i = 0; i < std::min(kListedViolations, violations.size()); ++i)
     text += "\n  " + violations[i];
   throw Error(ErrorKind::kBadInput, text);
+}
+
+void RequireFinite(const SkeletonGraph& graph, const std::string& subject) {
+  for (const EdgeId id : graph.Edges())
+    if (!AllFinite(graph.edge(id).points))
+      throw Error(ErrorKind::kBadInput,
+                  fmt::format("{}: edge {} has a coordinate that is not finite", subject, id));
 }
 
 }  // namespace curvefusion

@@ -21,4 +21,8 @@ std::vector<std::string> Violations(const SkeletonGraph& graph, double proximity
 /// `subject` says what was validated ("skeleton.json", "the fused skeleton").
 void Validate(const SkeletonGraph& graph, double proximity, const std::string& subject);
 
+/// Throws Error(kBadInput) where a coordinate is not finite: geometric steps cannot start from
+/// that.
+void RequireFinite(const SkeletonGraph& graph, const std::string& subject);
+
 }  // namespace curvefusion

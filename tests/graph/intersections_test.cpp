@@ -6,6 +6,7 @@
 
 #include "graph/graph_io.h"
 #include "graph/validate.h"
+#include "kernel/error.h"
 #include "tests/graph/graph_fixtures.h"
 
 namespace curvefusion {
@@ -63,6 +64,13 @@ TEST(ResolveIntersections, ALoopIsClosedByAJunctionWithItself) {
   EXPECT_EQ(resolved.edge_count(), 3);
   EXPECT_EQ(resolved.CycleRank(), 1);
   EXPECT_EQ(CountDegree(resolved, 4), 1);
+}
+
+TEST(ResolveIntersections, NothingIsFineNotANumberIsRejected) {
+  EXPECT_TRUE(Resolved({}).empty());
+  SkeletonGraph graph;
+  graph.AddPolyline({{0, 0, 0}, {0, NAN, 0}, {1, 0, 0}});
+  EXPECT_THROW(ResolveIntersections(graph, kThreshold), Error);
 }
 
 TEST(ResolveIntersections, SeparateCurvesStayUntouched) {
