@@ -7,10 +7,10 @@ namespace curvefusion {
 
 /// When a free end is joined to what lies ahead of it. Deviation: CurveFusion leaves gaps open.
 struct FreeEndOptions {
-  double max_gap = 0.02;
-  double max_angle = 0.7;
-  double max_facing_gap = 0.025;
-  double max_facing_angle = 1.0;
+  double max_gap = 0.025;
+  double max_angle = 1.1;
+  double max_facing_gap = 0.028;
+  double max_facing_angle = 1.3;
   double fit_length = 0.015;
   double snap_distance = 0.006;
   double min_loop = 0.035;

@@ -13,6 +13,7 @@ namespace {
 
 // Keeps the fit where all lines are nearly parallel; a full line pulls with weight 1.
 constexpr double kPriorWeight = 0.02;
+constexpr int kRounds = 2;
 
 // A branch as a straight line near its junction.
 struct BranchLine {
@@ -220,19 +221,29 @@ void RemoveEdgesBetween(SkeletonGraph& graph, NodeId a, NodeId b, double max_len
   }
 }
 
-// Merges one pair of junctions whose branches meet at one point; false where there is none.
+// Merges one pair of junctions that lie in one blurred zone or whose branches meet at one point;
+// false where there is none.
 bool MergeOnePair(SkeletonGraph& graph, const JunctionRefinementOptions& options) {
   for (const auto& [length, id] : ShortJunctionEdges(graph, options.merge_distance)) {
     const NodeId a = graph.edge(id).nodes[0];
     const NodeId b = graph.edge(id).nodes[1];
     const JunctionFit fit = FitJunction(graph, {a, b}, options);
-    if (fit.max_residual > options.max_residual) continue;
+    if (length > options.inner_radius && fit.max_residual > options.max_residual) continue;
     RemoveEdgesBetween(graph, a, b, options.merge_distance);
     graph.MergeNodes(a, b);
     graph.MoveNode(a, fit.position);
     return true;
   }
   return false;
+}
+
+void PlaceJunctions(SkeletonGraph& graph, const JunctionRefinementOptions& options) {
+  std::vector<std::pair<NodeId, Vec3>> placed;
+  for (const NodeId node : graph.Nodes()) {
+    if (graph.Degree(node) < 3) continue;
+    placed.emplace_back(node, FitJunction(graph, {node}, options).position);
+  }
+  for (const auto& [node, position] : placed) PlaceJunction(graph, node, position, options);
 }
 
 }  // namespace
@@ -258,15 +269,12 @@ void VisitOptions(JunctionRefinementOptions& options, OptionVisitor& visitor) {
 }
 
 void RefineJunctions(SkeletonGraph& graph, const JunctionRefinementOptions& options) {
-  while (MergeOnePair(graph, options)) {
+  // Once placed, junctions may turn out to lie side by side.
+  for (int round = 0; round < kRounds; ++round) {
+    while (MergeOnePair(graph, options)) {
+    }
+    PlaceJunctions(graph, options);
   }
-  graph.RemoveIsolatedNodes();
-  std::vector<std::pair<NodeId, Vec3>> placed;
-  for (const NodeId node : graph.Nodes()) {
-    if (graph.Degree(node) < 3) continue;
-    placed.emplace_back(node, FitJunction(graph, {node}, options).position);
-  }
-  for (const auto& [node, position] : placed) PlaceJunction(graph, node, position, options);
 }
 
 }  // namespace curvefusion

@@ -21,7 +21,7 @@ struct RidgeProjectionOptions {
   double spacing = 0.0015;
   double min_relative_strength = 0.2;
   double strength_radius = 0.01;
-  double min_local_strength = 0.5;
+  double min_local_strength = 0.4;
   double max_elongation = 1.6;
 };
 void VisitOptions(RidgeProjectionOptions& options, OptionVisitor& visitor);
