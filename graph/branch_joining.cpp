@@ -31,6 +31,10 @@ constexpr size_t kHeadingVertices = 5;
 constexpr double kMeanWeight = 0.1;
 constexpr double kMeanWeightInBend = 1;
 
+// A loop shorter than so many times the reach is a fold of the samples in a junction: a ring that
+// small would have contracted to a point.
+constexpr double kLeastLoop = 3;
+
 struct Junctions {
   std::vector<Vec3> samples;
   std::vector<int> junction_of_sample;
@@ -61,20 +65,22 @@ struct BranchEnd {
   bool at_front;
   Vec3 position;
   Vec3 heading;
+  Vec3 tip;
   NodeId node = kNone;
 };
 
-BranchEnd EndOf(const std::vector<Polyline>& branches, int branch, bool at_front) {
-  const Polyline& points = branches[branch];
+BranchEnd EndOf(const std::vector<Branch>& branches, int branch, bool at_front) {
+  const Polyline& points = branches[branch].points;
   const size_t inner = std::min(kHeadingVertices, points.size() - 1);
-  const Vec3& tip = at_front ? points.front() : points.back();
+  const Vec3& last = at_front ? points.front() : points.back();
   const Vec3& before = at_front ? points[inner] : points[points.size() - 1 - inner];
-  return {branch, at_front, tip, (tip - before).normalized()};
+  return {branch, at_front, last, (last - before).normalized(),
+          branches[branch].tips[at_front ? 0 : 1]};
 }
 
 class BranchJoiner {
  public:
-  BranchJoiner(std::vector<Polyline> branches, Junctions junctions, double link, double reach,
+  BranchJoiner(std::vector<Branch> branches, Junctions junctions, double link, double reach,
                double maximum_bend)
       : branches_(std::move(branches)),
         junctions_(std::move(junctions)),
@@ -117,8 +123,9 @@ class BranchJoiner {
   bool IsOwnTip(const BranchEnd& end, int branch, int vertex) const;
   NodeId NodeAtVertex(int branch, int vertex);
   Polyline CurveBetweenNodes(int branch) const;
+  void AddEdge(NodeId first, NodeId last, Polyline points);
 
-  std::vector<Polyline> branches_;
+  std::vector<Branch> branches_;
   Junctions junctions_;
   PointIndex junction_index_;
   std::vector<std::vector<int>> ends_at_junction_;
@@ -207,8 +214,9 @@ int BranchJoiner::JunctionAhead(const BranchEnd& end) {
 
 void BranchJoiner::Prolong(BranchEnd& end, const Vec3& position) {
   if (position == end.position) return;
-  Polyline& points = branches_[end.branch];
+  Polyline& points = branches_[end.branch].points;
   points.insert(end.at_front ? points.begin() : points.end(), position);
+  branches_[end.branch].tips[end.at_front ? 0 : 1] = position;
   end = EndOf(branches_, end.branch, end.at_front);
 }
 
@@ -249,7 +257,7 @@ void BranchJoiner::BridgeGaps() {
 // Whether a vertex belongs to the stretch of the branch that leads to its own end.
 bool BranchJoiner::IsOwnTip(const BranchEnd& end, int branch, int vertex) const {
   if (branch != end.branch) return false;
-  const Polyline& points = branches_[branch];
+  const Polyline& points = branches_[branch].points;
   const int tip = end.at_front ? 0 : static_cast<int>(points.size()) - 1;
   double length = 0;
   for (int i = std::min(vertex, tip); i < std::max(vertex, tip); ++i)
@@ -258,7 +266,7 @@ bool BranchJoiner::IsOwnTip(const BranchEnd& end, int branch, int vertex) const 
 }
 
 NodeId BranchJoiner::NodeAtVertex(int branch, int vertex) {
-  const Polyline& points = branches_[branch];
+  const Polyline& points = branches_[branch].points;
   const bool is_front = vertex == 0;
   const bool is_back = vertex + 1 == static_cast<int>(points.size());
   NodeId& node = is_front  ? ends_[2 * branch].node
@@ -274,8 +282,8 @@ std::vector<BranchJoiner::Side> BranchJoiner::Sides() const {
   for (const NodeId node : graph_.Nodes())
     sides.push_back({graph_.position(node), kNone, kNone, node});
   for (int b = 0; b < static_cast<int>(branches_.size()); ++b) {
-    for (int v = 0; v < static_cast<int>(branches_[b].size()); ++v)
-      sides.push_back({branches_[b][v], b, v, kNone});
+    for (int v = 0; v < static_cast<int>(branches_[b].points.size()); ++v)
+      sides.push_back({branches_[b].points[v], b, v, kNone});
   }
   return sides;
 }
@@ -307,7 +315,7 @@ void BranchJoiner::JoinAtSides() {
 
 // The branch with the positions of its end nodes, where those lie beyond it.
 Polyline BranchJoiner::CurveBetweenNodes(int branch) const {
-  Polyline curve = branches_[branch];
+  Polyline curve = branches_[branch].points;
   const Vec3& first = graph_.position(ends_[2 * branch].node);
   const Vec3& last = graph_.position(ends_[2 * branch + 1].node);
   if (first != curve.front()) curve.insert(curve.begin(), first);
@@ -315,34 +323,37 @@ Polyline BranchJoiner::CurveBetweenNodes(int branch) const {
   return curve;
 }
 
+void BranchJoiner::AddEdge(NodeId first, NodeId last, Polyline points) {
+  if (first == last && Length(points) < kLeastLoop * reach_) return;
+  graph_.AddEdge({{first, last}, std::move(points), {}, {}});
+}
+
 SkeletonGraph BranchJoiner::Build() {
   for (BranchEnd& end : ends_) {
-    if (end.node == kNone) end.node = graph_.AddNode(end.position);
+    if (end.node == kNone) end.node = graph_.AddNode(end.tip);
   }
   for (int b = 0; b < static_cast<int>(branches_.size()); ++b) {
     const Polyline curve = CurveBetweenNodes(b);
-    const int shift = curve[0] == branches_[b][0] ? 0 : 1;
+    const int shift = curve[0] == branches_[b].points[0] ? 0 : 1;
     std::map<int, NodeId> stops;
     for (const auto& [vertex, node] : stops_[b]) stops[vertex + shift] = node;
     stops[static_cast<int>(curve.size()) - 1] = ends_[2 * b + 1].node;
     int start = 0;
     NodeId start_node = ends_[2 * b].node;
     for (const auto& [vertex, node] : stops) {
-      graph_.AddEdge({{start_node, node},
-                      Polyline(curve.begin() + start, curve.begin() + vertex + 1),
-                      {},
-                      {}});
+      AddEdge(start_node, node, Polyline(curve.begin() + start, curve.begin() + vertex + 1));
       start = vertex;
       start_node = node;
     }
   }
+  graph_.RemoveIsolatedNodes();
   graph_.DissolveDegree2Nodes();
   return std::move(graph_);
 }
 
 }  // namespace
 
-SkeletonGraph JoinBranches(std::vector<Polyline> branches, std::vector<Vec3> junction_samples,
+SkeletonGraph JoinBranches(std::vector<Branch> branches, std::vector<Vec3> junction_samples,
                            double spacing, const BranchTracingOptions& options) {
   const double link = options.junction_link * spacing;
   BranchJoiner joiner(std::move(branches), ClusterJunctions(std::move(junction_samples), link),

@@ -24,7 +24,7 @@ class BranchTracer {
         is_branch_(samples.size(), 0) {}
 
   // All branches, in the order of the directionality of the samples they start from.
-  std::vector<Polyline> TraceAll();
+  std::vector<Branch> TraceAll();
 
   // The samples that belong to none of them.
   std::vector<Vec3> OtherSamples() const;
@@ -34,8 +34,9 @@ class BranchTracer {
     return samples_.directionality[i] >= options_.branch_directionality;
   }
   std::vector<int> Seeds() const;
-  Polyline TraceFrom(int seed);
-  void Walk(const Vec3& start, const Vec3& direction, Polyline& points);
+  Branch TraceFrom(int seed);
+  Vec3 Walk(Vec3 heading, size_t absorbed_by_seed, Polyline& points);
+  Vec3 Tip(const Vec3& position, const Vec3& heading, size_t first, size_t last) const;
   int Next(const Vec3& position, const Vec3& heading);
   Vec3 Absorb(int sample);
 
@@ -60,13 +61,14 @@ std::vector<int> BranchTracer::Seeds() const {
   return seeds;
 }
 
-std::vector<Polyline> BranchTracer::TraceAll() {
-  std::vector<Polyline> branches;
+std::vector<Branch> BranchTracer::TraceAll() {
+  std::vector<Branch> branches;
   for (const int seed : Seeds()) {
     if (is_used_[seed]) continue;
     taken_.clear();
-    Polyline branch = TraceFrom(seed);
-    if (static_cast<int>(taken_.size()) < options_.minimum_samples || branch.size() < 2) continue;
+    Branch branch = TraceFrom(seed);
+    if (static_cast<int>(taken_.size()) < options_.minimum_samples || branch.points.size() < 2)
+      continue;
     for (const int i : taken_) is_branch_[i] = 1;
     branches.push_back(std::move(branch));
   }
@@ -81,27 +83,41 @@ std::vector<Vec3> BranchTracer::OtherSamples() const {
   return others;
 }
 
-Polyline BranchTracer::TraceFrom(int seed) {
-  const Vec3 start = Absorb(seed);
-  Polyline points;
-  Walk(start, -samples_.directions[seed], points);
-  std::reverse(points.begin(), points.end());
-  points.push_back(start);
-  Walk(start, samples_.directions[seed], points);
-  return points;
+Branch BranchTracer::TraceFrom(int seed) {
+  Branch branch{{Absorb(seed)}, {}};
+  const size_t absorbed_by_seed = taken_.size();
+  branch.tips[0] = Walk(-samples_.directions[seed], absorbed_by_seed, branch.points);
+  std::reverse(branch.points.begin(), branch.points.end());
+  branch.tips[1] = Walk(samples_.directions[seed], absorbed_by_seed, branch.points);
+  return branch;
 }
 
-void BranchTracer::Walk(const Vec3& start, const Vec3& direction, Polyline& points) {
-  Vec3 position = start;
-  Vec3 heading = direction;
+// Goes on from the last of the points, which holds the first `absorbed_by_seed` samples at the
+// start of a branch. Returns the tip.
+Vec3 BranchTracer::Walk(Vec3 heading, size_t absorbed_by_seed, Polyline& points) {
+  Vec3 position = points.back();
+  size_t first = 0, last = absorbed_by_seed;  // the samples of the last point
   for (int next = Next(position, heading); next >= 0; next = Next(position, heading)) {
+    first = taken_.size();
     const Vec3 reached = Absorb(next);
+    last = taken_.size();
     const Vec3& axis = samples_.directions[next];
     const Vec3 step = (reached - position).normalized();
     heading = (step + (axis.dot(heading) < 0 ? -1.0 : 1.0) * axis).normalized();
     position = reached;
     points.push_back(position);
   }
+  return Tip(position, heading, first, last);
+}
+
+// The farthest of some samples taken.
+Vec3 BranchTracer::Tip(const Vec3& position, const Vec3& heading, size_t first, size_t last) const {
+  Vec3 tip = position;
+  for (size_t k = first; k < last; ++k) {
+    const Vec3& sample = samples_.positions[taken_[k]];
+    if ((sample - tip).dot(heading) > 0) tip = sample;
+  }
+  return tip;
 }
 
 // The nearest unused sample ahead; -1 where there is none, or where it has no direction or another
@@ -166,7 +182,7 @@ void VisitOptions(BranchTracingOptions& options, OptionVisitor& visitor) {
 
 SkeletonGraph TraceBranches(const ContractedSamples& samples, const BranchTracingOptions& options) {
   BranchTracer tracer(samples, options);
-  std::vector<Polyline> branches = tracer.TraceAll();
+  std::vector<Branch> branches = tracer.TraceAll();
   return JoinBranches(std::move(branches), tracer.OtherSamples(), samples.spacing, options);
 }
 

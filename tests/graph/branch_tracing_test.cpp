@@ -58,9 +58,7 @@ TEST(TraceBranches, RunOfSamplesIsOneEdge) {
   AddRun({0, 0, 0}, {0.1, 0, 0}, samples);
   const SkeletonGraph graph = TraceBranches(samples, {});
   ASSERT_EQ(graph.edge_count(), 1);
-  // Vertices are means of the samples within a spacing, so the ends lack up to a spacing each.
-  EXPECT_GT(graph.TotalLength(), 0.1 - 2 * kSpacing);
-  EXPECT_LE(graph.TotalLength(), 0.1 + 1e-12);
+  EXPECT_NEAR(graph.TotalLength(), 0.1, 1e-12);  // rounding: free ends reach the last sample
 }
 
 TEST(TraceBranches, ClusterWithoutDirectionIsAJunctionOfFour) {
@@ -158,6 +156,23 @@ TEST(TraceBranches, ClosedCurveIsOneEdge) {
   EXPECT_EQ(graph.edge_count(), 1);
   EXPECT_EQ(graph.CycleRank(), 1);
   ExpectEndsAtNodes(graph);
+}
+
+TEST(TraceBranches, FoldInAJunctionIsNoLoop) {
+  for (const double radius : {4e-3, 20e-3}) {
+    ContractedSamples samples = NoSamples();
+    AddJunction(Vec3::Zero(), samples);
+    AddRun({-0.05, 0, 0}, {-7e-3, 0, 0}, samples);
+    AddRun({7e-3, 0, 0}, {0.05, 0, 0}, samples);
+    const Vec3 center(0, radius + 1e-3, 0);
+    const int steps = static_cast<int>(2 * M_PI * radius / 1e-3);
+    for (int i = 0; i < steps; ++i) {  // open towards the junction by 60 degrees
+      const double angle = -M_PI / 3 + (5 * M_PI / 3) * i / steps;
+      AddSample(center + radius * Vec3(std::cos(angle), std::sin(angle), 0),
+                {-std::sin(angle), std::cos(angle), 0}, 0.95, samples);
+    }
+    EXPECT_EQ(TraceBranches(samples, {}).CycleRank(), radius > 10e-3 ? 1 : 0) << radius;
+  }
 }
 
 TEST(TraceBranches, SharpCornerEndsABranch) {
