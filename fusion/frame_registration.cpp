@@ -1,7 +1,7 @@
 #include "fusion/frame_registration.h"
 
-#include <cassert>
 #include <algorithm>
+#include <cassert>
 #include <optional>
 
 #include "kernel/parallel.h"
@@ -58,10 +58,11 @@ int FillFromNeighbours(const std::vector<std::optional<RigidTransform>>& registe
 }  // namespace
 
 void VisitOptions(FrameRegistrationOptions& options, OptionVisitor& visitor) {
-  visitor.Visit({"rounds", "", 0, 10,
-                 "Deviation: how often all frames are registered to the curves, one by one; 0 leaves "
-                 "it at whole bundles."},
-                options.rounds);
+  visitor.Visit(
+      {"rounds", "", 0, 10,
+       "Deviation: how often all frames are registered to the curves, one by one; 0 leaves "
+       "it at whole bundles."},
+      options.rounds);
   visitor.Visit({"frame_min_inliers", "", 0, 1,
                  "A frame of which a smaller share fits the curves is not moved by itself."},
                 options.min_inliers);

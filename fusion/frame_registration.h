@@ -20,9 +20,9 @@ void VisitOptions(FrameRegistrationOptions& options, OptionVisitor& visitor);
 
 /// Frames registered to one another through the curves they all saw.
 struct RegisteredFrames {
-  ObservedPoints points;                            ///< of all frames, resampled on a grid
-  std::vector<RigidTransform> T_registered_world;   ///< one per frame: how its pose was corrected
-  int registered = 0;                               ///< frames that found enough curves
+  ObservedPoints points;                           ///< of all frames, resampled on a grid
+  std::vector<RigidTransform> T_registered_world;  ///< one per frame: how its pose was corrected
+  int registered = 0;                              ///< frames that found enough curves
 };
 
 /// Registers every frame to the ridges of all frames' points, merges the moved points, and repeats.

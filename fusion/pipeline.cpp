@@ -2,20 +2,22 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <numeric>
+#include <utility>
 
 #include "capture/frame_stream.h"
+#include "fusion/axis_correction.h"
 
 namespace curvefusion {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-double SecondsSince(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
+// What the steps of one run share: where they report to.
+struct RunContext {
+  const PipelineOptions& options;
+  PipelineObserver& observer;
+  StageLog log;
+};
 
 ObservedPoints Moved(const ObservedPoints& points, const RigidTransform& T) {
   ObservedPoints moved = points;
@@ -25,182 +27,185 @@ ObservedPoints Moved(const ObservedPoints& points, const RigidTransform& T) {
 }
 
 // "Removing large surfaces" needs a model of them: all frames in one volume.
-TsdfVolume FuseVolume(const Sequence& sequence, const PipelineOptions& options,
-                      PipelineObserver& observer, Reconstruction& result) {
-  const Clock::time_point start = Clock::now();
-  TsdfVolume volume(options.volume);
+TsdfVolume FuseVolume(const Sequence& sequence, RunContext& run) {
+  const StageLog::Timer timer(run.log, "volume");
+  TsdfVolume volume(run.options.volume);
   std::vector<int> frames;
-  for (int i = 0; i < sequence.frame_count(); i += options.volume_stride) frames.push_back(i);
+  for (int i = 0; i < sequence.frame_count(); i += run.options.volume_stride) frames.push_back(i);
   ForEachFrame(sequence, frames, {.depth = true, .color = false}, [&](const DecodedFrame& frame) {
     volume.Integrate(frame.depth, sequence.depth_camera,
                      sequence.frames[frame.index].T_world_camera);
-    observer.OnProgress("volume", frame.index + 1, sequence.frame_count());
+    run.observer.OnProgress("volume", frame.index + 1, sequence.frame_count());
   });
-  observer.OnVolume(volume);
-  result.stages.push_back({"volume",
-                           SecondsSince(start),
-                           {{"frames", static_cast<double>(frames.size())},
-                            {"blocks", static_cast<double>(volume.block_count())},
-                            {"bytes", static_cast<double>(volume.memory_bytes())}}});
+  run.observer.OnVolume(volume);
+  run.log.Count("volume", "frames", static_cast<double>(frames.size()));
+  run.log.Count("volume", "blocks", static_cast<double>(volume.block_count()));
+  run.log.Count("volume", "bytes", static_cast<double>(volume.memory_bytes()));
   return volume;
 }
 
-// The points of every bundle that belong to thin structures, in the world frame.
-std::vector<ObservedPoints> SegmentBundles(const Sequence& sequence, const TsdfVolume& volume,
-                                           const PipelineOptions& options,
-                                           PipelineObserver& observer, Reconstruction& result) {
-  const Clock::time_point start = Clock::now();
+// What was found thin, in the world frame.
+struct SegmentedScan {
   std::vector<ObservedPoints> bundles;
-  double candidates = 0, points = 0;
-  for (const auto& [first, last] :
-       SplitIntoBundles(sequence.frame_count(), options.segmentation.bundle.frames)) {
-    const SegmentedBundle bundle =
-        SegmentBundle(sequence, first, last, volume, options.segmentation);
-    const std::string name = fmt::format("bundle_{:03}", bundles.size());
-    observer.OnPoints(name + "_difference_set",
-                      Moved(bundle.difference_set.points, bundle.T_world_bundle));
-    bundles.push_back(Moved(bundle.points, bundle.T_world_bundle));
-    observer.OnPoints(name + "_points", bundles.back());
-    observer.OnProgress("segmentation", last, sequence.frame_count());
-    candidates += static_cast<double>(bundle.difference_set.points.size());
-    points += static_cast<double>(bundle.points.size());
+  std::vector<ObservedPoints> frames;  // what each frame saw of its bundle's points
+  std::vector<int> bundle_of_frame;
+};
+
+void AddBundle(const SegmentedBundle& bundle, SegmentedScan& scan, PipelineObserver& observer) {
+  const std::string name = fmt::format("bundle_{:03}", scan.bundles.size());
+  observer.OnPoints(name + "_difference_set", Moved(bundle.difference_set, bundle.T_world_bundle));
+  for (const ObservedPoints& frame : bundle.frames) {
+    scan.frames.push_back(Moved(frame, bundle.T_world_bundle));
+    scan.bundle_of_frame.push_back(static_cast<int>(scan.bundles.size()));
   }
-  result.stages.push_back({"segmentation",
-                           SecondsSince(start),
-                           {{"bundles", static_cast<double>(bundles.size())},
-                            {"candidates", candidates},
-                            {"points", points}}});
-  return bundles;
+  scan.bundles.push_back(Moved(bundle.points, bundle.T_world_bundle));
+  observer.OnPoints(name + "_points", scan.bundles.back());
 }
 
-// Best profile: every bundle is registered to the curves so far, its points are carried along, and
-// all are contracted once.
-ObservedPoints CarryPoints(const std::vector<ObservedPoints>& bundles,
-                           const PipelineOptions& options, PipelineObserver& observer,
-                           Reconstruction& result) {
-  const Clock::time_point start = Clock::now();
-  CarriedPoints carried(options.carried);
-  int registered = 0;
-  for (size_t i = 0; i < bundles.size(); ++i) {
-    const AlignmentResult alignment =
-        carried.AddBundle(bundles[i], options.ridge.projection, options.alignment);
-    registered += alignment.converged;
-    observer.OnProgress("registration", static_cast<int64_t>(i + 1),
-                        static_cast<int64_t>(bundles.size()));
+SegmentedScan SegmentBundles(const Sequence& sequence, const TsdfVolume& volume, RunContext& run) {
+  const StageLog::Timer timer(run.log, "segmentation");
+  SegmentedScan scan;
+  size_t candidates = 0, points = 0;
+  for (const auto& [first, last] :
+       SplitIntoBundles(sequence.frame_count(), run.options.segmentation.bundle.frames)) {
+    const SegmentedBundle bundle =
+        SegmentBundle(sequence, first, last, volume, run.options.segmentation);
+    candidates += bundle.difference_set.size();
+    points += bundle.points.size();
+    AddBundle(bundle, scan, run.observer);
+    run.observer.OnProgress("segmentation", last, sequence.frame_count());
   }
-  observer.OnPoints("carried_points", carried.points());
-  result.stages.push_back({"registration",
-                           SecondsSince(start),
-                           {{"registered bundles", static_cast<double>(registered)},
-                            {"points", static_cast<double>(carried.points().size())}}});
-  return carried.points();
+  run.log.Count("segmentation", "bundles", static_cast<double>(scan.bundles.size()));
+  run.log.Count("segmentation", "candidates", static_cast<double>(candidates));
+  run.log.Count("segmentation", "points", static_cast<double>(points));
+  return scan;
 }
 
 // Paper profile: a skeleton for every bundle, fused one after the other, CurveFusion 3.2 and 3.3.
-SkeletonGraph FuseBundleSkeletons(const std::vector<ObservedPoints>& bundles,
-                                  const PipelineOptions& options, PipelineObserver& observer,
-                                  Reconstruction& result) {
+SkeletonGraph FuseBundleSkeletons(const SegmentedScan& scan, RunContext& run) {
   SkeletonGraph partial;
-  double contraction_seconds = 0, fusion_seconds = 0;
-  for (size_t i = 0; i < bundles.size(); ++i) {
-    const Clock::time_point start = Clock::now();
-    const SkeletonGraph bundle = ExtractL1Skeleton(bundles[i], options.l1);
-    contraction_seconds += SecondsSince(start);
-    const Clock::time_point fusion_start = Clock::now();
-    partial = i == 0 ? SmoothGraph(bundle, options.fusion.smoothing)
-                     : FuseSkeletons(partial, bundle, static_cast<int>(i), options.fusion);
-    fusion_seconds += SecondsSince(fusion_start);
-    observer.OnGraph(fmt::format("bundle_{:03}_skeleton", i), bundle);
-    observer.OnGraph(fmt::format("bundle_{:03}_fused", i), partial);
-    observer.OnProgress("skeletons", static_cast<int64_t>(i + 1),
-                        static_cast<int64_t>(bundles.size()));
+  for (size_t i = 0; i < scan.bundles.size(); ++i) {
+    SkeletonGraph bundle;
+    {
+      const StageLog::Timer timer(run.log, "contraction");
+      bundle = ExtractL1Skeleton(scan.bundles[i], run.options.l1);
+    }
+    const StageLog::Timer timer(run.log, "fusion");
+    run.observer.OnGraph(fmt::format("bundle_{:03}_skeleton", i), bundle);
+    partial = FuseSkeletons(partial, bundle, std::max(1, static_cast<int>(i)), run.options.fusion);
+    run.observer.OnGraph(fmt::format("bundle_{:03}_fused", i), partial);
+    run.observer.OnProgress("skeletons", static_cast<int64_t>(i + 1),
+                            static_cast<int64_t>(scan.bundles.size()));
   }
-  result.stages.push_back({"contraction", contraction_seconds, {}});
-  result.stages.push_back(
-      {"fusion", fusion_seconds, {{"edges", static_cast<double>(partial.edge_count())}}});
   return partial;
-}
-
-SkeletonGraph ContractOnce(const ObservedPoints& points, const PipelineOptions& options,
-                           PipelineObserver& observer, Reconstruction& result) {
-  const Clock::time_point start = Clock::now();
-  SkeletonGraph skeleton = ExtractRidgeSkeleton(points, options.ridge);
-  observer.OnGraph("contracted", skeleton);
-  result.stages.push_back({"contraction",
-                           SecondsSince(start),
-                           {{"edges", static_cast<double>(skeleton.edge_count())}}});
-  return skeleton;
 }
 
 // CurveFusion 3.3, "Wire radius estimation".
 RadiusEstimate MeasureRadii(const SkeletonGraph& skeleton, const Sequence& sequence,
-                            const PipelineOptions& options, Reconstruction& result) {
-  const Clock::time_point start = Clock::now();
-  std::vector<int> frames(sequence.frame_count());
+                            RunContext& run) {
+  const StageLog::Timer timer(run.log, "radius");
+  run.observer.OnProgress("radius", 0, 1);
+  std::vector<int> frames(sequence.frames.size());
   std::iota(frames.begin(), frames.end(), 0);
-  const RadiusEstimate estimate = EstimateRadius(skeleton, sequence, frames, options.radius);
-  result.stages.push_back(
-      {"radius", SecondsSince(start), {{"strips", static_cast<double>(estimate.strips.size())}}});
+  RadiusEstimate estimate = EstimateRadius(skeleton, sequence, frames, run.options.radius);
+  run.log.Count("radius", "strips", static_cast<double>(estimate.strips.size()));
+  run.observer.OnProgress("radius", 1, 1);
   return estimate;
+}
+
+SkeletonGraph Contract(const ObservedPoints& points, const std::string& name, RunContext& run) {
+  const StageLog::Timer timer(run.log, "contraction");
+  SkeletonGraph skeleton = ExtractRidgeSkeleton(points, run.options.ridge);
+  run.observer.OnPoints(name + "_points", points);
+  run.observer.OnGraph(name + "_skeleton", skeleton);
+  return skeleton;
+}
+
+// Registers every bundle to the curves of those before it: all points together, and for every frame
+// how its bundle was moved.
+std::pair<ObservedPoints, std::vector<RigidTransform>> RegisterBundles(const SegmentedScan& scan,
+                                                                       RunContext& run) {
+  const StageLog::Timer timer(run.log, "registration");
+  CarriedPoints carried(run.options.carried);
+  std::vector<RigidTransform> T_registered_bundle;
+  for (const ObservedPoints& bundle : scan.bundles) {
+    T_registered_bundle.push_back(
+        carried.AddBundle(bundle, run.options.ridge.projection, run.options.registration)
+            .T_target_source);
+    run.observer.OnProgress("registration", static_cast<int64_t>(T_registered_bundle.size()),
+                            static_cast<int64_t>(scan.bundles.size()));
+  }
+  std::vector<RigidTransform> T_registered_frame;
+  for (const int bundle : scan.bundle_of_frame) {
+    T_registered_frame.push_back(T_registered_bundle[bundle]);
+  }
+  return {carried.points(), T_registered_frame};
+}
+
+// Registers single frames, whose points were moved to the axes of a first skeleton.
+RegisteredFrames RegisterFramesToCurves(const SegmentedScan& scan,
+                                        const std::vector<RigidTransform>& T_registered_frame,
+                                        const SkeletonGraph& first, RunContext& run) {
+  const StageLog::Timer timer(run.log, "registration");
+  std::vector<ObservedPoints> on_axis;
+  for (size_t i = 0; i < scan.frames.size(); ++i) {
+    on_axis.push_back(Moved(
+        MoveToAxis(Moved(scan.frames[i], T_registered_frame[i]), first, run.options.axis_depth),
+        T_registered_frame[i].inverse()));
+  }
+  RegisteredFrames registered =
+      RegisterFrames(on_axis, T_registered_frame, run.options.ridge.projection,
+                     run.options.registration, run.options.frames);
+  run.log.Count("registration", "registered frames", registered.registered);
+  run.log.Count("registration", "points", static_cast<double>(registered.points.size()));
+  return registered;
+}
+
+// Best profile: bundles, then single frames, are registered to the curves they see; their points
+// are carried along and contracted once.
+void ContractCarriedPoints(const SegmentedScan& scan, RunContext& run, Reconstruction& result) {
+  const auto [points, T_registered_frame] = RegisterBundles(scan, run);
+  SkeletonGraph first = Contract(points, "registered_bundles", run);
+  AssignRadii(MeasureRadii(first, result.sequence, run), run.options.radius, first);
+  RegisteredFrames registered = RegisterFramesToCurves(scan, T_registered_frame, first, run);
+  for (size_t i = 0; i < result.sequence.frames.size(); ++i) {
+    RigidTransform& T_world_camera = result.sequence.frames[i].T_world_camera;
+    T_world_camera = registered.T_registered_world[i] * T_world_camera;
+  }
+  result.points = std::move(registered.points);
+  result.skeleton = Contract(result.points, "registered_frames", run);
+}
+
+ObservedPoints AllPoints(const std::vector<ObservedPoints>& bundles) {
+  ObservedPoints all;
+  for (const ObservedPoints& bundle : bundles) {
+    for (size_t i = 0; i < bundle.size(); ++i) {
+      all.Add(bundle.positions[i], bundle.viewing_rays[i], bundle.counts[i]);
+    }
+  }
+  return all;
 }
 
 }  // namespace
 
-PipelineOptions ProfileOptions(Profile profile) {
-  PipelineOptions options;
-  if (profile == Profile::kPaper) {
-    options.segmentation.difference.front_distance = 0.02;
-    options.segmentation.difference.accept_where_nothing_rendered = false;
-    options.fusion = PaperSkeletonFusionOptions();
-    options.radius.strip_model = false;
-    options.radius.per_edge = false;
-    return options;
-  }
-  options.volume.voxel_size = 0.01;
-  options.volume_stride = 2;
-  options.segmentation.render_divisor = 2;
-  options.segmentation.difference.front_distance = 0.02;
-  options.segmentation.difference.silhouette_margin_px = 6;
-  options.segmentation.difference.accept_where_nothing_rendered = false;
-  options.segmentation.difference.min_neighbours = 8;
-  options.segmentation.bundle.min_frames = 3;
-  options.segmentation.edges.tolerance_px = 2;
-  options.segmentation.ghosts.verified_outline = 0.35;
-  options.carry_points = true;
-  options.axis_depth = 0.8;
-  return options;
-}
-
-void VisitOptions(PipelineOptions& options, OptionVisitor& visitor) {
-  visitor.BeginSection("volume");
-  VisitOptions(options.volume, visitor);
-  visitor.Visit({"stride", "frames", 1, 100,
-                 "Deviation: only every so many-th frame is integrated; large surfaces are seen "
-                 "often enough."},
-                options.volume_stride);
-  VisitOptions(options.segmentation, visitor);
-}
-
 Reconstruction Reconstruct(const Sequence& sequence, const PipelineOptions& options,
                            PipelineObserver& observer) {
+  RunContext run{options, observer, {}};
   Reconstruction result;
-  const TsdfVolume volume = FuseVolume(sequence, options, observer, result);
-  const std::vector<ObservedPoints> bundles =
-      SegmentBundles(sequence, volume, options, observer, result);
+  result.sequence = sequence;
+  result.warnings = sequence.warnings;
+  const TsdfVolume volume = FuseVolume(sequence, run);
+  const SegmentedScan scan = SegmentBundles(sequence, volume, run);
   if (options.carry_points) {
-    result.points = CarryPoints(bundles, options, observer, result);
-    result.skeleton = ContractOnce(result.points, options, observer, result);
+    ContractCarriedPoints(scan, run, result);
   } else {
-    for (const ObservedPoints& bundle : bundles) {
-      for (size_t i = 0; i < bundle.size(); ++i) {
-        result.points.Add(bundle.positions[i], bundle.viewing_rays[i], bundle.counts[i]);
-      }
-    }
-    result.skeleton = FuseBundleSkeletons(bundles, options, observer, result);
+    result.points = AllPoints(scan.bundles);
+    result.skeleton = FuseBundleSkeletons(scan, run);
   }
-  const RadiusEstimate radii = MeasureRadii(result.skeleton, sequence, options, result);
+  const RadiusEstimate radii = MeasureRadii(result.skeleton, result.sequence, run);
   result.global_radius = radii.global_radius;
   AssignRadii(radii, options.radius, result.skeleton);
+  result.stages = run.log.stages();
   return result;
 }
 

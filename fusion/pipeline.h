@@ -2,15 +2,16 @@
 
 #include <cstdint>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "capture/sequence.h"
 #include "fusion/alignment.h"
 #include "fusion/carried_points.h"
+#include "fusion/frame_registration.h"
 #include "fusion/radius.h"
 #include "fusion/segmentation.h"
 #include "fusion/skeleton_fusion.h"
+#include "fusion/stage_log.h"
 #include "fusion/tsdf_volume.h"
 #include "graph/l1_contraction.h"
 #include "graph/ridge_skeleton.h"
@@ -23,18 +24,19 @@ namespace curvefusion {
 /// The paper as it is written, or what a user gets by default.
 enum class Profile { kPaper, kBest };
 
-/// The options of every stage, one section of the config file each.
+/// The options of every stage.
 struct PipelineOptions {
   TsdfOptions volume;
   int volume_stride = 1;
   SegmentationOptions segmentation;
   bool carry_points = false;
   CarriedPointsOptions carried;
-  AlignmentOptions alignment;
+  AlignmentOptions registration;
+  FrameRegistrationOptions frames;
+  double axis_depth = 0;
+  RidgeOptions ridge;
   L1Options l1;
   SkeletonFusionOptions fusion;
-  RidgeOptions ridge;
-  double axis_depth = 0;
   RadiusOptions radius;
 };
 
@@ -59,18 +61,13 @@ class PipelineObserver {
   virtual void OnVolume(const TsdfVolume& /*volume*/) {}
 };
 
-/// What a stage cost and found, for the report.
-struct StageReport {
-  std::string name;
-  double seconds = 0;
-  std::vector<std::pair<std::string, double>> counts;  ///< e.g. {"points", 48210}
-};
-
 /// The outcome of a run. An empty skeleton means: nothing thin was found, an expected outcome.
 struct Reconstruction {
-  SkeletonGraph skeleton;    ///< radius at every vertex, one value per edge
+  SkeletonGraph skeleton;    ///< radii at every vertex where any could be measured
   ObservedPoints points;     ///< the points the skeleton was made from
   double global_radius = 0;  ///< the paper's one radius for all, metres; 0 = not measurable
+  /// The sequence with its poses corrected by the registration of frames (as given otherwise).
+  Sequence sequence;
   std::vector<StageReport> stages;
   std::vector<std::string> warnings;  ///< what the user should know, a sentence each
 };

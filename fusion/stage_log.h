@@ -1,0 +1,48 @@
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace curvefusion {
+
+/// What a stage cost and found, for the report.
+struct StageReport {
+  std::string name;
+  double seconds = 0;
+  std::vector<std::pair<std::string, double>> counts;  ///< e.g. {"points", 48210}
+};
+
+/// Collects what stages cost and find, in the order in which they first begin.
+class StageLog {
+ public:
+  /// Adds the time until its end of life to a stage, which may be entered several times.
+  class Timer {
+   public:
+    Timer(StageLog& log, std::string stage) : log_(log), stage_(std::move(stage)) {}
+    ~Timer() {
+      log_.Stage(stage_).seconds +=
+          std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    }
+    Timer(const Timer&) = delete;
+    Timer& operator=(const Timer&) = delete;
+
+   private:
+    StageLog& log_;
+    std::string stage_;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  };
+
+  /// Sets a count of a stage.
+  void Count(const std::string& stage, const std::string& what, double value);
+
+  const std::vector<StageReport>& stages() const { return stages_; }
+
+ private:
+  StageReport& Stage(const std::string& name);
+
+  std::vector<StageReport> stages_;
+};
+
+}  // namespace curvefusion
