@@ -17,6 +17,8 @@ void UseWorkableReading(DifferenceSetOptions& options) {
 PipelineOptions PaperOptions() {
   PipelineOptions options;
   UseWorkableReading(options.segmentation.difference);
+  options.segmentation.bundle.voxel_size = 0.005;
+  options.segmentation.edges.tolerance_px = 0;
   options.fusion = PaperSkeletonFusionOptions();
   options.radius.strip_model = false;
   options.radius.per_edge = false;
