@@ -141,7 +141,7 @@ class SegmentGroups {
     return i;
   }
   void Join(int a, int b) {
-    const auto [low, high] = std::minmax(Root(a), Root(b));
+    const auto [low, high] = std::minmax({Root(a), Root(b)});
     parent_[high] = low;
   }
 

@@ -134,6 +134,14 @@ void Append(TubeBranch& branch, const TubeBranch& tail) {
                            tail.axis.radii.end());
 }
 
+void RemoveMarked(const std::vector<char>& marked, TubeNetwork& network) {
+  std::vector<TubeBranch> kept;
+  for (size_t i = 0; i < network.branches.size(); ++i) {
+    if (!marked[i]) kept.push_back(std::move(network.branches[i]));
+  }
+  network.branches = std::move(kept);
+}
+
 bool SameRadius(double a, double b) { return std::min(a, b) >= kSameRadius * std::max(a, b); }
 
 // Joins the branches at degree-2 nodes: bends are found on whole curves. A jump in radius stays.
@@ -163,11 +171,7 @@ void DissolveDegree2Nodes(TubeNetwork& network) {
       if (end.branch == second_id) end = {first_id, 1};
     }
   }
-  size_t kept = 0;
-  for (size_t i = 0; i < network.branches.size(); ++i) {
-    if (!gone[i]) network.branches[kept++] = std::move(network.branches[i]);
-  }
-  network.branches.resize(kept);
+  RemoveMarked(gone, network);
 }
 
 void CutAtTightBends(TubeNetwork& network, double max_turn) {
@@ -215,11 +219,7 @@ void DropSwallowedBranches(TubeNetwork& network) {
       }
     }
   }
-  std::vector<TubeBranch> kept;
-  for (size_t i = 0; i < network.branches.size(); ++i) {
-    if (!gone[i]) kept.push_back(std::move(network.branches[i]));
-  }
-  network.branches = std::move(kept);
+  RemoveMarked(gone, network);
 }
 
 }  // namespace
