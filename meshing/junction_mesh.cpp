@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "kernel/geometry.h"
+#include "meshing/hashed_number.h"
 #include "meshing/junction_union.h"
 #include "meshing/self_intersections.h"
 #include "meshing/union_cleaning.h"
@@ -108,14 +109,6 @@ JunctionMesh MeshJunction(const Junction& junction, int max_attempts, uint64_t s
     result.surface = Attempt(junction, rings, result.attempts++, seed);
   }
   return result;
-}
-
-// SplitMix64.
-double HashedNumber(uint64_t seed) {
-  seed += 0x9e3779b97f4a7c15ULL;
-  seed = (seed ^ (seed >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  seed = (seed ^ (seed >> 27)) * 0x94d049bb133111ebULL;
-  return static_cast<double>((seed ^ (seed >> 31)) >> 11) * 0x1.0p-53;
 }
 
 }  // namespace curvefusion

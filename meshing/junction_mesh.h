@@ -27,7 +27,4 @@ struct JunctionMesh {
 /// and a coarser cleaning. The same seed gives the same result.
 JunctionMesh MeshJunction(const Junction& junction, int max_attempts, uint64_t seed);
 
-/// A number in [0, 1) that looks random, the same on every machine.
-double HashedNumber(uint64_t seed);
-
 }  // namespace curvefusion

@@ -4,45 +4,17 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <numbers>
+#include <limits>
 #include <utility>
 
 #include "kernel/error.h"
 #include "kernel/parallel.h"
-#include "meshing/contacts.h"
 #include "meshing/junction_mesh.h"
-#include "meshing/sweep.h"
-#include "meshing/tube_network.h"
-#include "meshing/tube_paths.h"
+#include "meshing/tube_layout.h"
 
 namespace curvefusion {
 
 namespace {
-
-constexpr double kMaxTurn = std::numbers::pi / 4;  // at a mitred ring
-
-// Tubes ready to be swept, and the groups of them that touch.
-struct TubeLayout {
-  std::vector<TubePath> paths;
-  std::vector<TubeRings> rings;
-  std::vector<std::vector<TubeStretch>> groups;
-};
-
-TubeLayout LayOutTubes(const SkeletonGraph& graph, const TubeOptions& options) {
-  TubeLayout layout;
-  const TubeNetwork network =
-      PrepareTubes(graph, options.default_radius, options.axis_tolerance, kMaxTurn);
-  layout.paths = CutSelfContacts(ChainTubes(network, kMaxTurn, options.ring_spacing));
-  layout.rings.resize(layout.paths.size());
-  ParallelFor(0, static_cast<int64_t>(layout.paths.size()), 16, [&](int64_t i) {
-    // Rings of different tubes are turned against each other, so that their facets do not lie in
-    // one plane where the tubes meet.
-    const double phase = 2 * std::numbers::pi / options.sides * HashedNumber(static_cast<uint64_t>(i));
-    layout.rings[i] = SweepRings(layout.paths[i], options.sides, phase);
-  });
-  layout.groups = GroupContacts(layout.paths);
-  return layout;
-}
 
 std::vector<Vec3f> RingVertices(const TubeRings& rings, int point) {
   const int ring = rings.ring_of_point[point % rings.ring_of_point.size()];
