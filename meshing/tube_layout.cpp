@@ -81,8 +81,10 @@ void SweepSoundly(int sides, TubeLayout& layout) {
 
 TubeLayout LayOutTubes(const SkeletonGraph& graph, const TubeOptions& options) {
   TubeLayout layout;
-  const TubeNetwork network =
-      PrepareTubes(graph, options.default_radius, options.axis_tolerance, kMaxTurn);
+  AxisOptions axis;
+  axis.tolerance = options.axis_tolerance;
+  axis.max_turn = kMaxTurn;
+  const TubeNetwork network = PrepareTubes(graph, options.default_radius, axis);
   layout.paths = CutSelfContacts(ChainTubes(network, kMaxTurn, options.ring_spacing));
   SweepSoundly(options.sides, layout);
   layout.groups = GroupContacts(layout.paths);

@@ -17,9 +17,9 @@ namespace curvefusion {
 namespace {
 
 // In radii: nodes joined by less become one, ...
-constexpr double kShortBranch = 0.25;
-// ... and points of a branch stay so far apart, so that rings are not crowded.
-constexpr double kMinSpacing = 0.5;
+constexpr double kShortBranch = 0.15;
+// ... and what begins and ends in it without leaving this distance is dropped.
+constexpr double kShortLoop = 0.3;
 // Radii that differ by a smaller factor belong to one tube.
 constexpr double kSameRadius = 0.9;
 // A branch may stick out of the one that swallows it by so much of the radius.
@@ -113,7 +113,7 @@ void MergeNodes(TubeNetwork& network, const std::vector<Vec3>& positions) {
     }
     const double radius = *std::max_element(branch.axis.radii.begin(), branch.axis.radii.end());
     const bool shrunk = branch.nodes[0] == branch.nodes[1] &&
-                        StaysWithin(branch.axis, branch.axis.points[0], kMinSpacing * radius);
+                        StaysWithin(branch.axis, branch.axis.points[0], kShortLoop * radius);
     if (!shrunk) kept.push_back(std::move(branch));
   }
   network.branches = std::move(kept);
@@ -234,8 +234,8 @@ std::vector<std::vector<BranchEnd>> TubeNetwork::EndsAtNodes() const {
   return ends;
 }
 
-TubeNetwork PrepareTubes(const SkeletonGraph& graph, double default_radius, double tolerance,
-                         double max_turn) {
+TubeNetwork PrepareTubes(const SkeletonGraph& graph, double default_radius,
+                         const AxisOptions& options) {
   TubeNetwork network;
   std::map<NodeId, int> dense_node;
   std::vector<Vec3> positions;
@@ -251,9 +251,9 @@ TubeNetwork PrepareTubes(const SkeletonGraph& graph, double default_radius, doub
   MergeNodes(network, positions);
   DissolveDegree2Nodes(network);
   for (TubeBranch& branch : network.branches) {
-    branch.axis = SimplifyAxis(branch.axis, tolerance, kMinSpacing);
+    branch.axis = SimplifyAxis(branch.axis, options);
   }
-  CutAtTightBends(network, max_turn);
+  CutAtTightBends(network, options.max_turn);
   DropSwallowedBranches(network);
   return network;
 }
