@@ -11,7 +11,6 @@
 #include "meshing/junction_union.h"
 #include "meshing/self_intersections.h"
 #include "meshing/union_cleaning.h"
-#include "meshing/watertight.h"
 
 namespace curvefusion {
 
@@ -68,8 +67,8 @@ std::optional<TriangleMesh> OpenAtCutRings(TriangleMesh mesh, const Junction& ju
   std::vector<std::array<int, 3>> open;
   for (const auto& triangle : mesh.triangles) {
     const int ring = ring_of_vertex[triangle[0]];
-    const bool in_disc = ring >= 0 && ring == ring_of_vertex[triangle[1]] &&
-                         ring == ring_of_vertex[triangle[2]];
+    const bool in_disc =
+        ring >= 0 && ring == ring_of_vertex[triangle[1]] && ring == ring_of_vertex[triangle[2]];
     if (in_disc) {
       ++removed[ring];
     } else {
@@ -143,9 +142,8 @@ std::optional<TriangleMesh> CleanSoundly(const UnionMesh& united, const Junction
   for (const auto& ring : junction.cut_rings) kept.insert(kept.end(), ring.begin(), ring.end());
   ZoneList zones(kZoneRadius * junction.radius);
   for (int round = 0; round < kCleaningRounds; ++round) {
-    std::optional<TriangleMesh> clean =
-        CleanUnion(united, kept,
-                   {kMinEdge * junction.radius, kMinHeight * junction.radius, zones.Zones()});
+    std::optional<TriangleMesh> clean = CleanUnion(
+        united, kept, {kMinEdge * junction.radius, kMinHeight * junction.radius, zones.Zones()});
     if (!clean) return std::nullopt;
     const auto collisions = Collisions(*clean);
     if (collisions.empty()) return clean;
@@ -160,7 +158,7 @@ std::optional<TriangleMesh> Attempt(const Junction& junction, const std::map<Pla
       UniteSolids(PerturbedStubs(junction, rings, attempt, seed));
   if (!united) return std::nullopt;
   std::optional<TriangleMesh> clean = CleanSoundly(*united, junction);
-  if (!clean || !ExamineMesh(*clean).IsWatertight()) return std::nullopt;
+  if (!clean) return std::nullopt;
   return OpenAtCutRings(std::move(*clean), junction, rings);
 }
 

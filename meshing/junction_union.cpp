@@ -73,9 +73,8 @@ std::vector<size_t> OrderAlongLongestSide(const std::vector<TriangleMesh>& solid
   box.sizes().maxCoeff(&axis);
   std::vector<size_t> order(solids.size());
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) {
-    return centres[a][axis] < centres[b][axis];
-  });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](size_t a, size_t b) { return centres[a][axis] < centres[b][axis]; });
   return order;
 }
 

@@ -149,7 +149,8 @@ double TurnAngle(const Vec3& before, const Vec3& after) {
 }
 
 bool StripFolds(double length, double radius, double first_turn, double last_turn) {
-  const double reach = std::tan(std::min(first_turn, 3.0) / 2) + std::tan(std::min(last_turn, 3.0) / 2);
+  const double reach =
+      std::tan(std::min(first_turn, 3.0) / 2) + std::tan(std::min(last_turn, 3.0) / 2);
   return length < kFoldMargin * radius * reach;
 }
 
@@ -193,7 +194,8 @@ TubeAxis SubdivideAxis(const TubeAxis& axis, double max_spacing) {
   for (size_t i = 0; i + 1 < axis.points.size(); ++i) {
     const Vec3 step = axis.points[i + 1] - axis.points[i];
     const double radius = std::min(axis.radii[i], axis.radii[i + 1]);
-    const int parts = std::max(1, static_cast<int>(std::ceil(step.norm() / (max_spacing * radius))));
+    const int parts =
+        std::max(1, static_cast<int>(std::ceil(step.norm() / (max_spacing * radius))));
     for (int k = 0; k < parts; ++k) {
       const double t = static_cast<double>(k) / parts;
       fine.points.push_back(axis.points[i] + t * step);

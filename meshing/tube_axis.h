@@ -15,10 +15,10 @@ struct TubeAxis {
 
 /// How a noisy polyline becomes the axis of a tube; lengths in local radii.
 struct AxisOptions {
-  double tolerance = 0.04;      ///< the simplified axis follows the given one within this
-  double min_spacing = 0.3;     ///< least distance of consecutive points
+  double tolerance = 0.04;       ///< the simplified axis follows the given one within this
+  double min_spacing = 0.3;      ///< least distance of consecutive points
   double kink_tolerance = 0.15;  ///< the same where a tube could not be swept otherwise
-  double max_turn = 0.785;      ///< radians, at one point of a swept tube
+  double max_turn = 0.785;       ///< radians, at one point of a swept tube
 };
 
 /// The fewest points that follow `axis` (position and radius) within the tolerance

@@ -19,8 +19,8 @@ constexpr double kMaxTurn = std::numbers::pi / 4;  // at a mitred ring
 
 // Rings of different tubes are turned against each other, so that their facets do not lie in one
 // plane where the tubes meet.
-double PhaseOf(size_t path, int sides) {
-  return 2 * std::numbers::pi / sides * HashedNumber(path);
+double PhaseOf(uint64_t path, int sides, uint64_t seed) {
+  return 2 * std::numbers::pi / sides * HashedNumber((seed << 32) + path);
 }
 
 // The point at which a path that intersects itself is best cut: the sharpest turn between the first
@@ -54,13 +54,13 @@ std::optional<int> CutAgainstSelfIntersection(const TubePath& path, const TubeRi
 }
 
 // Sweeps all paths; those that intersect themselves are cut until none does.
-void SweepSoundly(int sides, TubeLayout& layout) {
+void SweepSoundly(int sides, uint64_t seed, TubeLayout& layout) {
   for (bool all_sound = false; !all_sound;) {
     std::vector<std::optional<int>> cuts(layout.paths.size());
     layout.rings.resize(layout.paths.size());
     ParallelFor(0, static_cast<int64_t>(layout.paths.size()), 1, [&](int64_t i) {
       const TubePath& path = layout.paths[i];
-      layout.rings[i] = SweepRings(path, sides, PhaseOf(static_cast<size_t>(i), sides));
+      layout.rings[i] = SweepRings(path, sides, PhaseOf(static_cast<uint64_t>(i), sides, seed));
       cuts[i] = CutAgainstSelfIntersection(path, layout.rings[i]);
     });
     all_sound = std::none_of(cuts.begin(), cuts.end(), [](const auto& cut) { return cut; });
@@ -79,14 +79,14 @@ void SweepSoundly(int sides, TubeLayout& layout) {
 
 }  // namespace
 
-TubeLayout LayOutTubes(const SkeletonGraph& graph, const TubeOptions& options) {
+TubeLayout LayOutTubes(const SkeletonGraph& graph, const TubeOptions& options, uint64_t seed) {
   TubeLayout layout;
   AxisOptions axis;
   axis.tolerance = options.axis_tolerance;
   axis.max_turn = kMaxTurn;
   const TubeNetwork network = PrepareTubes(graph, options.default_radius, axis);
   layout.paths = CutSelfContacts(ChainTubes(network, kMaxTurn, options.ring_spacing));
-  SweepSoundly(options.sides, layout);
+  SweepSoundly(options.sides, seed, layout);
   layout.groups = GroupContacts(layout.paths);
   return layout;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "graph/skeleton_graph.h"
@@ -20,7 +21,7 @@ struct TubeLayout {
 
 /// Lays out the tubes of a skeleton: chains its branches, cuts tubes where they would touch or fold
 /// into themselves, sweeps the rings (checked exactly for self-intersections) and groups what
-/// touches. Throws as PrepareTubes does.
-TubeLayout LayOutTubes(const SkeletonGraph& graph, const TubeOptions& options);
+/// touches. The seed turns the polygons of the tubes. Throws as PrepareTubes does.
+TubeLayout LayOutTubes(const SkeletonGraph& graph, const TubeOptions& options, uint64_t seed);
 
 }  // namespace curvefusion

@@ -29,10 +29,10 @@ struct TubeNetwork {
   std::vector<std::vector<BranchEnd>> EndsAtNodes() const;
 };
 
-/// Prepares a skeleton for sweeping: nodes at the same place, or joined by an edge shorter than 0.15
-/// radii, become one; degree-2 nodes are dissolved; curves are simplified and cut where they turn by
-/// more than `max_turn` or more tightly than the tube is thick; a branch that lies inside another
-/// between the same nodes is dropped. Edges without radii get `default_radius`. Throws
+/// Prepares a skeleton for sweeping: nodes at the same place, or joined by an edge shorter than
+/// 0.15 radii, become one; degree-2 nodes are dissolved; curves are simplified and cut where they
+/// turn by more than `max_turn` or more tightly than the tube is thick; a branch that lies inside
+/// another between the same nodes is dropped. Edges without radii get `default_radius`. Throws
 /// Error(kBadInput) for coordinates or radii that are not finite, radii that are not positive, or
 /// ones too thin for float32 coordinates at their distance from the origin.
 TubeNetwork PrepareTubes(const SkeletonGraph& graph, double default_radius,

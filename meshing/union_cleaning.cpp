@@ -67,16 +67,15 @@ class UnionCleaner {
 
  private:
   double Length(HalfEdge h) const {
-    return (PointOf(mesh_, mesh_.to_vertex_handle(h)) -
-            PointOf(mesh_, mesh_.from_vertex_handle(h)))
+    return (PointOf(mesh_, mesh_.to_vertex_handle(h)) - PointOf(mesh_, mesh_.from_vertex_handle(h)))
         .norm();
   }
 
   // The factor of the zone in which a half-edge lies.
   double FactorAt(HalfEdge h) const {
-    const Vec3 middle = (PointOf(mesh_, mesh_.to_vertex_handle(h)) +
-                         PointOf(mesh_, mesh_.from_vertex_handle(h))) /
-                        2;
+    const Vec3 middle =
+        (PointOf(mesh_, mesh_.to_vertex_handle(h)) + PointOf(mesh_, mesh_.from_vertex_handle(h))) /
+        2;
     for (const CleaningZone& zone : options_.zones) {
       if ((middle - zone.centre).squaredNorm() <= zone.radius * zone.radius) return zone.factor;
     }

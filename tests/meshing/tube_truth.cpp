@@ -38,7 +38,9 @@ std::vector<Capsule> CapsulesOf(const SkeletonGraph& graph) {
       const double change = std::abs(edge.radii[i + 1] - edge.radii[i]);
       const int parts = 1 + static_cast<int>(50 * change / edge.radii[i]);
       for (int k = 0; k < parts; ++k) {
-        const auto at = [&](double t) { return edge.points[i] + t * (edge.points[i + 1] - edge.points[i]); };
+        const auto at = [&](double t) {
+          return edge.points[i] + t * (edge.points[i + 1] - edge.points[i]);
+        };
         const double middle = (k + 0.5) / parts;
         capsules.push_back({at(static_cast<double>(k) / parts), at((k + 1.0) / parts),
                             edge.radii[i] + middle * (edge.radii[i + 1] - edge.radii[i])});
@@ -74,7 +76,8 @@ class CapsuleGrid {
  private:
   using Key = std::array<int, 3>;
   Key KeyOf(const Vec3& p) const {
-    return {static_cast<int>(std::floor(p.x() / cell_)), static_cast<int>(std::floor(p.y() / cell_)),
+    return {static_cast<int>(std::floor(p.x() / cell_)),
+            static_cast<int>(std::floor(p.y() / cell_)),
             static_cast<int>(std::floor(p.z() / cell_))};
   }
   const std::vector<Capsule>& capsules_;
@@ -97,9 +100,14 @@ Vec3 RandomPointIn(const Capsule& c, std::mt19937_64& random) {
 }
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using VertexBase = CGAL::Fixed_alpha_shape_vertex_base_3<Kernel, CGAL::Regular_triangulation_vertex_base_3<Kernel>>;
-using CellBase = CGAL::Fixed_alpha_shape_cell_base_3<Kernel, CGAL::Regular_triangulation_cell_base_3<Kernel>>;
-using Triangulation = CGAL::Regular_triangulation_3<Kernel, CGAL::Triangulation_data_structure_3<VertexBase, CellBase>>;
+using VertexBase =
+    CGAL::Fixed_alpha_shape_vertex_base_3<Kernel,
+                                          CGAL::Regular_triangulation_vertex_base_3<Kernel>>;
+using CellBase =
+    CGAL::Fixed_alpha_shape_cell_base_3<Kernel, CGAL::Regular_triangulation_cell_base_3<Kernel>>;
+using Triangulation =
+    CGAL::Regular_triangulation_3<Kernel,
+                                  CGAL::Triangulation_data_structure_3<VertexBase, CellBase>>;
 using AlphaShape = CGAL::Fixed_alpha_shape_3<Triangulation>;
 
 std::vector<Kernel::Weighted_point_3> BallsAlong(const SkeletonGraph& graph, double scale) {

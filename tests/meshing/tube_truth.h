@@ -19,8 +19,8 @@ struct SampledVolume {
 SampledVolume VolumeOfTubes(const SkeletonGraph& graph, int samples);
 
 /// Euler characteristic and components of the union, from a weighted alpha complex of balls every
-/// tenth of a radius. Nothing where the answer depends on 3 % of the radius: then tubes nearly touch
-/// or a hole is about to close.
+/// tenth of a radius. Nothing where the answer depends on 3 % of the radius: then tubes nearly
+/// touch or a hole is about to close.
 struct Topology {
   int64_t euler = 0;
   int64_t components = 0;
