@@ -1,0 +1,176 @@
+#include "meshing/junction_mesh.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <tuple>
+#include <utility>
+
+#include "kernel/geometry.h"
+#include "meshing/hashed_number.h"
+#include "meshing/junction_union.h"
+#include "meshing/self_intersections.h"
+#include "meshing/union_cleaning.h"
+
+namespace curvefusion {
+
+namespace {
+
+// In radii.
+constexpr double kPerturbation = 2e-3;  // each further attempt adds as much again
+constexpr double kMinEdge = 0.02;
+constexpr double kMinHeight = 0.002;
+constexpr double kZoneRadius = 0.2;
+
+constexpr int kCleaningRounds = 7;
+constexpr std::array<double, 5> kZoneFactors = {0.1, 2.0, 0.4, 4.0, 0.03};
+
+using Place = std::tuple<float, float, float>;
+Place PlaceOf(const Vec3f& p) { return {p.x(), p.y(), p.z()}; }
+
+// The cut ring each place belongs to.
+std::map<Place, int> RingsByPlace(const Junction& junction) {
+  std::map<Place, int> rings;
+  for (size_t ring = 0; ring < junction.cut_rings.size(); ++ring) {
+    for (const Vec3f& p : junction.cut_rings[ring]) rings[PlaceOf(p)] = static_cast<int>(ring);
+  }
+  return rings;
+}
+
+std::vector<TriangleMesh> PerturbedStubs(const Junction& junction,
+                                         const std::map<Place, int>& rings, int attempt,
+                                         uint64_t seed) {
+  std::vector<TriangleMesh> stubs = junction.stubs;
+  if (attempt == 0) return stubs;
+  const double amplitude = kPerturbation * attempt * junction.radius;
+  seed = (seed * 64 + static_cast<uint64_t>(attempt)) << 24;
+  for (TriangleMesh& stub : stubs) {
+    for (Vec3f& v : stub.vertices) {
+      if (rings.count(PlaceOf(v)) > 0) continue;
+      Vec3 offset;
+      for (double& x : offset) x = amplitude * (2 * HashedNumber(seed++) - 1);
+      v = (v.cast<double>() + offset).cast<float>();
+    }
+  }
+  return stubs;
+}
+
+// Removes the discs over the cut rings; nothing where one of them did not come through whole.
+std::optional<TriangleMesh> OpenAtCutRings(TriangleMesh mesh, const Junction& junction,
+                                           const std::map<Place, int>& rings) {
+  std::vector<int> ring_of_vertex;
+  for (const Vec3f& v : mesh.vertices) {
+    const auto found = rings.find(PlaceOf(v));
+    ring_of_vertex.push_back(found == rings.end() ? -1 : found->second);
+  }
+  std::vector<size_t> removed(junction.cut_rings.size(), 0);
+  std::vector<std::array<int, 3>> open;
+  for (const auto& triangle : mesh.triangles) {
+    const int ring = ring_of_vertex[triangle[0]];
+    const bool in_disc =
+        ring >= 0 && ring == ring_of_vertex[triangle[1]] && ring == ring_of_vertex[triangle[2]];
+    if (in_disc) {
+      ++removed[ring];
+    } else {
+      open.push_back(triangle);
+    }
+  }
+  for (size_t ring = 0; ring < removed.size(); ++ring) {
+    if (removed[ring] + 2 != junction.cut_rings[ring].size()) return std::nullopt;
+  }
+  mesh.triangles = std::move(open);
+  return mesh;
+}
+
+// The triangles that meet others, in metres or once the coordinates are rounded in millimetres.
+std::vector<std::pair<int, int>> Collisions(const TriangleMesh& mesh) {
+  std::vector<std::pair<int, int>> collisions = FindSelfIntersections(mesh);
+  TriangleMesh millimetres = mesh;
+  for (Vec3f& v : millimetres.vertices) v = (v.cast<double>() / kMillimetre).cast<float>();
+  for (const auto& pair : FindSelfIntersections(millimetres)) collisions.push_back(pair);
+  return collisions;
+}
+
+// Cleaning makes sheets collide that pass each other closely: there it is done more finely at
+// first, then more coarsely.
+class ZoneList {
+ public:
+  explicit ZoneList(double radius) : radius_(radius) {}
+
+  void Mark(const TriangleMesh& mesh, const std::vector<std::pair<int, int>>& collisions) {
+    std::vector<char> marked(zones_.size(), 0);
+    for (const auto& [i, j] : collisions) {
+      for (const int face : {i, j}) {
+        for (const int v : mesh.triangles[face]) MarkPlace(mesh.vertices[v].cast<double>(), marked);
+      }
+    }
+  }
+
+  std::vector<CleaningZone> Zones() const {
+    std::vector<CleaningZone> zones;
+    for (const Zone& zone : zones_) {
+      zones.push_back({zone.centre, radius_, kZoneFactors[zone.level % kZoneFactors.size()]});
+    }
+    return zones;
+  }
+
+ private:
+  struct Zone {
+    Vec3 centre;
+    size_t level;
+  };
+
+  // Raises the level of the zone at a place, once in a round, or makes a new one.
+  void MarkPlace(const Vec3& place, std::vector<char>& marked) {
+    for (size_t i = 0; i < zones_.size(); ++i) {
+      if ((zones_[i].centre - place).norm() > radius_) continue;
+      if (!marked[i]) ++zones_[i].level;
+      marked[i] = 1;
+      return;
+    }
+    zones_.push_back({place, 0});
+    marked.push_back(1);
+  }
+
+  double radius_;
+  std::vector<Zone> zones_;
+};
+
+// Cleans a union until nothing collides.
+std::optional<TriangleMesh> CleanSoundly(const UnionMesh& united, const Junction& junction) {
+  std::vector<Vec3f> kept;
+  for (const auto& ring : junction.cut_rings) kept.insert(kept.end(), ring.begin(), ring.end());
+  ZoneList zones(kZoneRadius * junction.radius);
+  for (int round = 0; round < kCleaningRounds; ++round) {
+    std::optional<TriangleMesh> clean = CleanUnion(
+        united, kept, {kMinEdge * junction.radius, kMinHeight * junction.radius, zones.Zones()});
+    if (!clean) return std::nullopt;
+    const auto collisions = Collisions(*clean);
+    if (collisions.empty()) return clean;
+    zones.Mark(*clean, collisions);
+  }
+  return std::nullopt;
+}
+
+std::optional<TriangleMesh> Attempt(const Junction& junction, const std::map<Place, int>& rings,
+                                    int attempt, uint64_t seed) {
+  const std::optional<UnionMesh> united =
+      UniteSolids(PerturbedStubs(junction, rings, attempt, seed));
+  if (!united) return std::nullopt;
+  std::optional<TriangleMesh> clean = CleanSoundly(*united, junction);
+  if (!clean) return std::nullopt;
+  return OpenAtCutRings(std::move(*clean), junction, rings);
+}
+
+}  // namespace
+
+JunctionMesh MeshJunction(const Junction& junction, int max_attempts, uint64_t seed) {
+  const std::map<Place, int> rings = RingsByPlace(junction);
+  JunctionMesh result;
+  while (!result.surface && result.attempts < max_attempts) {
+    result.surface = Attempt(junction, rings, result.attempts++, seed);
+  }
+  return result;
+}
+
+}  // namespace curvefusion
