@@ -70,7 +70,7 @@ void HitPlane(const Ray& ray, int axis, double at, const Vec3& albedo, Hit& hit)
   const double depth = (at - ray.origin[axis]) / ray.direction[axis];
   if (!(depth > 0) || depth >= hit.depth) return;
   const Vec3 normal = (ray.direction[axis] > 0 ? -1.0 : 1.0) * Vec3::Unit(axis);
-  hit = {depth, normal, Textured(albedo, ray.origin + depth * ray.direction, 0.25)};
+  hit = {depth, normal, Textured(albedo, ray.origin + depth * ray.direction, 0.15)};
 }
 
 void HitBox(const Ray& ray, Hit& hit) {

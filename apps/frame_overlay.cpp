@@ -16,7 +16,7 @@ constexpr double kSampleStep = 0.005;  // metres between the samples that decide
 constexpr double kNearest = 0.05;    // metres in front of the camera, below which nothing is drawn
 constexpr double kAlmostAll = 0.98;  // of the best count of samples: as good as the best
 constexpr double kMargin = 0.12;     // of the cut-out's size, around the graph
-constexpr double kOpacity = 0.6;
+constexpr double kOpacity = 0.5;
 constexpr int kShift = 4;
 
 cv::Scalar Ink(const Rgb& color) { return {double(color[0]), double(color[1]), double(color[2])}; }

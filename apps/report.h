@@ -1,0 +1,36 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "apps/config.h"
+#include "apps/graph_figures.h"
+#include "capture/sequence.h"
+#include "fusion/pipeline.h"
+
+namespace curvefusion {
+
+/// What report.json tells of a run.
+struct RunRecord {
+  const Sequence& sequence;
+  const Config& config;
+  const Reconstruction& reconstruction;
+  double seconds = 0;         ///< the whole run
+  double mesh_seconds = 0;
+  int64_t peak_memory = 0;    ///< bytes
+};
+
+/// The text of report.json: profile, sequence, frames, stages with seconds and counts, warnings,
+/// figures of the skeleton and the mesh. Lengths in metres, diameters in millimetres.
+std::string ReportJson(const RunRecord& record);
+
+/// The greatest amount of memory this process has held so far, in bytes.
+int64_t PeakMemory();
+
+/// "16 curves, 2.86 m, diameter 5.0 mm, 12 junctions, 0 free ends".
+std::string FiguresLine(const GraphFigures& figures);
+
+/// What a run tells the person at its end: what was found, where files lie, warnings.
+std::string Summary(const RunRecord& record, const std::filesystem::path& folder);
+
+}  // namespace curvefusion
