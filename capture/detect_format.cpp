@@ -1,0 +1,93 @@
+#include "capture/detect_format.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "capture/readers/readers.h"
+#include "kernel/error.h"
+
+namespace curvefusion {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+bool LooksLikeTum(const fs::path& folder) {
+  return fs::exists(folder / "depth.txt") || fs::exists(folder / "associations.txt");
+}
+
+bool LooksLikeRedwood(const fs::path& folder) { return fs::exists(folder / "trajectory.log"); }
+
+bool LooksLikePerFramePoses(const fs::path& folder) { return fs::is_directory(folder / "pose"); }
+
+bool LooksLikeSevenScenes(const fs::path& folder) {
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with("frame-") && name.ends_with(".depth.png")) return true;
+  }
+  return false;
+}
+
+struct Format {
+  const char* name;
+  bool (*matches)(const fs::path& folder);
+  Sequence (*read)(const fs::path& folder, const FindingHandler& on_finding);
+};
+
+constexpr std::array<Format, 4> kFormats = {{
+    {"tum", LooksLikeTum, ReadTum},
+    {"redwood", LooksLikeRedwood, ReadRedwood},
+    {"per-frame poses", LooksLikePerFramePoses, ReadPerFramePoses},
+    {"7-scenes", LooksLikeSevenScenes, ReadSevenScenes},
+}};
+
+[[noreturn]] void FailUnknownFormat(const fs::path& folder) {
+  if (fs::is_empty(folder)) {
+    throw Error(ErrorKind::kBadInput, fmt::format("{}: the folder is empty", folder.string()));
+  }
+  throw Error(
+      ErrorKind::kBadInput,
+      fmt::format(
+          "{}: the format of this folder is unknown; it must hold one of: rgb.txt, depth.txt and "
+          "trajectory.txt (TUM); color/, depth/ and pose/ (per-frame poses); color/, depth/ and "
+          "trajectory.log (Open3D, Redwood); frame-000000.depth.png and so on (7-Scenes)",
+          folder.string()));
+}
+
+void ReportDroppedFrames(const Sequence& sequence, const FindingHandler& on_finding) {
+  const int kept = sequence.frame_count();
+  const int total = kept + sequence.frames_without_pose + sequence.frames_without_partner / 2;
+  const std::string counts = fmt::format(
+      "{}: {} of {} frames have a pose and both images ({} without a pose, {} colour or depth "
+      "images "
+      "without the other)",
+      sequence.folder.string(), kept, total, sequence.frames_without_pose,
+      sequence.frames_without_partner);
+  if (kept == 0) {
+    on_finding({Severity::kError, counts + "; compare the stamps or names of the images with those "
+                                           "of the poses"});
+  } else if (2 * kept < total) {
+    on_finding({Severity::kWarning,
+                counts + "; stamps must agree to 20 ms: do images and poses use the same clock?"});
+  }
+}
+
+}  // namespace
+
+Sequence ReadSequence(const fs::path& folder, const FindingHandler& on_finding) {
+  if (!fs::is_directory(folder)) {
+    throw Error(ErrorKind::kBadInput, fmt::format("{}: there is no such folder", folder.string()));
+  }
+  for (const Format& format : kFormats) {
+    if (!format.matches(folder)) continue;
+    Sequence sequence = format.read(folder, on_finding);
+    sequence.format = format.name;
+    sequence.folder = folder;
+    ReportDroppedFrames(sequence, on_finding);
+    return sequence;
+  }
+  FailUnknownFormat(folder);
+}
+
+}  // namespace curvefusion

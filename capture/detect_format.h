@@ -1,0 +1,15 @@
+#pragma once
+
+#include <filesystem>
+
+#include "capture/finding.h"
+#include "capture/sequence.h"
+
+namespace curvefusion {
+
+/// Detects the format of a folder and reads everything but the images. Reports the defects that
+/// leave something to go on with, also: no frame with a pose (error), frames dropped (warning).
+/// Throws Error(kBadInput) where the format is unknown or a file is missing that the format needs.
+Sequence ReadSequence(const std::filesystem::path& folder, const FindingHandler& on_finding);
+
+}  // namespace curvefusion

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "kernel/image.h"
+
+namespace curvefusion {
+
+/// What the first and last bytes of an image file say, without decoding it.
+struct ImageHeader {
+  std::string defect;  ///< why the file cannot be used ("is truncated"), empty where it can
+  int width = 0;
+  int height = 0;
+  int bits = 0;      ///< per channel
+  int channels = 0;  ///< 1 grey, 3 colour, 4 with alpha
+};
+
+/// Reads the header of a PNG or JPEG file and looks for its end marker: a file cut off is told from
+/// a whole one, which decoders do not do for JPEG. Does not throw for bad files.
+ImageHeader ReadImageHeader(const std::filesystem::path& path);
+
+/// Decodes a 16-bit grey PNG. Throws Error(kBadInput) naming the file where it is missing,
+/// truncated, broken or of another kind.
+Image<uint16_t> DecodeDepthImage(const std::filesystem::path& path);
+
+/// Decodes an 8-bit PNG or JPEG, grey or colour. Orientation tags are ignored: intrinsics belong to
+/// the stored pixels. Throws like DecodeDepthImage.
+ColorImage DecodeColorImage(const std::filesystem::path& path);
+
+}  // namespace curvefusion

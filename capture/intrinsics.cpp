@@ -1,0 +1,178 @@
+#include "capture/intrinsics.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "capture/trajectory.h"
+#include "kernel/error.h"
+
+namespace curvefusion {
+
+namespace {
+
+using nlohmann::json;
+
+[[noreturn]] void Fail(const std::string& message) { throw Error(ErrorKind::kBadInput, message); }
+
+json ParseJsonObject(const std::filesystem::path& path) {
+  std::ifstream stream(path);
+  if (!stream) {
+    Fail(
+        fmt::format("{}: is missing; it must give the camera's width, height, focal lengths and "
+                    "principal point",
+                    path.string()));
+  }
+  json object;
+  try {
+    object = json::parse(stream);
+  } catch (const json::exception& error) {
+    Fail(fmt::format("{}: is no valid JSON: {}", path.string(), error.what()));
+  }
+  if (!object.is_object()) Fail(fmt::format("{}: must be a JSON object", path.string()));
+  return object;
+}
+
+double Number(const json& object, const char* key, const std::string& where) {
+  const auto value = object.find(key);
+  if (value == object.end()) Fail(fmt::format("{}: '{}' is missing", where, key));
+  if (!value->is_number()) {
+    Fail(fmt::format("{}: '{}' is {}, a number is needed", where, key, value->dump()));
+  }
+  return value->get<double>();
+}
+
+void RequirePlausible(const PinholeCamera& camera, const std::string& where) {
+  if (camera.width <= 0 || camera.height <= 0) {
+    Fail(fmt::format("{}: the image size is {}x{}; width and height must be positive", where,
+                     camera.width, camera.height));
+  }
+  if (!(camera.fx > 0 && camera.fy > 0)) {
+    Fail(fmt::format("{}: fx = {}, fy = {}; focal lengths in pixels must be positive", where,
+                     camera.fx, camera.fy));
+  }
+  if (!camera.Contains({camera.cx, camera.cy})) {
+    Fail(
+        fmt::format("{}: the principal point ({}, {}) lies outside the {}x{} image; it is given in "
+                    "pixels of the full image",
+                    where, camera.cx, camera.cy, camera.width, camera.height));
+  }
+}
+
+PinholeCamera ParseCamera(const json& object, const std::string& where) {
+  PinholeCamera camera;
+  camera.width = static_cast<int>(Number(object, "width", where));
+  camera.height = static_cast<int>(Number(object, "height", where));
+  camera.fx = Number(object, "fx", where);
+  camera.fy = Number(object, "fy", where);
+  camera.cx = Number(object, "cx", where);
+  camera.cy = Number(object, "cy", where);
+  RequirePlausible(camera, where);
+  return camera;
+}
+
+void AppendNumbers(const json& value, std::vector<double>& numbers) {
+  if (value.is_number()) numbers.push_back(value.get<double>());
+  if (!value.is_array()) return;
+  for (const json& entry : value) AppendNumbers(entry, numbers);
+}
+
+RigidTransform ParseTransform(const json& value, const std::string& where) {
+  std::vector<double> numbers;
+  AppendNumbers(value, numbers);
+  if (numbers.size() != 16) {
+    Fail(fmt::format("{}: a 4x4 matrix of 16 numbers is needed, {} are there", where,
+                     numbers.size()));
+  }
+  const Eigen::Matrix4d matrix =
+      Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(numbers.data());
+  return *RigidFromMatrix(matrix, where,
+                          [](const CheckFinding& finding) { Fail(finding.message); });
+}
+
+std::optional<double> ParseDepthScale(const json& object, const std::string& where) {
+  if (!object.contains("depth_scale")) return std::nullopt;
+  const double scale = Number(object, "depth_scale", where);
+  if (!(scale > 0)) {
+    Fail(
+        fmt::format("{}: depth_scale is {}; it is the number of depth units in a metre, 1000 for "
+                    "millimetres",
+                    where, scale));
+  }
+  return scale;
+}
+
+Intrinsics ParseIntrinsics(const std::filesystem::path& path) {
+  const json object = ParseJsonObject(path);
+  Intrinsics intrinsics;
+  intrinsics.depth_camera = ParseCamera(object, path.string());
+  intrinsics.depth_scale = ParseDepthScale(object, path.string());
+  intrinsics.color_camera =
+      object.contains("color_camera")
+          ? ParseCamera(object["color_camera"], path.string() + ": color_camera")
+          : intrinsics.depth_camera;
+  if (object.contains("T_color_depth")) {
+    intrinsics.T_color_depth =
+        ParseTransform(object["T_color_depth"], path.string() + ": T_color_depth");
+  }
+  return intrinsics;
+}
+
+Intrinsics ParseRedwoodIntrinsics(const std::filesystem::path& path) {
+  const json object = ParseJsonObject(path);
+  const std::string where = path.string();
+  const auto matrix = object.find("intrinsic_matrix");
+  if (matrix == object.end() || !matrix->is_array() || matrix->size() != 9) {
+    Fail(fmt::format("{}: 'intrinsic_matrix' must hold 9 numbers, column by column", where));
+  }
+  std::vector<double> m;
+  for (const json& entry : *matrix) m.push_back(entry.is_number() ? entry.get<double>() : NAN);
+  if (m[6] == 0 && m[7] == 0 && m[2] != 0) {
+    Fail(
+        fmt::format("{}: 'intrinsic_matrix' is written row by row; it must be column by column: "
+                    "[fx,0,0, 0,fy,0, cx,cy,1]",
+                    where));
+  }
+  Intrinsics intrinsics;
+  intrinsics.depth_camera = {static_cast<int>(Number(object, "width", where)),
+                             static_cast<int>(Number(object, "height", where)),
+                             m[0],
+                             m[4],
+                             m[6],
+                             m[7]};
+  RequirePlausible(intrinsics.depth_camera, where);
+  intrinsics.color_camera = intrinsics.depth_camera;
+  intrinsics.depth_scale = ParseDepthScale(object, where);
+  return intrinsics;
+}
+
+// Turns the first defect into a finding, so that a check can go on without cameras.
+template <class Parse>
+Intrinsics ReportDefect(const Parse& parse, const std::filesystem::path& path,
+                        const FindingHandler& on_finding) {
+  std::string message;
+  try {
+    return parse(path);
+  } catch (const Error& error) {
+    message = error.what();
+  }
+  on_finding({Severity::kError, message});
+  return {};
+}
+
+}  // namespace
+
+Intrinsics ReadIntrinsics(const std::filesystem::path& path, const FindingHandler& on_finding) {
+  return ReportDefect(ParseIntrinsics, path, on_finding);
+}
+
+Intrinsics ReadRedwoodIntrinsics(const std::filesystem::path& path,
+                                 const FindingHandler& on_finding) {
+  return ReportDefect(ParseRedwoodIntrinsics, path, on_finding);
+}
+
+}  // namespace curvefusion

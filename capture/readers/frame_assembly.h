@@ -1,0 +1,40 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "capture/intrinsics.h"
+#include "capture/sequence.h"
+
+namespace curvefusion {
+
+/// Image files by frame number, so in the order of the frames.
+using NumberedImages = std::map<long long, std::filesystem::path>;
+
+/// The PNG and JPEG files of a folder by frame number: the first run of digits in the name
+/// ("000012.png", "0000001-000000033000.jpg", "frame-000007"). Throws Error(kBadInput) where the
+/// folder is missing, or two files have the same number. `suffix` limits it to names that end so
+/// (".depth.png").
+NumberedImages ImagesByFrameNumber(const std::filesystem::path& folder,
+                                   const std::string& suffix = "");
+
+/// Sets cameras and depth scale of a sequence; the scale is `default_depth_scale` where the
+/// intrinsics do not say.
+void UseIntrinsics(const Intrinsics& intrinsics, double default_depth_scale, Sequence& sequence);
+
+/// Finds the pose of the `rank`-th depth image (counted from 0), or nothing.
+using PoseLookup =
+    std::function<std::optional<RigidTransform>(int rank, const std::filesystem::path& depth_path)>;
+
+/// Appends a frame for every depth image that has a colour image of the same number and a pose;
+/// counts the others as dropped. Frames are named after the depth image up to its first dot.
+void AddFrames(NumberedImages color, const NumberedImages& depth, const PoseLookup& find_pose,
+               Sequence& sequence);
+
+/// `name` up to its first dot: "frame-000007" of "frame-000007.depth.png".
+std::string FrameName(const std::filesystem::path& image);
+
+}  // namespace curvefusion

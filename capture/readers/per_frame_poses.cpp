@@ -1,0 +1,26 @@
+#include "capture/readers/frame_assembly.h"
+#include "capture/readers/readers.h"
+#include "capture/trajectory.h"
+
+namespace curvefusion {
+
+namespace {
+
+constexpr double kMillimetreUnits = 1000;
+
+}  // namespace
+
+Sequence ReadPerFramePoses(const std::filesystem::path& folder, const FindingHandler& on_finding) {
+  Sequence sequence;
+  UseIntrinsics(ReadIntrinsics(folder / "intrinsics.json", on_finding), kMillimetreUnits, sequence);
+  const auto find_pose = [&](int, const std::filesystem::path& depth_path) {
+    const std::filesystem::path path = folder / "pose" / (FrameName(depth_path) + ".txt");
+    if (!std::filesystem::exists(path)) return std::optional<RigidTransform>();
+    return ReadPoseMatrix(path, on_finding);
+  };
+  AddFrames(ImagesByFrameNumber(folder / "color"), ImagesByFrameNumber(folder / "depth"), find_pose,
+            sequence);
+  return sequence;
+}
+
+}  // namespace curvefusion

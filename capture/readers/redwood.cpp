@@ -1,0 +1,72 @@
+#include <fmt/format.h>
+
+#include <map>
+
+#include "capture/readers/frame_assembly.h"
+#include "capture/readers/readers.h"
+#include "capture/text_lines.h"
+#include "capture/trajectory.h"
+#include "kernel/error.h"
+
+namespace curvefusion {
+
+namespace {
+
+constexpr double kMillimetreUnits = 1000;
+
+double NumberAt(const TextLine& line, size_t column, const std::filesystem::path& path) {
+  const auto number = column < line.fields.size() ? ParseNumber(line.fields[column]) : std::nullopt;
+  if (number) return *number;
+  throw Error(ErrorKind::kBadInput,
+              fmt::format("{}:{}: column {} is no number; poses are one line of three numbers and "
+                          "four lines of a 4x4 matrix",
+                          path.string(), line.number, column + 1));
+}
+
+// Poses by the first number of their header line.
+std::map<int, RigidTransform> ReadTrajectoryLog(const std::filesystem::path& path,
+                                                const FindingHandler& on_finding) {
+  const std::vector<TextLine> lines = ReadTextLines(path);
+  if (lines.size() % 5 != 0) {
+    throw Error(ErrorKind::kBadInput,
+                fmt::format("{}: has {} lines, not a multiple of 5; a pose is a header line and "
+                            "four lines of a 4x4 matrix",
+                            path.string(), lines.size()));
+  }
+  std::map<int, RigidTransform> poses;
+  for (size_t i = 0; i < lines.size(); i += 5) {
+    const int frame = static_cast<int>(NumberAt(lines[i], 0, path));
+    Eigen::Matrix4d matrix;
+    for (int row = 0; row < 4; ++row) {
+      for (int column = 0; column < 4; ++column) {
+        matrix(row, column) = NumberAt(lines[i + 1 + row], column, path);
+      }
+    }
+    const std::string what =
+        fmt::format("{}:{}: pose of frame {}", path.string(), lines[i].number, frame);
+    const auto pose = RigidFromMatrix(matrix, what, on_finding);
+    if (pose && !poses.emplace(frame, *pose).second) {
+      on_finding({Severity::kWarning,
+                  fmt::format("{} stands there more than once; the first is used", what)});
+    }
+  }
+  return poses;
+}
+
+}  // namespace
+
+Sequence ReadRedwood(const std::filesystem::path& folder, const FindingHandler& on_finding) {
+  Sequence sequence;
+  UseIntrinsics(ReadRedwoodIntrinsics(folder / "intrinsic.json", on_finding), kMillimetreUnits,
+                sequence);
+  const auto poses = ReadTrajectoryLog(folder / "trajectory.log", on_finding);
+  const auto find_pose = [&poses](int rank, const std::filesystem::path&) {
+    const auto pose = poses.find(rank);
+    return pose == poses.end() ? std::optional<RigidTransform>() : pose->second;
+  };
+  AddFrames(ImagesByFrameNumber(folder / "color"), ImagesByFrameNumber(folder / "depth"), find_pose,
+            sequence);
+  return sequence;
+}
+
+}  // namespace curvefusion

@@ -1,0 +1,144 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "capture/readers/frame_assembly.h"
+#include "capture/readers/readers.h"
+#include "capture/stamps.h"
+#include "capture/text_lines.h"
+#include "capture/trajectory.h"
+#include "kernel/error.h"
+
+namespace curvefusion {
+
+namespace {
+
+constexpr double kTumDepthUnits = 5000;
+
+// A line "stamp path" of rgb.txt or depth.txt.
+struct StampedImage {
+  double timestamp = 0;
+  std::string stamp;  // as it is written
+  std::filesystem::path path;
+};
+
+struct ImagePair {
+  StampedImage color;
+  StampedImage depth;
+};
+
+StampedImage ParseStampedImage(const TextLine& line, size_t column,
+                               const std::filesystem::path& list) {
+  const auto stamp =
+      column + 1 < line.fields.size() ? ParseNumber(line.fields[column]) : std::optional<double>();
+  if (!stamp || !std::isfinite(*stamp)) {
+    throw Error(ErrorKind::kBadInput,
+                fmt::format("{}:{}: a stamp in seconds and a file name are needed at column {}",
+                            list.string(), line.number, column + 1));
+  }
+  return {*stamp, line.fields[column], list.parent_path() / line.fields[column + 1]};
+}
+
+std::vector<StampedImage> ReadImageList(const std::filesystem::path& list,
+                                        const FindingHandler& on_finding) {
+  std::vector<StampedImage> images;
+  for (const TextLine& line : ReadTextLines(list)) {
+    images.push_back(ParseStampedImage(line, 0, list));
+  }
+  SortByStamp(
+      list.string(), [](const StampedImage& image) { return image.timestamp; }, on_finding, images);
+  return images;
+}
+
+// Pairs each image with at most one of the other list, the smallest differences first.
+std::vector<ImagePair> Associate(const std::vector<StampedImage>& color,
+                                 const std::vector<StampedImage>& depth) {
+  std::vector<std::tuple<double, size_t, size_t>> candidates;  // difference, depth, colour
+  size_t first = 0;
+  for (size_t d = 0; d < depth.size(); ++d) {
+    while (first < color.size() &&
+           color[first].timestamp < depth[d].timestamp - kAssociationTolerance) {
+      ++first;
+    }
+    for (size_t c = first; c < color.size(); ++c) {
+      if (color[c].timestamp > depth[d].timestamp + kAssociationTolerance) break;
+      candidates.emplace_back(std::abs(color[c].timestamp - depth[d].timestamp), d, c);
+    }
+  }
+  std::sort(candidates.begin(), candidates.end());
+  constexpr size_t kFree = static_cast<size_t>(-1);
+  std::vector<size_t> color_of_depth(depth.size(), kFree);
+  std::vector<bool> is_taken(color.size(), false);
+  for (const auto& [difference, d, c] : candidates) {
+    if (color_of_depth[d] != kFree || is_taken[c]) continue;
+    color_of_depth[d] = c;
+    is_taken[c] = true;
+  }
+  std::vector<ImagePair> pairs;
+  for (size_t d = 0; d < depth.size(); ++d) {
+    if (color_of_depth[d] != kFree) pairs.push_back({color[color_of_depth[d]], depth[d]});
+  }
+  return pairs;
+}
+
+// associations.txt comes with colour first or depth first; the folder's name tells.
+std::vector<ImagePair> ReadAssociations(const std::filesystem::path& list,
+                                        const FindingHandler& on_finding) {
+  std::vector<ImagePair> pairs;
+  for (const TextLine& line : ReadTextLines(list)) {
+    ImagePair pair{ParseStampedImage(line, 0, list), ParseStampedImage(line, 2, list)};
+    if (line.fields[1].find("depth") != std::string::npos) std::swap(pair.color, pair.depth);
+    pairs.push_back(std::move(pair));
+  }
+  SortByStamp(
+      list.string(), [](const ImagePair& pair) { return pair.depth.timestamp; }, on_finding, pairs);
+  return pairs;
+}
+
+std::vector<ImagePair> ReadPairs(const std::filesystem::path& folder,
+                                 const FindingHandler& on_finding, Sequence& sequence) {
+  if (std::filesystem::exists(folder / "associations.txt")) {
+    return ReadAssociations(folder / "associations.txt", on_finding);
+  }
+  const auto color = ReadImageList(folder / "rgb.txt", on_finding);
+  const auto depth = ReadImageList(folder / "depth.txt", on_finding);
+  std::vector<ImagePair> pairs = Associate(color, depth);
+  sequence.frames_without_partner =
+      static_cast<int>(color.size() + depth.size() - 2 * pairs.size());
+  return pairs;
+}
+
+std::filesystem::path TrajectoryPath(const std::filesystem::path& folder) {
+  for (const char* name : {"trajectory.txt", "groundtruth.txt"}) {
+    if (std::filesystem::exists(folder / name)) return folder / name;
+  }
+  throw Error(
+      ErrorKind::kBadInput,
+      fmt::format("{}: neither trajectory.txt nor groundtruth.txt is there; write the camera "
+                  "poses as lines 't tx ty tz qx qy qz qw'",
+                  folder.string()));
+}
+
+}  // namespace
+
+Sequence ReadTum(const std::filesystem::path& folder, const FindingHandler& on_finding) {
+  Sequence sequence;
+  UseIntrinsics(ReadIntrinsics(folder / "intrinsics.json", on_finding), kTumDepthUnits, sequence);
+  const Trajectory trajectory = ReadTumTrajectory(TrajectoryPath(folder), on_finding);
+  for (const ImagePair& pair : ReadPairs(folder, on_finding, sequence)) {
+    const StampedPose* pose = NearestPose(trajectory, pair.depth.timestamp);
+    if (pose == nullptr) {
+      ++sequence.frames_without_pose;
+      continue;
+    }
+    sequence.frames.push_back({pair.depth.stamp, pair.depth.timestamp, pose->T_world_camera,
+                               pair.color.path, pair.depth.path});
+  }
+  return sequence;
+}
+
+}  // namespace curvefusion

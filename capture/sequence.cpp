@@ -1,0 +1,69 @@
+#include "capture/sequence.h"
+
+#include <fmt/format.h>
+
+#include "capture/detect_format.h"
+#include "capture/image_file.h"
+#include "capture/image_survey.h"
+#include "kernel/error.h"
+
+namespace curvefusion {
+
+namespace {
+
+constexpr int kDepthScaleFrames = 3;  // looked at when opening
+
+void RequireSize(const Sequence& sequence, const std::filesystem::path& path, int width, int height,
+                 const PinholeCamera& camera) {
+  if (width == camera.width && height == camera.height) return;
+  throw Error(ErrorKind::kBadInput,
+              fmt::format("{}: is {}x{}, the intrinsics in {} are for {}x{}", path.string(), width,
+                          height, sequence.folder.string(), camera.width, camera.height));
+}
+
+void RequirePlausibleDepth(const Sequence& sequence, const FindingHandler& on_finding) {
+  std::vector<DepthImage> images;
+  const int count = std::min(kDepthScaleFrames, sequence.frame_count());
+  for (int i = 0; i < count; ++i) {
+    images.push_back(LoadDepth(sequence, i * sequence.frame_count() / count));
+  }
+  ReportDepthScale(sequence, SurveyDepth(images), on_finding);
+}
+
+}  // namespace
+
+Sequence OpenSequence(const std::filesystem::path& folder) {
+  std::vector<std::string> warnings;
+  const FindingHandler throw_errors = [&warnings](const CheckFinding& finding) {
+    if (finding.severity == Severity::kError) throw Error(ErrorKind::kBadInput, finding.message);
+    warnings.push_back(finding.message);
+  };
+  Sequence sequence = ReadSequence(folder, throw_errors);
+  SurveyImages(sequence, throw_errors);
+  RequirePlausibleDepth(sequence, throw_errors);
+  sequence.warnings = std::move(warnings);
+  return sequence;
+}
+
+DepthImage LoadDepth(const Sequence& sequence, int frame) {
+  const SequenceFrame& entry = sequence.frames.at(static_cast<size_t>(frame));
+  const Image<uint16_t> raw = DecodeDepthImage(entry.depth_path);
+  RequireSize(sequence, entry.depth_path, raw.width(), raw.height(), sequence.depth_camera);
+  DepthImage depth(raw.width(), raw.height());
+  const double metres_per_unit = 1 / sequence.depth_scale;
+  for (size_t i = 0; i < raw.size(); ++i) {
+    const uint16_t value = raw.data()[i];
+    const bool is_valid = value != sequence.invalid_depth;
+    depth.data()[i] = is_valid ? static_cast<float>(value * metres_per_unit) : 0.0f;
+  }
+  return depth;
+}
+
+ColorImage LoadColor(const Sequence& sequence, int frame) {
+  const SequenceFrame& entry = sequence.frames.at(static_cast<size_t>(frame));
+  ColorImage color = DecodeColorImage(entry.color_path);
+  RequireSize(sequence, entry.color_path, color.width(), color.height(), sequence.color_camera);
+  return color;
+}
+
+}  // namespace curvefusion

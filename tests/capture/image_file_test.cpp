@@ -1,0 +1,114 @@
+#include "capture/image_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "kernel/error.h"
+#include "tests/capture/sequence_fixture.h"
+
+namespace curvefusion {
+namespace {
+
+using testing::HasSubstr;
+
+std::string MessageOf(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kBadInput);
+    return error.what();
+  }
+  return "no error";
+}
+
+class ImageFileTest : public testing::Test {
+ protected:
+  std::filesystem::path Path(const char* name) const { return folder_.path() / name; }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(ImageFileTest, DepthKeepsItsSixteenBits) {
+  WriteDepthPng(Path("d.png"), 5, 3, 60000);
+  const Image<uint16_t> depth = DecodeDepthImage(Path("d.png"));
+  EXPECT_EQ(depth.width(), 5);
+  EXPECT_EQ(depth.height(), 3);
+  EXPECT_EQ(depth(4, 2), 60004);
+}
+
+TEST_F(ImageFileTest, ColourIsRgb) {
+  WriteColor(Path("c.png"), 5, 3);
+  WriteColor(Path("c.jpg"), 16, 16);
+  EXPECT_EQ(DecodeColorImage(Path("c.png"))(4, 2), (Rgb{200, 100, 50}));
+  EXPECT_NEAR(DecodeColorImage(Path("c.jpg"))(4, 2)[0], 200, 3);  // JPEG is lossy
+}
+
+TEST_F(ImageFileTest, GreyColourImagesHaveThreeEqualChannels) {
+  WriteGreyPng(Path("g.png"), 5, 3);
+  EXPECT_EQ(DecodeColorImage(Path("g.png"))(1, 1), (Rgb{90, 90, 90}));
+}
+
+TEST_F(ImageFileTest, HeadersTellSizeAndBits) {
+  WriteDepthPng(Path("d.png"), 50, 30, 1000);
+  WriteColor(Path("c.jpg"), 40, 20);
+  const ImageHeader depth = ReadImageHeader(Path("d.png"));
+  EXPECT_EQ(depth.defect, "");
+  EXPECT_EQ(depth.width, 50);
+  EXPECT_EQ(depth.height, 30);
+  EXPECT_EQ(depth.bits, 16);
+  EXPECT_EQ(depth.channels, 1);
+  const ImageHeader color = ReadImageHeader(Path("c.jpg"));
+  EXPECT_EQ(color.defect, "");
+  EXPECT_EQ(color.width, 40);
+  EXPECT_EQ(color.height, 20);
+  EXPECT_EQ(color.bits, 8);
+  EXPECT_EQ(color.channels, 3);
+}
+
+// OpenCV decodes a JPEG that is cut off to a full-size image without a word.
+TEST_F(ImageFileTest, EveryTruncationIsFound) {
+  for (const char* name : {"c.jpg", "d.png"}) {
+    for (const double share : {0.0, 0.01, 0.02, 0.3, 0.6, 0.9, 0.98}) {
+      WriteColor(Path("c.jpg"), 64, 48);
+      WriteDepthPng(Path("d.png"), 64, 48, 1000);
+      Truncate(Path(name), share);
+      EXPECT_NE(ReadImageHeader(Path(name)).defect, "") << name << " cut to " << share;
+      EXPECT_THROW(DecodeColorImage(Path(name)), Error) << name << " cut to " << share;
+    }
+  }
+}
+
+TEST_F(ImageFileTest, BytesAfterTheEndMarkerAreFine) {
+  WriteColor(Path("c.jpg"), 64, 48);
+  std::ofstream(Path("c.jpg"), std::ios::app | std::ios::binary) << std::string(30, '\0');
+  EXPECT_EQ(ReadImageHeader(Path("c.jpg")).defect, "");
+}
+
+TEST_F(ImageFileTest, ABrokenPngIsFoundWhenDecoded) {
+  WriteDepthPng(Path("d.png"), 64, 48, 1000);
+  std::fstream stream(Path("d.png"), std::ios::in | std::ios::out | std::ios::binary);
+  stream.seekp(60);
+  stream << "garbage in the compressed pixels";
+  stream.close();
+  EXPECT_EQ(ReadImageHeader(Path("d.png")).defect, "");
+  EXPECT_THAT(MessageOf([&] { DecodeDepthImage(Path("d.png")); }), HasSubstr("cannot be decoded"));
+}
+
+TEST_F(ImageFileTest, EightBitDepthIsRefused) {
+  WriteGreyPng(Path("d.png"), 8, 8);
+  EXPECT_THAT(MessageOf([&] { DecodeDepthImage(Path("d.png")); }),
+              HasSubstr("has 8 bits and 1 channels, depth needs 16 bits"));
+}
+
+TEST_F(ImageFileTest, MissingAndForeignFilesAreNamed) {
+  EXPECT_THAT(MessageOf([&] { DecodeColorImage(Path("none.jpg")); }),
+              HasSubstr("none.jpg: is missing"));
+  WriteText(Path("text.png"), "this is no picture");
+  EXPECT_THAT(MessageOf([&] { DecodeColorImage(Path("text.png")); }),
+              HasSubstr("neither a PNG nor a JPEG"));
+}
+
+}  // namespace
+}  // namespace curvefusion
