@@ -93,8 +93,9 @@ void CheckNames(const Source& source, Config config) {
     const auto section =
         std::find_if(known.begin(), known.end(), [&](const auto& s) { return s.first == name; });
     if (section == known.end()) {
-      ThrowUsage(fmt::format("{}: there is no section {}; did you mean {}?", source.Place(value),
-                             name, NearestName(name, top_level)));
+      ThrowUsage(fmt::format("{}: there is no section {}; did you mean {}? All: {}",
+                             source.Place(value), name, NearestName(name, top_level),
+                             fmt::join(top_level, ", ")));
     }
     if (!value.is_table()) {
       ThrowUsage(fmt::format("{}: {} is a section; write [{}] and its keys below",

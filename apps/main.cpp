@@ -1,19 +1,34 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <string>
+#include <vector>
 
 #include "apps/commands/command.h"
 #include "apps/interrupt.h"
 #include "kernel/error.h"
+#include "kernel/options.h"
 
 namespace curvefusion {
 
 namespace {
 
 constexpr int kInternalError = 1;
+
+// CLI11 says of a mistyped command only that one is required.
+void CheckCommandName(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return;
+  throw Error(ErrorKind::kUsage,
+              fmt::format("there is no command {}; did you mean {}? `curvefusion --help` lists all",
+                          argv[1], NearestName(argv[1], names)));
+}
 
 int Parse(int argc, char** argv) {
   CLI::App app("CurveFusion: wire objects from RGB-D scans, as curve skeletons and tube meshes.");
@@ -24,8 +39,11 @@ int Parse(int argc, char** argv) {
       "Exit codes: 0 done, 2 usage, 3 bad input, 4 nothing thin found, 5 out of memory or disk,\n"
       "130 interrupted. `curvefusion COMMAND --help` tells more and gives examples.");
   int exit_code = 0;
-  AddDemoScanCommand(app, exit_code);
+  AddReconstructCommand(app, exit_code);
   AddGraphCommand(app, exit_code);
+  AddConfigCommand(app, exit_code);
+  AddDemoScanCommand(app, exit_code);
+  CheckCommandName(app, argc, argv);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -14,7 +14,8 @@ namespace fs = std::filesystem;
 void MakeOutputFolder(const fs::path& folder) {
   std::error_code failure;
   fs::create_directories(folder, failure);
-  if (!failure && !fs::is_directory(folder)) failure = std::make_error_code(std::errc::not_a_directory);
+  if (!failure && !fs::is_directory(folder))
+    failure = std::make_error_code(std::errc::not_a_directory);
   if (!failure && access(folder.c_str(), W_OK | X_OK) != 0) {
     failure = std::error_code(errno, std::generic_category());
   }

@@ -15,9 +15,9 @@ struct RunRecord {
   const Sequence& sequence;
   const Config& config;
   const Reconstruction& reconstruction;
-  double seconds = 0;         ///< the whole run
+  double seconds = 0;  ///< the whole run
   double mesh_seconds = 0;
-  int64_t peak_memory = 0;    ///< bytes
+  int64_t peak_memory = 0;  ///< bytes
 };
 
 /// The text of report.json: profile, sequence, frames, stages with seconds and counts, warnings,
