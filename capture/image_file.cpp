@@ -151,6 +151,16 @@ Image<uint16_t> DecodeDepthImage(const std::filesystem::path& path) {
   return depth;
 }
 
+DepthImage MetricDepth(const Image<uint16_t>& raw, double units_per_metre, int invalid_value) {
+  DepthImage depth(raw.width(), raw.height());
+  const double metres_per_unit = 1 / units_per_metre;
+  for (size_t i = 0; i < raw.size(); ++i) {
+    const uint16_t value = raw.data()[i];
+    depth.data()[i] = value == invalid_value ? 0.0f : static_cast<float>(value * metres_per_unit);
+  }
+  return depth;
+}
+
 ColorImage DecodeColorImage(const std::filesystem::path& path) {
   RequireUsable(path);
   const cv::Mat bgr = Decode(path, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);

@@ -25,8 +25,12 @@ ImageHeader ReadImageHeader(const std::filesystem::path& path);
 /// truncated, broken or of another kind.
 Image<uint16_t> DecodeDepthImage(const std::filesystem::path& path);
 
+/// Raw depth in metres: `invalid_value` and 0 become 0, others are divided by `units_per_metre`.
+DepthImage MetricDepth(const Image<uint16_t>& raw, double units_per_metre, int invalid_value);
+
 /// Decodes an 8-bit PNG or JPEG, grey or colour. Orientation tags are ignored: intrinsics belong to
-/// the stored pixels. Throws like DecodeDepthImage.
+/// the stored pixels. Throws like
+/// DecodeDepthImage.
 ColorImage DecodeColorImage(const std::filesystem::path& path);
 
 }  // namespace curvefusion

@@ -17,7 +17,7 @@ namespace {
 constexpr double kMinMedianDepth = 0.1;  // metres
 constexpr double kMaxMedianDepth = 10;
 constexpr size_t kMaxNamedFiles = 5;
-constexpr int kDepthStride = 16;
+constexpr size_t kDepthStride = 61;  // prime: no image width puts all samples into few columns
 
 // Files by what is wrong with them.
 using Defects = std::map<std::string, std::vector<std::string>>;
@@ -96,18 +96,23 @@ ImageSizes SurveyImages(const Sequence& sequence, const FindingHandler& on_findi
   return {depth.width, depth.height, color.width, color.height};
 }
 
-DepthSurvey SurveyDepth(const std::vector<DepthImage>& images) {
-  std::vector<float> depths;
-  size_t pixels = 0;
-  for (const DepthImage& image : images) {
-    for (size_t i = 0; i < image.size(); i += kDepthStride, ++pixels) {
-      if (image.data()[i] > 0) depths.push_back(image.data()[i]);
-    }
+void DepthSamples::Add(const DepthImage& image) {
+  for (size_t i = 0; i < image.size(); i += kDepthStride, ++pixels) {
+    if (image.data()[i] > 0) valid.push_back(image.data()[i]);
   }
-  if (depths.empty()) return {};
-  const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
-  std::nth_element(depths.begin(), middle, depths.end());
-  return {*middle, static_cast<double>(depths.size()) / static_cast<double>(pixels)};
+}
+
+void DepthSamples::Add(const DepthSamples& other) {
+  valid.insert(valid.end(), other.valid.begin(), other.valid.end());
+  pixels += other.pixels;
+}
+
+DepthSurvey SurveyDepth(DepthSamples samples) {
+  if (samples.valid.empty()) return {};
+  const size_t count = samples.valid.size();
+  const auto middle = samples.valid.begin() + static_cast<std::ptrdiff_t>(count / 2);
+  std::nth_element(samples.valid.begin(), middle, samples.valid.end());
+  return {*middle, static_cast<double>(count) / static_cast<double>(samples.pixels)};
 }
 
 void ReportDepthScale(const Sequence& sequence, const DepthSurvey& survey,

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstddef>
+#include <vector>
+
 #include "capture/finding.h"
 #include "capture/sequence.h"
 
@@ -24,8 +27,16 @@ struct DepthSurvey {
   double validity = 0;  ///< share of valid pixels
 };
 
-/// Median and validity over every 16th pixel of the images.
-DepthSurvey SurveyDepth(const std::vector<DepthImage>& images);
+/// Depths picked from images at a fixed stride, for their statistics.
+struct DepthSamples {
+  std::vector<float> valid;  ///< metres
+  size_t pixels = 0;         ///< looked at, valid or not
+
+  void Add(const DepthImage& image);
+  void Add(const DepthSamples& other);
+};
+
+DepthSurvey SurveyDepth(DepthSamples samples);
 
 /// Reports a median depth outside 0.1 to 10 m, naming the usual depth scale that would make it
 /// plausible, and depth without any valid pixel.

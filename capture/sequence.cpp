@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "capture/detect_format.h"
 #include "capture/image_file.h"
 #include "capture/image_survey.h"
@@ -22,12 +24,12 @@ void RequireSize(const Sequence& sequence, const std::filesystem::path& path, in
 }
 
 void RequirePlausibleDepth(const Sequence& sequence, const FindingHandler& on_finding) {
-  std::vector<DepthImage> images;
+  DepthSamples samples;
   const int count = std::min(kDepthScaleFrames, sequence.frame_count());
   for (int i = 0; i < count; ++i) {
-    images.push_back(LoadDepth(sequence, i * sequence.frame_count() / count));
+    samples.Add(LoadDepth(sequence, i * sequence.frame_count() / count));
   }
-  ReportDepthScale(sequence, SurveyDepth(images), on_finding);
+  ReportDepthScale(sequence, SurveyDepth(samples), on_finding);
 }
 
 }  // namespace
@@ -49,14 +51,7 @@ DepthImage LoadDepth(const Sequence& sequence, int frame) {
   const SequenceFrame& entry = sequence.frames.at(static_cast<size_t>(frame));
   const Image<uint16_t> raw = DecodeDepthImage(entry.depth_path);
   RequireSize(sequence, entry.depth_path, raw.width(), raw.height(), sequence.depth_camera);
-  DepthImage depth(raw.width(), raw.height());
-  const double metres_per_unit = 1 / sequence.depth_scale;
-  for (size_t i = 0; i < raw.size(); ++i) {
-    const uint16_t value = raw.data()[i];
-    const bool is_valid = value != sequence.invalid_depth;
-    depth.data()[i] = is_valid ? static_cast<float>(value * metres_per_unit) : 0.0f;
-  }
-  return depth;
+  return MetricDepth(raw, sequence.depth_scale, sequence.invalid_depth);
 }
 
 ColorImage LoadColor(const Sequence& sequence, int frame) {

@@ -35,7 +35,8 @@ void WriteDepthPng(const std::filesystem::path& path, int width, int height, int
   std::filesystem::create_directories(path.parent_path());
   cv::Mat pixels(height, width, CV_16UC1);
   for (int v = 0; v < height; ++v) {
-    for (int u = 0; u < width; ++u) pixels.at<uint16_t>(v, u) = static_cast<uint16_t>(value + u);
+    for (int u = 0; u < width; ++u)
+      pixels.at<uint16_t>(v, u) = cv::saturate_cast<uint16_t>(value + u);
   }
   cv::imwrite(path.string(), pixels);
 }

@@ -23,7 +23,7 @@ class TemporaryFolder {
 /// Writes text to a file, making its folders.
 void WriteText(const std::filesystem::path& path, const std::string& text);
 
-/// Writes a 16-bit PNG whose pixel (u, v) is `value` + u.
+/// Writes a 16-bit PNG whose pixel (u, v) is `value` + u, clamped to 16 bits.
 void WriteDepthPng(const std::filesystem::path& path, int width, int height, int value);
 
 /// Writes an 8-bit grey PNG.

@@ -1,0 +1,132 @@
+#include "capture/check.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "capture/detect_format.h"
+#include "capture/image_file.h"
+#include "kernel/error.h"
+#include "kernel/parallel.h"
+
+namespace curvefusion {
+
+namespace {
+
+constexpr int kWindow = 32;  // frames between two progress messages
+
+// What decoding one frame told.
+struct FrameCheck {
+  DepthSamples depth;
+  std::vector<std::string> defects;
+};
+
+// Calls `decode` on a file whose header is sound: other defects are in the survey of the headers.
+template <class Decode>
+void CollectDefect(const std::filesystem::path& path, const Decode& decode, FrameCheck& check) {
+  if (!ReadImageHeader(path).defect.empty()) return;
+  try {
+    decode();
+  } catch (const Error& error) {
+    check.defects.emplace_back(error.what());
+  }
+}
+
+FrameCheck CheckFrame(const Sequence& sequence, const SequenceFrame& frame) {
+  FrameCheck check;
+  const auto decode_depth = [&] {
+    check.depth.Add(MetricDepth(DecodeDepthImage(frame.depth_path), sequence.depth_scale,
+                                sequence.invalid_depth));
+  };
+  if (ReadImageHeader(frame.depth_path).bits == 16) {
+    CollectDefect(frame.depth_path, decode_depth, check);
+  }
+  CollectDefect(
+      frame.color_path, [&] { DecodeColorImage(frame.color_path); }, check);
+  return check;
+}
+
+// Decodes all frames; returns the samples of their depth.
+DepthSamples CheckFrames(const Sequence& sequence, const Progress& progress,
+                         const FindingHandler& on_finding) {
+  DepthSamples samples;
+  const int count = sequence.frame_count();
+  for (int begin = 0; begin < count; begin += kWindow) {
+    progress("check", begin, count);
+    const int end = std::min(begin + kWindow, count);
+    std::vector<FrameCheck> checks(static_cast<size_t>(end - begin));
+    ParallelFor(begin, end, 1,
+                [&](int64_t i) { checks[i - begin] = CheckFrame(sequence, sequence.frames[i]); });
+    for (const FrameCheck& check : checks) {
+      samples.Add(check.depth);
+      for (const std::string& defect : check.defects) on_finding({Severity::kError, defect});
+    }
+  }
+  progress("check", count, count);
+  return samples;
+}
+
+double TrajectoryLength(const Sequence& sequence) {
+  double length = 0;
+  for (size_t i = 1; i < sequence.frames.size(); ++i) {
+    length += (sequence.frames[i].T_world_camera.translation() -
+               sequence.frames[i - 1].T_world_camera.translation())
+                  .norm();
+  }
+  return length;
+}
+
+std::optional<Sequence> TryReadSequence(const std::filesystem::path& folder,
+                                        const FindingHandler& on_finding) {
+  std::string message;
+  try {
+    return ReadSequence(folder, on_finding);
+  } catch (const Error& error) {
+    message = error.what();
+  }
+  on_finding({Severity::kError, message});
+  return std::nullopt;
+}
+
+void Summarize(const Sequence& sequence, CheckReport& report) {
+  report.format = sequence.format;
+  report.frames = sequence.frame_count();
+  report.frames_without_pose = sequence.frames_without_pose;
+  report.frames_without_partner = sequence.frames_without_partner;
+  report.depth_scale = sequence.depth_scale;
+  report.trajectory_length = TrajectoryLength(sequence);
+  if (sequence.format == "tum" && !sequence.frames.empty()) {
+    report.duration = sequence.frames.back().timestamp - sequence.frames.front().timestamp;
+  }
+}
+
+}  // namespace
+
+bool CheckReport::has_errors() const {
+  return std::any_of(findings.begin(), findings.end(), [](const CheckFinding& finding) {
+    return finding.severity == Severity::kError;
+  });
+}
+
+CheckReport CheckSequence(const std::filesystem::path& folder, const Progress& progress) {
+  CheckReport report;
+  const FindingHandler collect = [&report](const CheckFinding& finding) {
+    report.findings.push_back(finding);
+  };
+  if (const auto sequence = TryReadSequence(folder, collect)) {
+    Summarize(*sequence, report);
+    report.image_sizes = SurveyImages(*sequence, collect);
+    DepthSamples samples = CheckFrames(*sequence, progress, collect);
+    const bool has_samples = samples.pixels > 0;
+    const DepthSurvey depth = SurveyDepth(std::move(samples));
+    report.median_depth = depth.median;
+    report.depth_validity = depth.validity;
+    if (has_samples) ReportDepthScale(*sequence, depth, collect);
+  }
+  std::stable_partition(
+      report.findings.begin(), report.findings.end(),
+      [](const CheckFinding& finding) { return finding.severity == Severity::kError; });
+  return report;
+}
+
+}  // namespace curvefusion
