@@ -1,0 +1,26 @@
+#pragma once
+
+#include "graph/skeleton_graph.h"
+#include "kernel/options.h"
+
+namespace curvefusion {
+
+/// How junctions are placed. Deviation: CurveFusion 3.2 takes the cluster of non-branch points as
+/// the junction, which blurs it by the kernel's width.
+struct JunctionRefinementOptions {
+  double inner_radius = 0.007;
+  double outer_radius = 0.025;
+  double merge_distance = 0.014;
+  double max_residual = 0.0025;
+  double max_move = 0.012;
+};
+void VisitOptions(JunctionRefinementOptions& options, OptionVisitor& visitor);
+
+/// Moves every node with three or more branches to where lines fitted to the branches beyond the
+/// blurred zone (between the two radii) meet in the least-squares sense, and straightens the
+/// branches inside the inner radius. Junctions joined by an edge shorter than `merge_distance`
+/// become one where the lines of all their branches meet within `max_residual`: a crossing of
+/// three wires stays one junction of valence 6.
+void RefineJunctions(SkeletonGraph& graph, const JunctionRefinementOptions& options);
+
+}  // namespace curvefusion

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <vector>
+
+#include "kernel/geometry.h"
+#include "kernel/observed_points.h"
+#include "kernel/options.h"
+
+namespace curvefusion {
+
+/// How points are moved onto the ridges of their density. Deviation: CurveFusion 3.2 contracts to
+/// the L1 axis with a kernel of 15 to 25 mm, which merges wires nearer than that.
+struct RidgeProjectionOptions {
+  double kernel_sigma = 0.0035;
+  double ray_sigma = 0.0045;
+  double count_limit = 4;
+  int iterations = 20;
+  double spacing = 0.0015;
+  double min_relative_strength = 0.1;
+};
+void VisitOptions(RidgeProjectionOptions& options, OptionVisitor& visitor);
+
+/// Points on the one-dimensional ridges of a density, about evenly spaced. Arrays of one length.
+struct RidgePoints {
+  std::vector<Vec3> positions;    ///< metres
+  std::vector<Vec3> directions;   ///< unit tangents of the ridge, of either sign
+  std::vector<double> strengths;  ///< kernel-weighted number of observations around the point
+
+  size_t size() const { return positions.size(); }
+};
+
+/// Moves every point `distance` along its viewing ray: a depth camera sees only the near side of a
+/// wire, so its points lie in front of the axis by pi/4 radii on average. Points without a ray
+/// stay.
+ObservedPoints ShiftAlongRays(const ObservedPoints& points, double distance);
+
+/// The same with one distance for every point; distances.size() must be points.size().
+ObservedPoints ShiftAlongRays(const ObservedPoints& points, const std::vector<double>& distances);
+
+/// Subspace-constrained mean shift (Ozertem and Erdogmus 2011): moves points across the local
+/// principal direction only, until they lie on a ridge of the density, and thins them out. The
+/// kernel of a point is longer along its viewing ray, where depth noise is larger. Points that are
+/// not finite are ignored. The result does not depend on the number of threads. Costs
+/// O(n k) for k points within three kernel widths.
+RidgePoints ProjectToRidges(const ObservedPoints& points, const RidgeProjectionOptions& options);
+
+}  // namespace curvefusion

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "graph/curve_network.h"
+#include "graph/free_ends.h"
+#include "graph/junction_refinement.h"
+#include "graph/ridge_projection.h"
+#include "graph/skeleton_graph.h"
+#include "kernel/observed_points.h"
+#include "kernel/options.h"
+
+namespace curvefusion {
+
+/// The best profile's way from points to curves, in place of the L1 axis (CurveFusion 3.2).
+struct RidgeOptions {
+  RidgeProjectionOptions projection;
+  CurveNetworkOptions network;
+  FreeEndOptions free_ends;
+  JunctionRefinementOptions junctions;
+  double fragment_length = 0.008;
+  double min_component = 0.03;
+  double smoothing_length = 0.004;
+  double step = 0.0015;
+};
+
+/// Visits the options of all steps, each step in a section of its own ("ridge_projection", ...).
+void VisitOptions(RidgeOptions& options, OptionVisitor& visitor);
+
+/// Points on thin structures -> their curves: ridge projection, linking, closing of gaps, junction
+/// placement, smoothing. Empty where there are no curves. Edges are resampled at `step`; they carry
+/// no radii and no observations. Shift the points with ShiftAlongRays first where radii are known.
+SkeletonGraph ExtractRidgeSkeleton(const ObservedPoints& points, const RidgeOptions& options);
+
+}  // namespace curvefusion
