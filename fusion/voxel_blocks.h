@@ -1,0 +1,88 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "kernel/voxel_grid.h"
+
+namespace curvefusion {
+
+/// Voxels along the side of a block and in a block.
+inline constexpr int kBlockSide = 8;
+inline constexpr int kBlockVoxels = kBlockSide * kBlockSide * kBlockSide;
+
+/// The signed distances of 8^3 voxels; voxel (x, y, z) of the block lies at index x + 8 y + 64 z.
+struct VoxelBlock {
+  /// Mean distance in truncations, [-1, 1], positive in front of surfaces; NaN where never
+  /// observed, so that whatever is interpolated from an unobserved voxel is NaN as well.
+  std::array<float, kBlockVoxels> tsdf;
+  std::array<uint16_t, kBlockVoxels> weight;  ///< observations in the mean
+  bool has_inside = false;                    ///< some observed voxel is negative
+  bool has_outside = false;                   ///< some observed voxel is not
+};
+
+/// Blocks at any place of an unbounded grid, found by key through an open-addressing hash table and
+/// numbered in order of insertion. Voxel (x, y, z) of the block with key k is the sample of the
+/// field at (8 k + (x, y, z)) * voxel_size.
+class VoxelBlockGrid {
+ public:
+  static constexpr int kNone = -1;
+  /// Keys beyond +-kMaxKey along an axis cannot be stored.
+  static constexpr int kMaxKey = (1 << 20) - 1;
+
+  VoxelBlockGrid();
+
+  int size() const { return static_cast<int>(keys_.size()); }
+  /// Number of the block with this key, or kNone.
+  int Find(const VoxelKey& key) const;
+  /// Adds a block of unobserved voxels whose key must not be there yet; returns its number.
+  int Insert(const VoxelKey& key);
+
+  const VoxelKey& key(int block) const { return keys_[block]; }
+  VoxelBlock& block(int block) { return *blocks_[block]; }
+  const VoxelBlock& block(int block) const { return *blocks_[block]; }
+
+  /// The blocks at key + (i & 1, i >> 1 & 1, i >> 2 & 1) for i = 0 .. 7, or kNone. Entry 0 is the
+  /// block itself.
+  const std::array<int, 8>& UpperNeighbours(int block) const { return neighbours_[block]; }
+
+  size_t memory_bytes() const;
+  /// Memory one more block takes, about.
+  static size_t BytesPerBlock();
+
+ private:
+  struct Slot {
+    uint64_t packed_key = 0;
+    int block = kNone;
+  };
+
+  size_t SlotOf(uint64_t packed_key) const;
+  void Rehash(size_t slot_count);
+  void LinkNeighbours(int block);
+
+  std::vector<VoxelKey> keys_;
+  std::vector<std::unique_ptr<VoxelBlock>> blocks_;
+  std::vector<std::array<int, 8>> neighbours_;
+  std::vector<Slot> slots_;  ///< a power of two, at most half full
+  int slot_shift_ = 0;       ///< the hash's upper bits that index slots_
+};
+
+/// The field at the 9^3 corners of a block's 8^3 cells: the cell of voxel (x, y, z) spans from it
+/// to (x+1, y+1, z+1), the last of them in the next block. Corner (x, y, z) at index x + 9 y + 81
+/// z; NaN where unobserved.
+inline constexpr int kCornerSide = kBlockSide + 1;
+using CellCorners = std::array<float, kCornerSide * kCornerSide * kCornerSide>;
+void GatherCellCorners(const VoxelBlockGrid& grid, int block, CellCorners& corners);
+
+/// Bit x of row y + 8 z: the eight corners of cell (x, y, z) are observed and of both signs.
+using CellMask = std::array<uint8_t, kBlockSide * kBlockSide>;
+/// Returns whether any cell is set.
+bool FindSurfaceCells(const CellCorners& corners, CellMask& cells);
+
+/// Whether the block's cells can contain a surface, judged without looking at their voxels: false
+/// means certainly not.
+bool MayContainSurface(const VoxelBlockGrid& grid, int block);
+
+}  // namespace curvefusion
