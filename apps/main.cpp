@@ -40,6 +40,7 @@ int Parse(int argc, char** argv) {
       "130 interrupted. `curvefusion COMMAND --help` tells more and gives examples.");
   int exit_code = 0;
   AddReconstructCommand(app, exit_code);
+  AddCheckCommand(app, exit_code);
   AddGraphCommand(app, exit_code);
   AddConfigCommand(app, exit_code);
   AddDemoScanCommand(app, exit_code);

@@ -23,12 +23,12 @@ SkeletonGraph Y() {
   return graph;
 }
 
-struct Run {
+struct YRun {
   Sequence sequence;
   Config config = ProfileConfig(Profile::kPaper);
   Reconstruction reconstruction;
 
-  Run() {
+  YRun() {
     sequence.folder = "scans/y";
     sequence.format = "tum";
     sequence.frames.resize(60);
@@ -42,7 +42,7 @@ struct Run {
 };
 
 TEST(Report, TellsWhatARunWasAndFound) {
-  Run run;
+  YRun run;
   const auto report = nlohmann::json::parse(ReportJson(run.Record()));
   EXPECT_EQ(report["profile"], "paper");
   EXPECT_EQ(report["sequence"]["folder"], "scans/y");
@@ -58,7 +58,7 @@ TEST(Report, TellsWhatARunWasAndFound) {
 }
 
 TEST(Report, TellsTheFiguresOfTheSkeleton) {
-  Run run;
+  YRun run;
   const auto skeleton = nlohmann::json::parse(ReportJson(run.Record()))["skeleton"];
   EXPECT_EQ(skeleton["nodes"], 4);
   EXPECT_EQ(skeleton["edges"], 3);
@@ -72,7 +72,7 @@ TEST(Report, TellsTheFiguresOfTheSkeleton) {
 }
 
 TEST(Summary, NamesFindingsFilesAndWarnings) {
-  Run run;
+  YRun run;
   const std::string summary = Summary(run.Record(), "out");
   EXPECT_THAT(summary, HasSubstr("3 curves, 0.30 m, diameter 4.0 to 6.0 mm, 1 junction, 3 free"));
   for (const char* file : {"out/skeleton.json", "out/mesh.ply", "out/preview.png"}) {
@@ -83,7 +83,7 @@ TEST(Summary, NamesFindingsFilesAndWarnings) {
 }
 
 TEST(Summary, OfNothingNamesNoFilesThatAreNotThere) {
-  Run run;
+  YRun run;
   run.reconstruction.skeleton = SkeletonGraph();
   const std::string summary = Summary(run.Record(), "out");
   EXPECT_THAT(summary, HasSubstr("nothing thin"));
