@@ -1,0 +1,37 @@
+#pragma once
+
+#include <vector>
+
+#include "graph/skeleton_graph.h"
+
+namespace curvefusion {
+
+/// The curve of an edge between two arc lengths from <= to, with radii and observations
+/// interpolated. `arc_lengths` is CumulativeLength(edge.points). The nodes of the result are those
+/// of the edge and mean nothing. Parts that share a cut share its point bit for bit; at least two
+/// points.
+SkeletonEdge PartOfEdge(const SkeletonEdge& edge, const std::vector<double>& arc_lengths,
+                        double from, double to);
+
+/// The curve with points at equal arc-length steps as near to `step` as divides the length evenly,
+/// ends kept bit for bit, radii and observations interpolated.
+SkeletonEdge Resampled(const SkeletonEdge& edge, double step);
+
+/// Resampled() for every edge of a graph.
+void ResampleGraph(SkeletonGraph& graph, double step);
+
+/// Turns the direction of an edge around.
+void Reverse(SkeletonEdge& edge);
+
+/// Drops points that equal their predecessor; both ends stay. A curve that is one point only keeps
+/// two.
+void RemoveRepeatedPoints(SkeletonEdge& edge);
+
+/// RemoveRepeatedPoints for every edge, and edges of no length removed.
+void RemoveZeroLengthSegments(SkeletonGraph& graph);
+
+/// Moves a node and, with it, the near parts of its edges: the displacement fades linearly to zero
+/// over `reach` metres of arc length (at most the whole edge), so that no kink is left at the end.
+void MoveNodeSmoothly(SkeletonGraph& graph, NodeId node, const Vec3& position, double reach);
+
+}  // namespace curvefusion

@@ -1,0 +1,165 @@
+#include "graph/junctions.h"
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <numeric>
+
+#include "graph/edge_curve.h"
+
+namespace curvefusion {
+
+namespace {
+
+// The displacement of a merged node fades over this many times its length: bends of at most 14
+// degrees.
+constexpr double kReach = 4;
+constexpr double kLinkInSnaps = 3;
+
+// Nodes that the places on each edge have become. Places on one edge are looked up in order.
+class EdgeCutter {
+ public:
+  EdgeCutter(SkeletonGraph& graph, double snap) : graph_(graph), snap_(snap) {}
+
+  void Add(const CurveLocation& location) { arcs_[location.edge].push_back(location.arc_length); }
+
+  // Splits all edges at their places.
+  void Cut() {
+    for (auto& [edge, arcs] : arcs_) {
+      std::sort(arcs.begin(), arcs.end());
+      CutEdge(edge, arcs, cuts_[edge]);
+    }
+  }
+
+  NodeId NodeOf(const CurveLocation& location) const {
+    const Cuts& cuts = cuts_.at(location.edge);
+    const auto next = std::upper_bound(
+        cuts.begin(), cuts.end(), location.arc_length,
+        [](double arc, const std::pair<double, NodeId>& cut) { return arc < cut.first; });
+    return std::prev(next)->second;
+  }
+
+ private:
+  // Smallest place and node of every group of places that became one node, in ascending order.
+  using Cuts = std::vector<std::pair<double, NodeId>>;
+
+  void CutEdge(EdgeId id, const std::vector<double>& arcs, Cuts& cuts) {
+    const SkeletonEdge whole = graph_.edge(id);
+    const std::vector<double> lengths = CumulativeLength(whole.points);
+    std::vector<std::pair<double, NodeId>> splits = {{0.0, whole.nodes[0]}};
+    for (size_t i = 0; i < arcs.size();) {
+      size_t j = i;
+      while (j < arcs.size() && arcs[j] - arcs[i] <= snap_) ++j;
+      const double arc = std::accumulate(arcs.begin() + static_cast<std::ptrdiff_t>(i),
+                                         arcs.begin() + static_cast<std::ptrdiff_t>(j), 0.0) /
+                         static_cast<double>(j - i);
+      cuts.emplace_back(arcs[i], NodeAt(whole, lengths, arc, splits));
+      i = j;
+    }
+    if (splits.size() == 1) return;
+    splits.emplace_back(lengths.back(), whole.nodes[1]);
+    graph_.RemoveEdge(id);
+    for (size_t i = 0; i + 1 < splits.size(); ++i) {
+      SkeletonEdge part = PartOfEdge(whole, lengths, splits[i].first, splits[i + 1].first);
+      part.nodes = {splits[i].second, splits[i + 1].second};
+      graph_.AddEdge(std::move(part));
+    }
+  }
+
+  NodeId NodeAt(const SkeletonEdge& whole, const std::vector<double>& lengths, double arc,
+                std::vector<std::pair<double, NodeId>>& splits) {
+    const double length = lengths.back();
+    if (std::min(arc, length - arc) <= snap_) return whole.nodes[arc <= length - arc ? 0 : 1];
+    const SkeletonEdge rest = PartOfEdge(whole, lengths, arc, length);
+    const NodeId node = graph_.AddNode(rest.points.front());
+    splits.emplace_back(arc, node);
+    return node;
+  }
+
+  SkeletonGraph& graph_;
+  double snap_;
+  std::map<EdgeId, std::vector<double>> arcs_;
+  std::map<EdgeId, Cuts> cuts_;
+};
+
+// Removes the edges within a group that are no longer than max_link.
+void RemoveLinks(SkeletonGraph& graph, const std::vector<NodeId>& nodes, double max_link) {
+  std::vector<EdgeId> links;
+  for (const NodeId node : nodes) {
+    for (const EdgeId id : graph.IncidentEdges(node)) {
+      const SkeletonEdge& edge = graph.edge(id);
+      const NodeId other = edge.nodes[0] == node ? edge.nodes[1] : edge.nodes[0];
+      if (other < node || std::find(nodes.begin(), nodes.end(), other) == nodes.end()) continue;
+      if (Length(edge.points) <= max_link) links.push_back(id);
+    }
+  }
+  for (const EdgeId id : links)
+    if (graph.HasEdge(id)) graph.RemoveEdge(id);
+}
+
+Vec3 WeightedMean(const SkeletonGraph& graph, const NodeGroup& group) {
+  Vec3 sum = Vec3::Zero();
+  double weight = 0;
+  for (size_t i = 0; i < group.nodes.size(); ++i) {
+    sum += group.weights[i] * graph.position(group.nodes[i]);
+    weight += group.weights[i];
+  }
+  return sum / weight;
+}
+
+// Groups of nodes linked by pairs; each ascending, ordered by their first node.
+std::vector<NodeGroup> LinkedGroups(const std::vector<std::pair<NodeId, NodeId>>& links,
+                                    const SkeletonGraph& graph) {
+  std::map<NodeId, NodeId> parent;
+  const auto root = [&parent](NodeId node) {
+    parent.emplace(node, node);
+    while (parent[node] != node) node = parent[node] = parent[parent[node]];
+    return node;
+  };
+  for (const auto& [a, b] : links) {
+    const NodeId root_a = root(a);
+    const NodeId root_b = root(b);
+    parent[std::max(root_a, root_b)] = std::min(root_a, root_b);
+  }
+  std::map<NodeId, NodeGroup> groups;
+  for (const auto& entry : parent) {
+    NodeGroup& group = groups[root(entry.first)];
+    group.nodes.push_back(entry.first);
+    group.weights.push_back(std::max(1, graph.Degree(entry.first)));
+  }
+  std::vector<NodeGroup> result;
+  for (auto& [first, group] : groups)
+    if (group.nodes.size() > 1) result.push_back(std::move(group));
+  return result;
+}
+
+}  // namespace
+
+void MergeNodeGroups(SkeletonGraph& graph, const std::vector<NodeGroup>& groups, double max_link) {
+  for (const NodeGroup& group : groups) {
+    RemoveLinks(graph, group.nodes, max_link);
+    const Vec3 mean = WeightedMean(graph, group);
+    for (const NodeId node : group.nodes) {
+      const double moved = (mean - graph.position(node)).norm();
+      MoveNodeSmoothly(graph, node, mean, kReach * moved);
+    }
+    for (size_t i = 1; i < group.nodes.size(); ++i)
+      graph.MergeNodes(group.nodes[0], group.nodes[i]);
+  }
+  RemoveZeroLengthSegments(graph);
+}
+
+void JoinLocations(SkeletonGraph& graph, const std::vector<LocationPair>& pairs, double snap) {
+  EdgeCutter cutter(graph, snap);
+  for (const auto& [a, b] : pairs) {
+    cutter.Add(a);
+    cutter.Add(b);
+  }
+  cutter.Cut();
+  std::vector<std::pair<NodeId, NodeId>> links;
+  links.reserve(pairs.size());
+  for (const auto& [a, b] : pairs) links.emplace_back(cutter.NodeOf(a), cutter.NodeOf(b));
+  MergeNodeGroups(graph, LinkedGroups(links, graph), kLinkInSnaps * snap);
+}
+
+}  // namespace curvefusion

@@ -1,0 +1,155 @@
+#include "graph/intersections.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "graph/graph_io.h"
+#include "graph/validate.h"
+#include "tests/graph/graph_fixtures.h"
+
+namespace curvefusion {
+namespace {
+
+constexpr double kThreshold = 3 * kMillimetre;
+
+// Resolves, and checks what must hold for every graph.
+SkeletonGraph Resolved(SkeletonGraph graph) {
+  ResolveIntersections(graph, kThreshold);
+  EXPECT_EQ(Violations(graph, kThreshold), std::vector<std::string>());
+  SkeletonGraph again = graph;
+  ResolveIntersections(again, kThreshold);
+  EXPECT_EQ(SkeletonToJson(graph), SkeletonToJson(again)) << "not idempotent";
+  return graph;
+}
+
+TEST(ResolveIntersections, ACrossingBecomesOneJunctionOfValenceFour) {
+  for (const double step : {0.2, 0.001}) {
+    SkeletonGraph graph;
+    graph.AddPolyline(StraightLine({-0.05, 0, 0}, {0.05, 0, 0}, step));
+    graph.AddPolyline(StraightLine({0, -0.05, 0.002}, {0, 0.05, 0.002}, step));
+    const SkeletonGraph resolved = Resolved(graph);
+    EXPECT_EQ(resolved.edge_count(), 4);
+    EXPECT_EQ(CountDegree(resolved, 4), 1);
+    EXPECT_EQ(CountDegree(resolved, 1), 4);
+    EXPECT_LT(MaxDistance(resolved, graph), 0.001 + 1e-12);  // half the distance of the curves
+  }
+}
+
+TEST(ResolveIntersections, ATouchingEndBecomesATJunction) {
+  SkeletonGraph graph;
+  graph.AddPolyline(StraightLine({-0.05, 0, 0}, {0.05, 0, 0}));
+  graph.AddPolyline(StraightLine({0, 0.002, 0}, {0, 0.05, 0}));
+  const SkeletonGraph resolved = Resolved(graph);
+  EXPECT_EQ(resolved.edge_count(), 3);
+  EXPECT_EQ(CountDegree(resolved, 3), 1);
+}
+
+TEST(ResolveIntersections, EndsThatMeetBecomeOneCurve) {
+  SkeletonGraph graph;
+  graph.AddPolyline(StraightLine({0, 0, 0}, {0.05, 0, 0}));
+  graph.AddPolyline(StraightLine({0.052, 0, 0}, {0.1, 0, 0}));
+  const SkeletonGraph resolved = Resolved(graph);
+  EXPECT_EQ(resolved.edge_count(), 1);
+  EXPECT_NEAR(resolved.TotalLength(), 0.1, 1e-12);  // straight: rounding only
+}
+
+TEST(ResolveIntersections, ALoopIsClosedByAJunctionWithItself) {
+  const Polyline loop = {
+      {-0.05, -0.05, 0}, {0.05, 0.05, 0}, {-0.05, 0.05, 0.002}, {0.05, -0.05, 0.002}};
+  SkeletonGraph graph;
+  graph.AddPolyline(Resample(loop, 0.001));
+  const SkeletonGraph resolved = Resolved(graph);
+  EXPECT_EQ(resolved.edge_count(), 3);
+  EXPECT_EQ(resolved.CycleRank(), 1);
+  EXPECT_EQ(CountDegree(resolved, 4), 1);
+}
+
+TEST(ResolveIntersections, SeparateCurvesStayUntouched) {
+  SkeletonGraph graph;
+  graph.AddPolyline(StraightLine({0, 0, 0}, {0.1, 0, 0}));
+  graph.AddPolyline(StraightLine({0, 0.0031, 0}, {0.1, 0.0031, 0}));
+  graph.AddPolyline(Ring(0.05, 300, {0.3, 0, 0}));
+  EXPECT_EQ(SkeletonToJson(Resolved(graph)), SkeletonToJson(graph));
+}
+
+TEST(ResolveIntersections, AWireLatticeOfSinglePiecesGetsAllItsCrossings) {
+  constexpr int kWires = 6;
+  SkeletonGraph graph;
+  for (int i = 0; i < kWires; ++i) {
+    graph.AddPolyline(StraightLine({-0.01, 0.02 * i, 0}, {0.02 * kWires, 0.02 * i, 0}));
+    graph.AddPolyline(StraightLine({0.02 * i, -0.01, 0.001}, {0.02 * i, 0.02 * kWires, 0.001}));
+  }
+  const SkeletonGraph resolved = Resolved(graph);
+  EXPECT_EQ(CountDegree(resolved, 4), kWires * kWires);
+  EXPECT_EQ(resolved.CycleRank(), (kWires - 1) * (kWires - 1));
+  EXPECT_EQ(resolved.ComponentCount(), 1);
+}
+
+TEST(ResolveIntersections, DoubledCurvesBecomeOneWithTheirTails) {
+  SkeletonGraph graph;
+  graph.AddPolyline(StraightLine({0, 0, 0}, {0.1, 0, 0}));
+  graph.AddPolyline(StraightLine({0.04, 0.002, 0}, {0.2, 0.002, 0}));
+  const SkeletonGraph resolved = Resolved(graph);
+  EXPECT_EQ(resolved.CycleRank(), 0);
+  EXPECT_EQ(resolved.edge_count(), 1);
+  // 0.2 m from end to end; the ends of the overlap may be off by a threshold each.
+  EXPECT_NEAR(resolved.TotalLength(), 0.2, 2 * kThreshold);
+}
+
+TEST(ResolveIntersections, AnAcuteForkIsZippedUp) {
+  SkeletonGraph graph;
+  const NodeId node = graph.AddNode(Vec3::Zero());
+  for (const double angle : {-0.05, 0.05, M_PI}) {
+    const Vec3 tip = 0.1 * Vec3(std::cos(angle), std::sin(angle), 0);
+    Connect(graph, node, graph.AddNode(tip), StraightLine(Vec3::Zero(), tip));
+  }
+  const SkeletonGraph resolved = Resolved(graph);
+  EXPECT_EQ(resolved.edge_count(), 3);
+  EXPECT_EQ(resolved.CycleRank(), 0);
+  EXPECT_EQ(CountDegree(resolved, 3), 1);
+}
+
+// Any soup of polylines: hundreds of tiny fragments, random walks, needles, bundles of nearly equal
+// curves. It must end, be valid and idempotent.
+TEST(ResolveIntersections, RandomSoupsEndValid) {
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> unit(-1, 1);
+    const auto vector = [&](double size) -> Vec3 {
+      return size * Vec3(unit(random), unit(random), unit(random));
+    };
+    SkeletonGraph graph;
+    const double size = seed % 3 == 0 ? 0.02 : 0.08;
+    const double step = seed % 2 == 0 ? 0.001 : 0.006;
+    for (int curve = 0; curve < 10 + static_cast<int>(seed) * 2; ++curve) {
+      Polyline points = {vector(size)};
+      Vec3 direction = vector(1).normalized();
+      for (int i = 0; i < 3 + curve % 40; ++i) {
+        direction = (direction + vector(0.4)).normalized();
+        points.push_back(points.back() + step * direction);
+      }
+      graph.AddPolyline(points);
+    }
+    SCOPED_TRACE(seed);
+    Resolved(graph);
+  }
+}
+
+TEST(ResolveIntersections, NoisyCopiesOfALatticeBecomeTheLattice) {
+  const SkeletonGraph truth = Lattice(3, 4, 0.05);
+  SkeletonGraph graph;
+  for (unsigned copy = 0; copy < 3; ++copy) {
+    RigidTransform T = RigidTransform::Identity();
+    T.translation() = Vec3(0.0008 * copy, -0.0005 * copy, 0.0006 * copy);
+    const SkeletonGraph noisy = Perturbed(truth, T, 0.0001, copy);
+    for (const EdgeId id : noisy.Edges()) graph.AddPolyline(noisy.edge(id).points);
+  }
+  const SkeletonGraph resolved = Resolved(graph);
+  EXPECT_EQ(resolved.CycleRank(), truth.CycleRank());
+  EXPECT_EQ(resolved.ComponentCount(), 1);
+  EXPECT_NEAR(resolved.TotalLength(), truth.TotalLength(), 0.05 * truth.TotalLength());
+}
+
+}  // namespace
+}  // namespace curvefusion

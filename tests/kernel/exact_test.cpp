@@ -1,0 +1,74 @@
+#include "kernel/exact.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace curvefusion {
+namespace {
+
+constexpr double kUlp = std::numeric_limits<double>::epsilon();
+
+TEST(Exact, TheLimitItselfIsWithin) {
+  const SegmentPart s{{0, 0, 0}, {1, 0, 0}};
+  const SegmentPart t{{0, 3, 0}, {1, 3, 0}};
+  EXPECT_TRUE(AreWithin(s, t, 3));
+  EXPECT_FALSE(AreWithin(s, t, 3 - 2 * kUlp));
+}
+
+TEST(Exact, OneUlpApartDoesNotIntersect) {
+  const SegmentPart s{{-1, 0, 0}, {1, 0, 0}};
+  EXPECT_TRUE(Intersect(s, {{0.25, 0, 0}, {0.25, 1, 0}}));
+  EXPECT_FALSE(Intersect(s, {{0.25, kUlp, 0}, {0.25, 1, 0}}));
+  EXPECT_FALSE(Intersect(s, {{0.25, -1, 1e-300}, {0.25, 1, 1e-300}}));
+}
+
+// The point at a third is no double: rounded arithmetic cannot know that the parts abut there.
+TEST(Exact, PartsOfOneSegmentAbut) {
+  const Vec3 a(0.1, 0.2, 0.3);
+  const Vec3 b(1.7, -0.9, 0.11);
+  EXPECT_TRUE(Intersect({a, b, 0, 1, 3}, {a, b, 1, 3, 3}));
+  EXPECT_FALSE(Intersect({a, b, 0, 1, 3}, {a, b, 2, 3, 3}));
+}
+
+TEST(Exact, PointsAreSegmentsToo) {
+  const Vec3 p(1, 2, 3);
+  EXPECT_TRUE(Intersect({p, p}, {p, p}));
+  EXPECT_TRUE(AreWithin({p, p}, {p + Vec3(0, 0, 2), p + Vec3(0, 0, 2)}, 2));
+  EXPECT_FALSE(AreWithin({p, p}, {p + Vec3(0, -1, 2), p + Vec3(0, 1, 2)}, 1.999));
+}
+
+TEST(Exact, CollinearSegmentsThatOverlapIntersect) {
+  EXPECT_TRUE(Intersect({{0, 0, 0}, {2, 0, 0}}, {{1, 0, 0}, {3, 0, 0}}));
+  EXPECT_FALSE(Intersect({{0, 0, 0}, {2, 0, 0}}, {{2 + 4 * kUlp, 0, 0}, {3, 0, 0}}));
+}
+
+// Brute force: the least distance over a fine grid of both segments.
+TEST(Exact, AgreesWithADenseSearch) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> coordinate(-1, 1);
+  const auto point = [&]() -> Vec3 {
+    return {coordinate(random), coordinate(random), coordinate(random)};
+  };
+  constexpr int kSteps = 60;
+  for (int round = 0; round < 200; ++round) {
+    const Vec3 a = point(), b = point(), c = point(), d = point();
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i <= kSteps; ++i)
+      for (int j = 0; j <= kSteps; ++j)
+        least = std::min(least, (a + (b - a) * i / kSteps - c - (d - c) * j / kSteps).norm());
+    const ClosestParameters nearest = ClosestPoints(a, b, c, d);
+    const double distance = (a + nearest.s * (b - a) - c - nearest.t * (d - c)).norm();
+    // A segment is at most 2 sqrt(3) long: the grid misses the minimum by less than half a step of
+    // each.
+    EXPECT_LE(distance, least + 1e-12);
+    EXPECT_GE(distance, least - 2 * std::sqrt(3.0) / kSteps);
+    EXPECT_TRUE(AreWithin({a, b}, {c, d}, distance + 1e-12));
+    EXPECT_FALSE(AreWithin({a, b}, {c, d}, distance - 1e-12));
+  }
+}
+
+}  // namespace
+}  // namespace curvefusion
