@@ -41,6 +41,7 @@ int Parse(int argc, char** argv) {
   int exit_code = 0;
   AddReconstructCommand(app, exit_code);
   AddCheckCommand(app, exit_code);
+  AddContractCommand(app, exit_code);
   AddGraphCommand(app, exit_code);
   AddConfigCommand(app, exit_code);
   AddDemoScanCommand(app, exit_code);
