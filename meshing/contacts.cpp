@@ -1,0 +1,262 @@
+#include "meshing/contacts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <utility>
+
+#include "meshing/box_pairs.h"
+
+namespace curvefusion {
+
+namespace {
+
+// Mitred corners and the polygon's corners stand out of the round tube by this factor at most.
+constexpr double kReach = 1.1;
+// Tubes are clear of each other from this gap on, in radii of the thinner one. What comes closer is
+// united exactly, so the gap only has to outlast the rounding and cleaning of unions.
+constexpr double kClearance = 0.1;
+// A tube may come back to itself only after it has turned by more than this in total.
+constexpr double kTurnOfReturn = 2.0 * std::numbers::pi / 3;
+
+struct Segment {
+  int path, index;
+  Vec3 a, b;
+  double radius_a, radius_b;
+  double radius() const { return std::max(radius_a, radius_b); }
+};
+
+std::vector<Segment> SegmentsOf(const std::vector<TubePath>& paths) {
+  std::vector<Segment> segments;
+  for (int p = 0; p < static_cast<int>(paths.size()); ++p) {
+    const TubeAxis& axis = paths[p].axis;
+    for (int i = 0; i < paths[p].segment_count(); ++i) {
+      const size_t j = (i + 1) % axis.points.size();
+      segments.push_back(
+          {p, i, axis.points[i], axis.points[j], axis.radii[i], axis.radii[j]});
+    }
+  }
+  return segments;
+}
+
+double PointSegmentDistance(const Vec3& p, const Segment& s) {
+  return (s.a + ClosestParameter(s.a, s.b, p) * (s.b - s.a) - p).norm();
+}
+
+// Distance of two segments: either an end is nearest, or the inner points of a common
+// perpendicular.
+double SegmentDistance(const Segment& s, const Segment& t) {
+  double distance = std::min({PointSegmentDistance(s.a, t), PointSegmentDistance(s.b, t),
+                              PointSegmentDistance(t.a, s), PointSegmentDistance(t.b, s)});
+  const Vec3 u = s.b - s.a;
+  const Vec3 v = t.b - t.a;
+  const Vec3 w = t.a - s.a;
+  const Vec3 normal = u.cross(v);
+  const double square = normal.squaredNorm();
+  if (square <= 1e-20 * u.squaredNorm() * v.squaredNorm()) return distance;
+  const double along_s = w.cross(v).dot(normal) / square;
+  const double along_t = w.cross(u).dot(normal) / square;
+  if (along_s < 0 || along_s > 1 || along_t < 0 || along_t > 1) return distance;
+  return std::min(distance, std::abs(w.dot(normal)) / std::sqrt(square));
+}
+
+double ClearDistance(double radius, double other_radius) {
+  return kReach * (radius + other_radius) + kClearance * std::min(radius, other_radius);
+}
+
+std::vector<std::pair<int, int>> NearPairs(const std::vector<Segment>& segments) {
+  std::vector<Eigen::AlignedBox3d> boxes;
+  for (const Segment& s : segments) {
+    const Vec3 reach = Vec3::Constant((kReach + kClearance) * s.radius());
+    Eigen::AlignedBox3d box(Vec3(s.a.cwiseMin(s.b) - reach), Vec3(s.a.cwiseMax(s.b) + reach));
+    boxes.push_back(box);
+  }
+  return OverlappingBoxes(boxes);
+}
+
+// Per path, the sum of all turns before each segment; one more entry holds the total of a closed
+// path.
+std::vector<std::vector<double>> TurnSums(const std::vector<TubePath>& paths) {
+  std::vector<std::vector<double>> sums;
+  for (const TubePath& path : paths) {
+    const Polyline& points = path.axis.points;
+    const size_t n = points.size();
+    std::vector<double> sum = {0.0};
+    for (int i = 1; i < path.segment_count() + (path.closed ? 1 : 0); ++i) {
+      sum.push_back(sum.back() + TurnAngle(points[i % n] - points[i - 1],
+                                           points[(i + 1) % n] - points[i % n]));
+    }
+    sums.push_back(std::move(sum));
+  }
+  return sums;
+}
+
+// Whether two segments are near only because one follows the other along a tube.
+bool FollowEachOther(const std::vector<TubePath>& paths,
+                     const std::vector<std::vector<double>>& turn_sums, const Segment& s,
+                     const Segment& t) {
+  if (s.path != t.path) return false;
+  const std::vector<double>& sums = turn_sums[s.path];
+  const double turn = std::abs(sums[t.index] - sums[s.index]);
+  if (paths[s.path].closed) return std::min(turn, sums.back() - turn) < kTurnOfReturn;
+  return turn < kTurnOfReturn;
+}
+
+// The points at which one path must be cut, given the pairs of its segments that touch.
+std::vector<int> CutPoints(const std::vector<std::pair<int, int>>& touching) {
+  std::map<int, int> last_touched;  // for every segment, the last earlier one it touches
+  for (const auto& [i, j] : touching) {
+    int& last = last_touched.try_emplace(j, i).first->second;
+    last = std::max(last, i);
+  }
+  std::vector<int> cuts;
+  int piece_start = 0;
+  for (const auto& [segment, earlier] : last_touched) {
+    if (earlier < piece_start) continue;
+    piece_start = (earlier + segment + 1) / 2;
+    cuts.push_back(piece_start);
+  }
+  return cuts;
+}
+
+std::vector<TubePath> CutOpenPath(TubePath path, const std::vector<int>& cuts) {
+  std::vector<TubePath> pieces;
+  for (auto cut = cuts.rbegin(); cut != cuts.rend(); ++cut) {
+    std::vector<TubePath> parts = CutPath(path, *cut);
+    pieces.push_back(std::move(parts[1]));
+    path = std::move(parts[0]);
+  }
+  pieces.push_back(std::move(path));
+  std::reverse(pieces.begin(), pieces.end());
+  return pieces;
+}
+
+class SegmentGroups {
+ public:
+  explicit SegmentGroups(size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
+  int Root(int i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void Join(int a, int b) {
+    const auto [low, high] = std::minmax({Root(a), Root(b)});
+    parent_[high] = low;
+  }
+
+ private:
+  std::vector<int> parent_;
+};
+
+// Marks the rings at the ends of segment s that are too near to t for a cut.
+void MarkCrowdedRings(const std::vector<TubePath>& paths, const Segment& s, const Segment& t,
+                      std::vector<std::vector<char>>& crowded) {
+  const size_t next = (s.index + 1) % paths[s.path].axis.points.size();
+  if (PointSegmentDistance(s.a, t) < ClearDistance(s.radius_a, t.radius())) {
+    crowded[s.path][s.index] = 1;
+  }
+  if (PointSegmentDistance(s.b, t) < ClearDistance(s.radius_b, t.radius())) {
+    crowded[s.path][next] = 1;
+  }
+}
+
+// The group of every segment, as the index of the group's first segment.
+std::vector<int> GroupOfSegments(const std::vector<TubePath>& paths,
+                                 const std::vector<Segment>& segments) {
+  const std::vector<std::vector<double>> turn_sums = TurnSums(paths);
+  SegmentGroups groups(segments.size());
+  std::vector<std::vector<char>> crowded;
+  for (const TubePath& path : paths) crowded.emplace_back(path.axis.points.size(), 0);
+  for (const auto& [i, j] : NearPairs(segments)) {
+    const Segment& s = segments[i];
+    const Segment& t = segments[j];
+    if (FollowEachOther(paths, turn_sums, s, t)) continue;
+    if (SegmentDistance(s, t) < ClearDistance(s.radius(), t.radius())) groups.Join(i, j);
+    MarkCrowdedRings(paths, s, t, crowded);
+    MarkCrowdedRings(paths, t, s, crowded);
+  }
+  int first_of_path = 0;
+  for (size_t i = 0; i < segments.size(); ++i) {
+    const Segment& s = segments[i];
+    if (s.index == 0) first_of_path = static_cast<int>(i);
+    if (!crowded[s.path][s.index] || (s.index == 0 && !paths[s.path].closed)) continue;
+    const int before = s.index == 0 ? first_of_path + paths[s.path].segment_count() - 1
+                                    : static_cast<int>(i) - 1;
+    groups.Join(before, static_cast<int>(i));
+  }
+  std::vector<int> group(segments.size());
+  for (size_t i = 0; i < segments.size(); ++i) group[i] = groups.Root(static_cast<int>(i));
+  return group;
+}
+
+// Splits a path into maximal stretches of one group each; `group` holds the groups of its segments.
+std::vector<TubeStretch> StretchesOfPath(int path, bool closed, const int* group, int count) {
+  int start = 0;
+  if (closed) {
+    while (start < count && group[start] == group[(start + count - 1) % count]) ++start;
+    if (start == count) return {{path, 0, count}};
+  }
+  std::vector<TubeStretch> stretches;
+  for (int i = start; i < start + count; ++i) {
+    if (i > start && group[i % count] == group[(i - 1) % count]) {
+      ++stretches.back().last;
+    } else {
+      stretches.push_back({path, i, i + 1});
+    }
+  }
+  return stretches;
+}
+
+std::vector<std::vector<std::pair<int, int>>> SelfContacts(const std::vector<TubePath>& paths) {
+  const std::vector<Segment> segments = SegmentsOf(paths);
+  const std::vector<std::vector<double>> turn_sums = TurnSums(paths);
+  std::vector<std::vector<std::pair<int, int>>> contacts(paths.size());
+  for (const auto& [i, j] : NearPairs(segments)) {
+    const Segment& s = segments[i];
+    const Segment& t = segments[j];
+    if (s.path != t.path || FollowEachOther(paths, turn_sums, s, t)) continue;
+    if (SegmentDistance(s, t) < ClearDistance(s.radius(), t.radius())) {
+      contacts[s.path].emplace_back(s.index, t.index);
+    }
+  }
+  return contacts;
+}
+
+}  // namespace
+
+std::vector<TubePath> CutSelfContacts(std::vector<TubePath> paths) {
+  std::vector<std::vector<std::pair<int, int>>> contacts = SelfContacts(paths);
+  for (size_t p = 0; p < paths.size(); ++p) {
+    if (paths[p].closed && !contacts[p].empty()) {
+      paths[p] = CutPath(paths[p], contacts[p].front().second)[0];
+    }
+  }
+  contacts = SelfContacts(paths);
+  std::vector<TubePath> cut_paths;
+  for (size_t p = 0; p < paths.size(); ++p) {
+    for (TubePath& piece : CutOpenPath(std::move(paths[p]), CutPoints(contacts[p]))) {
+      cut_paths.push_back(std::move(piece));
+    }
+  }
+  return cut_paths;
+}
+
+std::vector<std::vector<TubeStretch>> GroupContacts(const std::vector<TubePath>& paths) {
+  const std::vector<Segment> segments = SegmentsOf(paths);
+  const std::vector<int> group = GroupOfSegments(paths, segments);
+  std::map<int, std::vector<TubeStretch>> stretches;
+  int first = 0;
+  for (int p = 0; p < static_cast<int>(paths.size()); ++p) {
+    const int count = paths[p].segment_count();
+    for (const TubeStretch& s : StretchesOfPath(p, paths[p].closed, &group[first], count)) {
+      stretches[group[first + s.first % count]].push_back(s);
+    }
+    first += count;
+  }
+  std::vector<std::vector<TubeStretch>> groups;
+  for (auto& [root, members] : stretches) groups.push_back(std::move(members));
+  return groups;
+}
+
+}  // namespace curvefusion

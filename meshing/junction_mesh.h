@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "kernel/triangle_mesh.h"
+
+namespace curvefusion {
+
+/// Tubes that touch, cut off where they are clear of each other.
+struct Junction {
+  std::vector<TriangleMesh> stubs;            ///< closed; cut ends are flat discs over a ring
+  std::vector<std::vector<Vec3f>> cut_rings;  ///< the vertices of those rings
+  double radius = 0;                          ///< of the thinnest tube
+};
+
+/// The surface of a junction, open at its cut rings.
+struct JunctionMesh {
+  std::optional<TriangleMesh> surface;  ///< nothing where every attempt failed
+  int attempts = 0;                     ///< how many it took
+};
+
+/// Unites the stubs of a junction exactly, cleans and rounds the union, checks that it is watertight
+/// in metres and in millimetres, and opens it at the cut rings, whose vertices stay in place. Where
+/// something fails it tries again with the other vertices moved by a few thousandths of the radius
+/// and a coarser cleaning. The same seed gives the same result.
+JunctionMesh MeshJunction(const Junction& junction, int max_attempts, uint64_t seed);
+
+/// A number in [0, 1) that looks random, the same on every machine.
+double HashedNumber(uint64_t seed);
+
+}  // namespace curvefusion

@@ -1,0 +1,95 @@
+#include "meshing/junction_union.h"
+
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/corefinement.h>
+#include <CGAL/Surface_mesh.h>
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace curvefusion {
+
+namespace {
+
+using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
+using ExactMesh = CGAL::Surface_mesh<Kernel::Point_3>;
+
+ExactMesh ToExact(const TriangleMesh& solid) {
+  ExactMesh mesh;
+  mesh.reserve(static_cast<unsigned>(solid.vertices.size()),
+               static_cast<unsigned>(3 * solid.triangles.size() / 2),
+               static_cast<unsigned>(solid.triangles.size()));
+  for (const Vec3f& v : solid.vertices) mesh.add_vertex(Kernel::Point_3(v.x(), v.y(), v.z()));
+  using Vertex = ExactMesh::Vertex_index;
+  for (const auto& [a, b, c] : solid.triangles) {
+    mesh.add_face(Vertex(static_cast<unsigned>(a)), Vertex(static_cast<unsigned>(b)),
+                  Vertex(static_cast<unsigned>(c)));
+  }
+  return mesh;
+}
+
+UnionMesh ToDouble(const ExactMesh& mesh) {
+  UnionMesh rounded;
+  std::vector<int> index(mesh.number_of_vertices() + mesh.number_of_removed_vertices(), -1);
+  for (const ExactMesh::Vertex_index v : mesh.vertices()) {
+    index[v] = static_cast<int>(rounded.vertices.size());
+    const Kernel::Point_3& p = mesh.point(v);
+    rounded.vertices.emplace_back(CGAL::to_double(p.x()), CGAL::to_double(p.y()),
+                                  CGAL::to_double(p.z()));
+  }
+  for (const ExactMesh::Face_index face : mesh.faces()) {
+    std::array<int, 3> triangle{};
+    int corner = 0;
+    for (const ExactMesh::Vertex_index v : mesh.vertices_around_face(mesh.halfedge(face))) {
+      triangle[corner++] = index[v];
+    }
+    rounded.triangles.push_back(triangle);
+  }
+  return rounded;
+}
+
+// Solids in the order of their centres along the longest side of their common box, so that the
+// tournament unites neighbours first.
+std::vector<size_t> OrderAlongLongestSide(const std::vector<TriangleMesh>& solids) {
+  std::vector<Vec3f> centres;
+  Eigen::AlignedBox3f box;
+  for (const TriangleMesh& solid : solids) {
+    Eigen::AlignedBox3f own;
+    for (const Vec3f& v : solid.vertices) own.extend(v);
+    centres.push_back(own.center());
+    box.extend(own.center());
+  }
+  int axis = 0;
+  box.sizes().maxCoeff(&axis);
+  std::vector<size_t> order(solids.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) {
+    return centres[a][axis] < centres[b][axis];
+  });
+  return order;
+}
+
+}  // namespace
+
+std::optional<UnionMesh> UniteSolids(const std::vector<TriangleMesh>& solids) {
+  std::vector<ExactMesh> round;
+  for (const size_t i : OrderAlongLongestSide(solids)) round.push_back(ToExact(solids[i]));
+  while (round.size() > 1) {
+    std::vector<ExactMesh> next_round;
+    for (size_t i = 0; i + 1 < round.size(); i += 2) {
+      ExactMesh united;
+      if (!CGAL::Polygon_mesh_processing::corefine_and_compute_union(round[i], round[i + 1],
+                                                                     united)) {
+        return std::nullopt;
+      }
+      next_round.push_back(std::move(united));
+    }
+    if (round.size() % 2 == 1) next_round.push_back(std::move(round.back()));
+    round = std::move(next_round);
+  }
+  if (round.empty()) return UnionMesh{};
+  return ToDouble(round.front());
+}
+
+}  // namespace curvefusion

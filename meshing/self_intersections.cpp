@@ -1,0 +1,102 @@
+#include "meshing/self_intersections.h"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+#include <algorithm>
+
+#include "kernel/parallel.h"
+#include "meshing/box_pairs.h"
+
+namespace curvefusion {
+
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Point = Kernel::Point_3;
+
+Point At(const TriangleMesh& mesh, int vertex) {
+  const Vec3f& v = mesh.vertices[vertex];
+  return {v.x(), v.y(), v.z()};
+}
+
+Kernel::Triangle_3 TriangleAt(const TriangleMesh& mesh, int face) {
+  const auto& [a, b, c] = mesh.triangles[face];
+  return {At(mesh, a), At(mesh, b), At(mesh, c)};
+}
+
+// Puts the vertices that both triangles use first, in the same order; returns their number.
+int AlignShared(std::array<int, 3>& s, std::array<int, 3>& t) {
+  int shared = 0;
+  for (int i = 0; i < 3; ++i) {
+    const auto found = std::find(t.begin() + shared, t.end(), s[i]);
+    if (found == t.end()) continue;
+    std::swap(t[shared], *found);
+    std::swap(s[shared], s[i]);
+    ++shared;
+  }
+  return shared;
+}
+
+// Two triangles on a common edge a-b overlap where they lie in one plane on the same side of it.
+bool FoldedOver(const Point& a, const Point& b, const Point& c, const Point& d) {
+  return CGAL::orientation(a, b, c, d) == CGAL::COPLANAR &&
+         CGAL::coplanar_orientation(a, b, c, d) == CGAL::POSITIVE;
+}
+
+bool Intersect(const TriangleMesh& mesh, int i, int j) {
+  std::array<int, 3> s = mesh.triangles[i];
+  std::array<int, 3> t = mesh.triangles[j];
+  switch (AlignShared(s, t)) {
+    case 0:
+      return CGAL::do_intersect(TriangleAt(mesh, i), TriangleAt(mesh, j));
+    case 1:
+      return CGAL::do_intersect(Kernel::Segment_3(At(mesh, s[1]), At(mesh, s[2])),
+                                TriangleAt(mesh, j)) ||
+             CGAL::do_intersect(Kernel::Segment_3(At(mesh, t[1]), At(mesh, t[2])),
+                                TriangleAt(mesh, i));
+    case 2:
+      return FoldedOver(At(mesh, s[0]), At(mesh, s[1]), At(mesh, s[2]), At(mesh, t[2]));
+    default:
+      return true;
+  }
+}
+
+bool IsDegenerate(const TriangleMesh& mesh, int face) {
+  const auto& [a, b, c] = mesh.triangles[face];
+  return CGAL::collinear(At(mesh, a), At(mesh, b), At(mesh, c));
+}
+
+std::vector<Eigen::AlignedBox3d> BoxesOf(const TriangleMesh& mesh) {
+  std::vector<Eigen::AlignedBox3d> boxes;
+  boxes.reserve(mesh.triangles.size());
+  for (const auto& triangle : mesh.triangles) {
+    Eigen::AlignedBox3d box;
+    for (const int v : triangle) box.extend(mesh.vertices[v].cast<double>());
+    boxes.push_back(box);
+  }
+  return boxes;
+}
+
+}  // namespace
+
+std::vector<std::pair<int, int>> FindSelfIntersections(const TriangleMesh& mesh, int limit) {
+  std::vector<std::pair<int, int>> found;
+  std::vector<char> degenerate(mesh.triangles.size(), 0);
+  for (int i = 0; i < static_cast<int>(mesh.triangles.size()); ++i) {
+    degenerate[i] = IsDegenerate(mesh, i);
+    if (degenerate[i]) found.emplace_back(i, i);
+  }
+  const std::vector<std::pair<int, int>> candidates = OverlappingBoxes(BoxesOf(mesh));
+  std::vector<char> hit(candidates.size(), 0);
+  ParallelFor(0, static_cast<int64_t>(candidates.size()), 4096, [&](int64_t k) {
+    const auto& [i, j] = candidates[k];
+    if (!degenerate[i] && !degenerate[j]) hit[k] = Intersect(mesh, i, j);
+  });
+  for (size_t k = 0; k < candidates.size() && static_cast<int>(found.size()) < limit; ++k) {
+    if (hit[k]) found.push_back(candidates[k]);
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+}  // namespace curvefusion

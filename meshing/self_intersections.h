@@ -1,0 +1,15 @@
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "kernel/triangle_mesh.h"
+
+namespace curvefusion {
+
+/// Pairs of triangles (i < j, ascending) that meet anywhere but in the vertices and edges they
+/// share by index, decided exactly on the float32 coordinates; a triangle without area is paired
+/// with itself. At most about `limit` pairs are returned. O(n log^3 n), in parallel.
+std::vector<std::pair<int, int>> FindSelfIntersections(const TriangleMesh& mesh, int limit = 1000);
+
+}  // namespace curvefusion

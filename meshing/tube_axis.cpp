@@ -1,0 +1,163 @@
+#include "meshing/tube_axis.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace curvefusion {
+
+namespace {
+
+// A ring stands clear of the next by this factor over what just avoids folding.
+constexpr double kFoldMargin = 1.15;
+// Where the radius changes faster than this per length, the tube is a jump and no cone.
+constexpr double kMaxRadiusSlope = 0.5;
+
+// How far point k lies from the chord between points a and b, in radii of point k; the radius
+// counts like a coordinate.
+double ChordDeviation(const TubeAxis& axis, size_t a, size_t k, size_t b) {
+  const double t = ClosestParameter(axis.points[a], axis.points[b], axis.points[k]);
+  const Vec3 on_chord = axis.points[a] + t * (axis.points[b] - axis.points[a]);
+  const double radius_on_chord = axis.radii[a] + t * (axis.radii[b] - axis.radii[a]);
+  const double offset = (axis.points[k] - on_chord).norm();
+  return std::max(offset, std::abs(axis.radii[k] - radius_on_chord)) / axis.radii[k];
+}
+
+// Douglas-Peucker: the indices to keep, ascending.
+std::vector<size_t> PointsWithinTolerance(const TubeAxis& axis, double tolerance) {
+  const size_t n = axis.points.size();
+  std::vector<char> keep(n, 0);
+  keep.front() = keep.back() = 1;
+  std::vector<std::pair<size_t, size_t>> open = {{0, n - 1}};
+  while (!open.empty()) {
+    const auto [a, b] = open.back();
+    open.pop_back();
+    size_t farthest = a;
+    double deviation = tolerance;
+    for (size_t k = a + 1; k < b; ++k) {
+      const double d = ChordDeviation(axis, a, k, b);
+      if (d > deviation) {
+        deviation = d;
+        farthest = k;
+      }
+    }
+    if (farthest == a) continue;
+    keep[farthest] = 1;
+    open.push_back({a, farthest});
+    open.push_back({farthest, b});
+  }
+  std::vector<size_t> kept;
+  for (size_t i = 0; i < n; ++i) {
+    if (keep[i]) kept.push_back(i);
+  }
+  return kept;
+}
+
+// Drops points nearer than min_spacing radii to their neighbour, the less telling of two first.
+std::vector<size_t> ThinOut(const TubeAxis& axis, const std::vector<size_t>& kept,
+                            double min_spacing) {
+  std::vector<size_t> thinned = {kept.front()};
+  for (size_t i = 1; i < kept.size(); ++i) {
+    const bool last = i + 1 == kept.size();
+    bool drop_this = false;
+    while (!drop_this) {
+      const size_t before = thinned.back();
+      const double radius = std::max(axis.radii[before], axis.radii[kept[i]]);
+      if ((axis.points[kept[i]] - axis.points[before]).norm() >= min_spacing * radius) break;
+      const bool before_is_free = thinned.size() > 1;
+      if (!before_is_free && last) break;
+      drop_this = !last && (!before_is_free ||
+                            ChordDeviation(axis, before, kept[i], kept[i + 1]) <
+                                ChordDeviation(axis, thinned[thinned.size() - 2], before, kept[i]));
+      if (!drop_this) thinned.pop_back();
+    }
+    if (!drop_this) thinned.push_back(kept[i]);
+  }
+  return thinned;
+}
+
+TubeAxis WithoutRepeatedPoints(const TubeAxis& axis) {
+  TubeAxis distinct;
+  for (size_t i = 0; i < axis.points.size(); ++i) {
+    if (!distinct.points.empty() && distinct.points.back() == axis.points[i]) continue;
+    distinct.points.push_back(axis.points[i]);
+    distinct.radii.push_back(axis.radii[i]);
+  }
+  return distinct;
+}
+
+}  // namespace
+
+TubeAxis SimplifyAxis(const TubeAxis& axis, double tolerance, double min_spacing) {
+  const TubeAxis distinct = WithoutRepeatedPoints(axis);
+  TubeAxis simple;
+  for (const size_t i :
+       ThinOut(distinct, PointsWithinTolerance(distinct, tolerance), min_spacing)) {
+    simple.points.push_back(distinct.points[i]);
+    simple.radii.push_back(distinct.radii[i]);
+  }
+  return simple;
+}
+
+double TurnAngle(const Vec3& before, const Vec3& after) {
+  return std::atan2(before.cross(after).norm(), before.dot(after));
+}
+
+bool StripFolds(double length, double radius, double first_turn, double last_turn) {
+  const double reach = std::tan(std::min(first_turn, 3.0) / 2) + std::tan(std::min(last_turn, 3.0) / 2);
+  return length < kFoldMargin * radius * reach;
+}
+
+std::vector<int> FindCuts(const TubeAxis& axis, double max_turn) {
+  const int n = static_cast<int>(axis.points.size());
+  std::vector<double> turn(n, 0.0);
+  std::vector<char> cut(n, 0);
+  const auto cut_at = [&](int i) {
+    turn[i] = 0;
+    cut[i] = i > 0 && i + 1 < n;
+  };
+  for (int i = 1; i + 1 < n; ++i) {
+    turn[i] = TurnAngle(axis.points[i] - axis.points[i - 1], axis.points[i + 1] - axis.points[i]);
+    if (turn[i] > max_turn) cut_at(i);
+  }
+  for (int i = 0; i + 1 < n; ++i) {
+    const double length = (axis.points[i + 1] - axis.points[i]).norm();
+    if (std::abs(axis.radii[i + 1] - axis.radii[i]) > kMaxRadiusSlope * length) {
+      cut_at(i);
+      cut_at(i + 1);
+    }
+    const double radius = std::max(axis.radii[i], axis.radii[i + 1]);
+    while (StripFolds(length, radius, turn[i], turn[i + 1])) {
+      cut_at(turn[i] > turn[i + 1] ? i : i + 1);
+    }
+  }
+  std::vector<int> cuts;
+  for (int i = 0; i < n; ++i) {
+    if (cut[i]) cuts.push_back(i);
+  }
+  return cuts;
+}
+
+TubeAxis Slice(const TubeAxis& axis, int first, int last) {
+  return {{axis.points.begin() + first, axis.points.begin() + last + 1},
+          {axis.radii.begin() + first, axis.radii.begin() + last + 1}};
+}
+
+TubeAxis SubdivideAxis(const TubeAxis& axis, double max_spacing) {
+  TubeAxis fine;
+  for (size_t i = 0; i + 1 < axis.points.size(); ++i) {
+    const Vec3 step = axis.points[i + 1] - axis.points[i];
+    const double radius = std::min(axis.radii[i], axis.radii[i + 1]);
+    const int parts = std::max(1, static_cast<int>(std::ceil(step.norm() / (max_spacing * radius))));
+    for (int k = 0; k < parts; ++k) {
+      const double t = static_cast<double>(k) / parts;
+      fine.points.push_back(axis.points[i] + t * step);
+      fine.radii.push_back(axis.radii[i] + t * (axis.radii[i + 1] - axis.radii[i]));
+    }
+  }
+  fine.points.push_back(axis.points.back());
+  fine.radii.push_back(axis.radii.back());
+  return fine;
+}
+
+}  // namespace curvefusion

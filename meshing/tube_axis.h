@@ -1,0 +1,39 @@
+#pragma once
+
+#include <vector>
+
+#include "kernel/geometry.h"
+#include "kernel/polyline.h"
+
+namespace curvefusion {
+
+/// A polyline with the tube's radius at every point, in metres.
+struct TubeAxis {
+  Polyline points;
+  std::vector<double> radii;
+};
+
+/// The fewest points that follow `axis` (position and radius) within `tolerance` local radii
+/// (Douglas-Peucker), thinned until consecutive points lie `min_spacing` local radii apart. Both
+/// ends are kept bit for bit; points equal to their predecessor are dropped.
+TubeAxis SimplifyAxis(const TubeAxis& axis, double tolerance, double min_spacing);
+
+/// The angle in radians by which a curve turns between two directions (any length > 0).
+double TurnAngle(const Vec3& before, const Vec3& after);
+
+/// Whether the strip of a tube between two mitred rings would fold over: the rings lie `length`
+/// apart, and the axis turns by these angles at them.
+bool StripFolds(double length, double radius, double first_turn, double last_turn);
+
+/// Indices of the inner points, ascending, at which a swept tube must be cut into pieces: the axis
+/// turns by more than `max_turn` radians, a strip would fold, or the radius jumps.
+std::vector<int> FindCuts(const TubeAxis& axis, double max_turn);
+
+/// The points first..last (inclusive) of an axis.
+TubeAxis Slice(const TubeAxis& axis, int first, int last);
+
+/// `axis` with points added evenly where consecutive points lie more than `max_spacing` local radii
+/// apart.
+TubeAxis SubdivideAxis(const TubeAxis& axis, double max_spacing);
+
+}  // namespace curvefusion

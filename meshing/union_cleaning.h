@@ -1,0 +1,23 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "kernel/triangle_mesh.h"
+#include "meshing/junction_union.h"
+
+namespace curvefusion {
+
+/// What makes a union survive the rounding of its vertices to float32.
+struct UnionCleaningOptions {
+  double min_edge = 0;    ///< m; shorter edges are collapsed
+  double min_height = 0;  ///< m; flatter triangles lose their longest edge
+};
+
+/// Rounds a closed union to float32, collapses short edges (link condition, no flipped normals) and
+/// flips the longest edge of flat triangles. Vertices at the places `kept` do not move. Nothing
+/// where the union is not an oriented manifold. The result may still intersect itself: check it.
+std::optional<TriangleMesh> CleanUnion(const UnionMesh& mesh, const std::vector<Vec3f>& kept,
+                                       const UnionCleaningOptions& options);
+
+}  // namespace curvefusion

@@ -1,0 +1,278 @@
+#include "meshing/watertight.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <tuple>
+#include <vector>
+
+#include "kernel/error.h"
+#include "meshing/self_intersections.h"
+
+namespace curvefusion {
+
+namespace {
+
+// A half-edge a -> b of a triangle, listed under its edge (low, high).
+struct HalfEdge {
+  int low, high;
+  bool forward;  // runs from low to high
+  int face;
+};
+
+std::vector<HalfEdge> SortedHalfEdges(const TriangleMesh& mesh) {
+  std::vector<HalfEdge> half_edges;
+  half_edges.reserve(3 * mesh.triangles.size());
+  for (size_t f = 0; f < mesh.triangles.size(); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      const int a = mesh.triangles[f][k];
+      const int b = mesh.triangles[f][(k + 1) % 3];
+      half_edges.push_back({std::min(a, b), std::max(a, b), a < b, static_cast<int>(f)});
+    }
+  }
+  std::sort(half_edges.begin(), half_edges.end(), [](const HalfEdge& x, const HalfEdge& y) {
+    return std::tie(x.low, x.high, x.face, x.forward) < std::tie(y.low, y.high, y.face, y.forward);
+  });
+  return half_edges;
+}
+
+class DisjointSets {
+ public:
+  explicit DisjointSets(size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
+  int Root(int i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void Join(int a, int b) {
+    const auto [low, high] = std::minmax({Root(a), Root(b)});
+    parent_[high] = low;
+  }
+
+ private:
+  std::vector<int> parent_;
+};
+
+// Corner 3 f + k stands for vertex k of triangle f; corners of one vertex that lie in one fan end up
+// in one set.
+class Fans {
+ public:
+  explicit Fans(const TriangleMesh& mesh) : mesh_(mesh), corners_(3 * mesh.triangles.size()) {}
+
+  void JoinAcrossEdge(const HalfEdge& a, const HalfEdge& b) {
+    corners_.Join(Corner(a.face, a.low), Corner(b.face, a.low));
+    corners_.Join(Corner(a.face, a.high), Corner(b.face, a.high));
+  }
+
+  int64_t VerticesWithSeveralFans() {
+    std::vector<int> fans(mesh_.vertices.size(), 0);
+    for (size_t f = 0; f < mesh_.triangles.size(); ++f) {
+      for (int k = 0; k < 3; ++k) {
+        const int corner = static_cast<int>(3 * f) + k;
+        fans[mesh_.triangles[f][k]] += corners_.Root(corner) == corner;
+      }
+    }
+    return std::count_if(fans.begin(), fans.end(), [](int n) { return n > 1; });
+  }
+
+ private:
+  int Corner(int face, int vertex) const {
+    const auto& t = mesh_.triangles[face];
+    return 3 * face + static_cast<int>(std::find(t.begin(), t.end(), vertex) - t.begin());
+  }
+
+  const TriangleMesh& mesh_;
+  DisjointSets corners_;
+};
+
+// Counts edges by how many triangles they have; returns the number of edges and, in `component`,
+// the component of every face.
+int64_t ExamineEdges(const TriangleMesh& mesh, WatertightReport& report,
+                     std::vector<int>& component) {
+  const std::vector<HalfEdge> half_edges = SortedHalfEdges(mesh);
+  Fans fans(mesh);
+  DisjointSets faces(mesh.triangles.size());
+  int64_t edges = 0;
+  for (size_t i = 0, end = 0; i < half_edges.size(); i = end, ++edges) {
+    while (end < half_edges.size() && half_edges[end].low == half_edges[i].low &&
+           half_edges[end].high == half_edges[i].high) {
+      faces.Join(half_edges[i].face, half_edges[end].face);
+      ++end;
+    }
+    report.boundary_edges += end - i == 1;
+    report.non_manifold_edges += end - i > 2;
+    if (end - i != 2) continue;
+    report.misoriented_edges += half_edges[i].forward == half_edges[i + 1].forward;
+    fans.JoinAcrossEdge(half_edges[i], half_edges[i + 1]);
+  }
+  report.non_manifold_vertices = fans.VerticesWithSeveralFans();
+  component.resize(mesh.triangles.size());
+  std::vector<int> number(mesh.triangles.size(), -1);
+  for (size_t f = 0; f < component.size(); ++f) {
+    int& of_root = number[faces.Root(static_cast<int>(f))];
+    if (of_root < 0) of_root = report.components++;
+    component[f] = of_root;
+  }
+  return edges;
+}
+
+Vec3 Corner(const TriangleMesh& mesh, size_t face, int k) {
+  return mesh.vertices[mesh.triangles[face][k]].cast<double>();
+}
+
+double SmallestAngle(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const auto angle = [](const Vec3& u, const Vec3& v) {
+    return std::atan2(u.cross(v).norm(), u.dot(v));
+  };
+  return std::min({angle(b - a, c - a), angle(a - b, c - b), angle(a - c, b - c)});
+}
+
+// A component of the surface and what it encloses.
+struct Shell {
+  double volume = 0;
+  Eigen::AlignedBox3d box;
+  Vec3 point = Vec3::Zero();  // on the shell
+};
+
+std::vector<Shell> ShellsOf(const TriangleMesh& mesh, const std::vector<int>& component,
+                            WatertightReport& report) {
+  std::vector<Shell> shells(report.components);
+  report.min_angle = mesh.triangles.empty() ? 0 : std::numbers::pi;
+  const Vec3 origin = mesh.vertices.empty() ? Vec3::Zero() : Vec3(mesh.vertices[0].cast<double>());
+  for (size_t f = 0; f < mesh.triangles.size(); ++f) {
+    const Vec3 a = Corner(mesh, f, 0);
+    const Vec3 b = Corner(mesh, f, 1);
+    const Vec3 c = Corner(mesh, f, 2);
+    Shell& shell = shells[component[f]];
+    shell.volume += (a - origin).dot((b - origin).cross(c - origin)) / 6;
+    shell.box.extend(a).extend(b).extend(c);
+    shell.point = a;
+    report.area += (b - a).cross(c - a).norm() / 2;
+    report.min_angle = std::min(report.min_angle, SmallestAngle(a, b, c));
+  }
+  for (const Shell& shell : shells) report.volume += shell.volume;
+  return shells;
+}
+
+double SolidAngle(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const double x = a.norm(), y = b.norm(), z = c.norm();
+  return 2 * std::atan2(a.dot(b.cross(c)),
+                        x * y * z + a.dot(b) * z + b.dot(c) * x + c.dot(a) * y);
+}
+
+// Shells around a point of another shell: the sum of their winding numbers must be 0 for a solid,
+// 1 for a cavity.
+int MisplacedShells(const TriangleMesh& mesh, const std::vector<int>& component,
+                    const std::vector<Shell>& shells) {
+  std::vector<double> winding(shells.size(), 0.0);
+  for (size_t inner = 0; inner < shells.size(); ++inner) {
+    std::vector<char> around(shells.size(), 0);
+    for (size_t outer = 0; outer < shells.size(); ++outer) {
+      around[outer] = outer != inner && shells[outer].box.contains(shells[inner].point);
+    }
+    if (std::find(around.begin(), around.end(), 1) == around.end()) continue;
+    const Vec3& p = shells[inner].point;
+    for (size_t f = 0; f < mesh.triangles.size(); ++f) {
+      if (!around[component[f]]) continue;
+      winding[inner] +=
+          SolidAngle(Corner(mesh, f, 0) - p, Corner(mesh, f, 1) - p, Corner(mesh, f, 2) - p);
+    }
+  }
+  int misplaced = 0;
+  for (size_t i = 0; i < shells.size(); ++i) {
+    const bool inside = winding[i] > 2 * std::numbers::pi;
+    misplaced += inside == (shells[i].volume > 0);
+  }
+  return misplaced;
+}
+
+void RequireUsable(const TriangleMesh& mesh) {
+  const int n = static_cast<int>(mesh.vertices.size());
+  for (size_t f = 0; f < mesh.triangles.size(); ++f) {
+    for (const int v : mesh.triangles[f]) {
+      if (v < 0 || v >= n) {
+        throw Error(ErrorKind::kBadInput,
+                    fmt::format("mesh: triangle {} uses vertex {} of {}", f, v, n));
+      }
+    }
+  }
+  for (size_t v = 0; v < mesh.vertices.size(); ++v) {
+    if (!mesh.vertices[v].allFinite()) {
+      throw Error(ErrorKind::kBadInput, fmt::format("mesh: vertex {} is not finite", v));
+    }
+  }
+}
+
+}  // namespace
+
+TriangleMesh WeldVertices(const TriangleMesh& mesh) {
+  const auto key = [&mesh](int v) {
+    const Vec3f& p = mesh.vertices[v];
+    return std::make_tuple(p.x(), p.y(), p.z());
+  };
+  std::vector<int> order(mesh.vertices.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return key(a) < key(b); });
+  std::vector<int> first(mesh.vertices.size());
+  for (size_t i = 0; i < order.size(); ++i) {
+    const bool repeated = i > 0 && key(order[i]) == key(order[i - 1]);
+    first[order[i]] = repeated ? first[order[i - 1]] : order[i];
+  }
+  TriangleMesh welded;
+  std::vector<int> index(mesh.vertices.size(), -1);
+  welded.triangles = mesh.triangles;
+  for (auto& triangle : welded.triangles) {
+    for (int& v : triangle) {
+      int& new_index = index[first[v]];
+      if (new_index < 0) {
+        new_index = static_cast<int>(welded.vertices.size());
+        welded.vertices.push_back(mesh.vertices[first[v]]);
+      }
+      v = new_index;
+    }
+  }
+  return welded;
+}
+
+WatertightReport ExamineMesh(const TriangleMesh& original) {
+  RequireUsable(original);
+  const TriangleMesh mesh = WeldVertices(original);
+  WatertightReport report;
+  report.vertices = static_cast<int64_t>(mesh.vertices.size());
+  report.faces = static_cast<int64_t>(mesh.triangles.size());
+  std::vector<int> component;
+  const int64_t edges = ExamineEdges(mesh, report, component);
+  const std::vector<Shell> shells = ShellsOf(mesh, component, report);
+  for (const auto& [i, j] : FindSelfIntersections(mesh)) {
+    ++(i == j ? report.degenerate_faces : report.self_intersections);
+  }
+  if (report.boundary_edges + report.non_manifold_edges + report.non_manifold_vertices +
+          report.misoriented_edges ==
+      0) {
+    report.genus = report.components - (report.vertices - edges + report.faces) / 2;
+    report.misplaced_components = MisplacedShells(mesh, component, shells);
+  }
+  return report;
+}
+
+bool WatertightReport::IsWatertight() const { return faces > 0 && Defects().empty(); }
+
+std::string WatertightReport::Defects() const {
+  std::string defects;
+  const auto add = [&defects](int64_t count, const char* what) {
+    if (count > 0) defects += fmt::format("{}{} {}", defects.empty() ? "" : ", ", count, what);
+  };
+  add(boundary_edges, "boundary edges");
+  add(non_manifold_edges, "edges of more than two triangles");
+  add(non_manifold_vertices, "vertices of more than one fan");
+  add(misoriented_edges, "edges with inconsistent orientation");
+  add(degenerate_faces, "triangles without area");
+  add(self_intersections, "self-intersections");
+  add(misplaced_components, "components inside out");
+  return defects;
+}
+
+}  // namespace curvefusion
