@@ -4,6 +4,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <fstream>
 #include <sstream>
@@ -40,7 +41,10 @@ class NameCollector : public OptionVisitor {
   const std::vector<Section>& sections() const { return sections_; }
 
  private:
-  void Add(const OptionInfo& info) { sections_.back().second.push_back(info.name); }
+  void Add(const OptionInfo& info) {
+    assert(!sections_.empty());
+    sections_.back().second.push_back(info.name);
+  }
 
   std::vector<Section> sections_;
 };
@@ -237,9 +241,10 @@ class TomlWriter : public OptionVisitor {
 
 void VisitOptions(Config& config, OptionVisitor& visitor) {
   VisitOptions(config.pipeline, visitor);
+  VisitOptions(config.tubes, visitor);
 }
 
-Config ProfileConfig(Profile profile) { return {profile, ProfileOptions(profile)}; }
+Config ProfileConfig(Profile profile) { return {profile, ProfileOptions(profile), {}}; }
 
 std::string ProfileName(Profile profile) { return profile == Profile::kPaper ? "paper" : "best"; }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fusion/pipeline.h"
+#include "meshing/tubes.h"
 
 namespace curvefusion {
 
@@ -13,6 +14,7 @@ namespace curvefusion {
 struct Config {
   Profile profile = Profile::kBest;
   PipelineOptions pipeline;
+  TubeOptions tubes;
 };
 void VisitOptions(Config& config, OptionVisitor& visitor);
 

@@ -24,30 +24,31 @@ std::string Duration(double seconds) {
 }  // namespace
 
 ProgressPrinter::ProgressPrinter(std::ostream& stream, Style style, Clock clock)
-    : stream_(stream), style_(style), clock_(std::move(clock)) {}
+    : stream_(stream), style_(style), clock_(std::move(clock)), last_report_(clock_()) {}
 
 void ProgressPrinter::Report(const std::string& stage, int64_t done, int64_t total) {
   if (style_ == Style::kQuiet) return;
-  now_ = clock_();
-  if (stage != stage_ || done < done_) BeginStage(stage);
+  const double now = clock_();
+  if (stage != stage_ || done < done_) BeginStage(stage, done > 0 ? last_report_ : now);
   done_ = done;
   total_ = total;
+  last_report_ = now;
   const double interval = style_ == Style::kTerminal ? kTerminalInterval : kLinesInterval;
-  if (now_ - last_print_ < interval) return;
-  last_print_ = now_;
+  if (now - last_print_ < interval) return;
+  last_print_ = now;
   stream_ << (style_ == Style::kTerminal ? "\r\033[K" + Line() : Line() + "\n") << std::flush;
 }
 
-void ProgressPrinter::BeginStage(const std::string& stage) {
+void ProgressPrinter::BeginStage(const std::string& stage, double start) {
   Finish();
   stage_ = stage;
-  stage_start_ = now_;
-  last_print_ = style_ == Style::kTerminal ? now_ - kTerminalInterval : now_;
+  stage_start_ = start;
+  last_print_ = style_ == Style::kTerminal ? start - kTerminalInterval : start;
 }
 
 void ProgressPrinter::Finish() {
   if (stage_.empty()) return;
-  const std::string line = fmt::format("{:<34} {:>6.1f} s", stage_, clock_() - stage_start_);
+  const std::string line = fmt::format("{:<34} {:>6.1f} s", stage_, last_report_ - stage_start_);
   stream_ << (style_ == Style::kTerminal ? "\r\033[K" : "") << line << std::endl;
   stage_.clear();
   done_ = 0;
@@ -59,7 +60,7 @@ std::string ProgressPrinter::Line() const {
 }
 
 std::string ProgressPrinter::TimeLeft() const {
-  const double elapsed = now_ - stage_start_;
+  const double elapsed = last_report_ - stage_start_;
   if (done_ <= 0 || done_ >= total_ || elapsed < kEarliestEstimate) return "";
   const double left = elapsed * static_cast<double>(total_ - done_) / static_cast<double>(done_);
   return fmt::format(", {} left", Duration(left));

@@ -18,14 +18,15 @@ class ProgressPrinter {
   ProgressPrinter(std::ostream& stream, Style style, Clock clock);
 
   /// A stage is `done` of `total` steps far. A new stage name, or fewer steps done than before,
-  /// begins a new stage.
+  /// begins a new stage; where its first report has some steps done, it began at the last report of
+  /// the stage before.
   void Report(const std::string& stage, int64_t done, int64_t total);
 
   /// Ends the line of the last stage, so that other output can follow.
   void Finish();
 
  private:
-  void BeginStage(const std::string& stage);
+  void BeginStage(const std::string& stage, double start);
   std::string Line() const;
   std::string TimeLeft() const;
 
@@ -36,7 +37,7 @@ class ProgressPrinter {
   int64_t done_ = 0;
   int64_t total_ = 0;
   double stage_start_ = 0;
-  double now_ = 0;
+  double last_report_;
   double last_print_ = 0;
 };
 

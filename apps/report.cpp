@@ -62,6 +62,24 @@ Json SkeletonJson(const SkeletonGraph& graph, double global_radius) {
           {"per_edge", edges}};
 }
 
+Json MeshJson(const MeshRecord& mesh) {
+  const WatertightReport& figures = mesh.figures;
+  return {{"seconds", mesh.seconds},
+          {"watertight", figures.IsWatertight()},
+          {"vertices", figures.vertices},
+          {"faces", figures.faces},
+          {"components", figures.components},
+          {"genus", figures.genus},
+          {"volume", figures.volume},
+          {"area", figures.area},
+          {"boundary_edges", figures.boundary_edges},
+          {"non_manifold_edges", figures.non_manifold_edges},
+          {"non_manifold_vertices", figures.non_manifold_vertices},
+          {"misoriented_edges", figures.misoriented_edges},
+          {"degenerate_faces", figures.degenerate_faces},
+          {"self_intersections", figures.self_intersections}};
+}
+
 std::string Counted(int count, const char* noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
@@ -81,8 +99,11 @@ std::string DiameterText(const GraphFigures& figures) {
 
 std::vector<std::string> AllWarnings(const RunRecord& record) {
   std::vector<std::string> warnings = record.sequence.warnings;
-  const std::vector<std::string>& found = record.reconstruction.warnings;
-  warnings.insert(warnings.end(), found.begin(), found.end());
+  const auto append = [&](const std::vector<std::string>& more) {
+    warnings.insert(warnings.end(), more.begin(), more.end());
+  };
+  append(record.reconstruction.warnings);
+  if (record.mesh) append(record.mesh->warnings);
   return warnings;
 }
 
@@ -109,6 +130,7 @@ std::string ReportJson(const RunRecord& record) {
       {"stages", StagesJson(reconstruction.stages)},
       {"points", reconstruction.points.size()},
       {"skeleton", SkeletonJson(reconstruction.skeleton, reconstruction.global_radius)},
+      {"mesh", record.mesh ? MeshJson(*record.mesh) : Json(nullptr)},
       {"warnings", AllWarnings(record)}};
   return report.dump(2) + "\n";
 }

@@ -1,23 +1,33 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "apps/config.h"
 #include "apps/graph_figures.h"
 #include "capture/sequence.h"
 #include "fusion/pipeline.h"
+#include "meshing/watertight.h"
 
 namespace curvefusion {
+
+/// What became of the tubes.
+struct MeshRecord {
+  WatertightReport figures;
+  double seconds = 0;
+  std::vector<std::string> warnings;
+};
 
 /// What report.json tells of a run.
 struct RunRecord {
   const Sequence& sequence;
   const Config& config;
   const Reconstruction& reconstruction;
-  double seconds = 0;  ///< the whole run
-  double mesh_seconds = 0;
-  int64_t peak_memory = 0;  ///< bytes
+  std::optional<MeshRecord> mesh;  ///< missing where nothing was found
+  double seconds = 0;              ///< the whole run
+  int64_t peak_memory = 0;         ///< bytes
 };
 
 /// The text of report.json: profile, sequence, frames, stages with seconds and counts, warnings,

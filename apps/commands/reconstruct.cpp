@@ -63,7 +63,7 @@ int RunReconstruct(const ReconstructArguments& arguments) {
   const Reconstruction reconstruction = Reconstruct(sequence, config.pipeline, observer);
   printer.Finish();
 
-  RunRecord record{sequence, config, reconstruction};
+  RunRecord record{sequence, config, reconstruction, {}, 0, 0};
   const bool found = !reconstruction.skeleton.empty();
   if (found) WriteResult(record, arguments.output);
   if (!found) RemoveEarlierResult(arguments.output);

@@ -5,6 +5,8 @@
 
 #include <filesystem>
 #include <fstream>
+#include <set>
+#include <string>
 
 #include "kernel/error.h"
 
@@ -109,22 +111,28 @@ TEST(Config, AnUnknownProfileIsAnsweredWithTheNearest) {
 // Records whether a default lies outside of its range.
 class RangeCheck : public OptionVisitor {
  public:
-  void BeginSection(const char* name) override { section_ = name; }
+  void BeginSection(const char* name) override {
+    section_ = name;
+    EXPECT_TRUE(names_.insert(section_).second) << section_ << " is there twice";
+  }
   void Visit(const OptionInfo& info, double& value) override { Check(info, value); }
   void Visit(const OptionInfo& info, int& value) override { Check(info, value); }
   void Visit(const OptionInfo& info, bool&) override { Check(info, info.min); }
 
  private:
-  void Check(const OptionInfo& info, double value) const {
-    EXPECT_GE(value, info.min) << section_ << "." << info.name;
-    EXPECT_LE(value, info.max) << section_ << "." << info.name;
-    EXPECT_STRNE(info.description, "") << section_ << "." << info.name;
+  void Check(const OptionInfo& info, double value) {
+    const std::string name = section_ + "." + info.name;
+    EXPECT_TRUE(names_.insert(name).second) << name << " is there twice";
+    EXPECT_GE(value, info.min) << name;
+    EXPECT_LE(value, info.max) << name;
+    EXPECT_STRNE(info.description, "") << name;
   }
 
   std::string section_;
+  std::set<std::string> names_;
 };
 
-TEST(Config, EveryDefaultLiesInItsRange) {
+TEST(Config, NamesAreUniqueAndEveryDefaultLiesInItsRange) {
   for (const Profile profile : {Profile::kPaper, Profile::kBest}) {
     Config config = ProfileConfig(profile);
     RangeCheck check;

@@ -52,6 +52,19 @@ TEST(ProgressPrinter, ALogGetsALinePerStageAndEveryTenSeconds) {
   EXPECT_THAT(text, Not(HasSubstr("\033")));
 }
 
+TEST(ProgressPrinter, AStageThatReportsLateBeganWhenTheOneBeforeEnded) {
+  FakeRun run(ProgressPrinter::Style::kLines);
+  run.now = 2;
+  run.printer.Report("volume", 1, 1);
+  run.now = 5;
+  run.printer.Report("segmentation", 1, 2);
+  run.now = 8;
+  run.printer.Report("segmentation", 2, 2);
+  run.printer.Finish();
+  EXPECT_THAT(run.stream.str(), HasSubstr("2.0 s"));
+  EXPECT_THAT(run.stream.str(), HasSubstr("6.0 s"));
+}
+
 TEST(ProgressPrinter, QuietPrintsNothing) {
   FakeRun run(ProgressPrinter::Style::kQuiet);
   run.printer.Report("volume", 0, 2);

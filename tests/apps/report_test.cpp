@@ -38,7 +38,12 @@ struct YRun {
     reconstruction.stages = {{"volume", 1.25, {{"blocks", 12}}}};
     reconstruction.warnings = {"One wire is thinner than a pixel."};
   }
-  RunRecord Record() { return {sequence, config, reconstruction, 10, 0, 1000}; }
+  RunRecord Record() {
+    RunRecord record{sequence, config, reconstruction, MeshRecord{}, 10, 1000};
+    record.mesh->figures.faces = 1200;
+    record.mesh->warnings = {"One tube is thinner than its ends."};
+    return record;
+  }
 };
 
 TEST(Report, TellsWhatARunWasAndFound) {
@@ -54,7 +59,8 @@ TEST(Report, TellsWhatARunWasAndFound) {
   EXPECT_EQ(report["stages"][0]["name"], "volume");
   EXPECT_EQ(report["stages"][0]["seconds"], 1.25);
   EXPECT_EQ(report["stages"][0]["counts"]["blocks"], 12);
-  EXPECT_EQ(report["warnings"].size(), 2u);
+  EXPECT_EQ(report["mesh"]["faces"], 1200);
+  EXPECT_EQ(report["warnings"].size(), 3u);
 }
 
 TEST(Report, TellsTheFiguresOfTheSkeleton) {
