@@ -42,6 +42,7 @@ int Parse(int argc, char** argv) {
   AddReconstructCommand(app, exit_code);
   AddCheckCommand(app, exit_code);
   AddContractCommand(app, exit_code);
+  AddMeshCommand(app, exit_code);
   AddGraphCommand(app, exit_code);
   AddConfigCommand(app, exit_code);
   AddDemoScanCommand(app, exit_code);

@@ -6,6 +6,7 @@
 #include "apps/output_folder.h"
 #include "graph/graph_io.h"
 #include "kernel/cloud_io.h"
+#include "meshing/mesh_io.h"
 
 namespace curvefusion {
 
@@ -29,7 +30,8 @@ void RunObserver::OnGraph(const std::string& name, const SkeletonGraph& graph) {
 }
 
 void RunObserver::OnVolume(const TsdfVolume& volume) {
-  if (!outputs_.volume.empty()) static_cast<void>(volume);
+  if (outputs_.volume.empty()) return;
+  WriteMesh(outputs_.volume, volume.ExtractMesh(), {.require_watertight = false});
 }
 
 }  // namespace curvefusion

@@ -5,12 +5,12 @@
 #include <memory>
 #include <numbers>
 #include <string>
-#include <vector>
 
 #include "apps/commands/command.h"
 #include "apps/interrupt.h"
 #include "apps/output_folder.h"
 #include "apps/report.h"
+#include "apps/set_radius.h"
 #include "graph/graph_io.h"
 #include "graph/l1_contraction.h"
 #include "graph/ridge_skeleton.h"
@@ -42,14 +42,6 @@ SkeletonGraph ExtractAtAxis(const ObservedPoints& points, const ContractArgument
   const ObservedPoints axis_points = ShiftAlongRays(points, std::numbers::pi / 4 * radius);
   return arguments.method == "l1" ? ExtractL1(axis_points, arguments.neighbourhood_mm * kMillimetre)
                                   : ExtractRidgeSkeleton(axis_points, {});
-}
-
-void SetRadius(double radius, SkeletonGraph& graph) {
-  for (const EdgeId edge : graph.Edges()) {
-    const SkeletonEdge curve = graph.edge(edge);
-    graph.SetCurve(edge, curve.points, std::vector<double>(curve.points.size(), radius),
-                   curve.observations);
-  }
 }
 
 int RunContract(const ContractArguments& arguments) {

@@ -8,13 +8,17 @@
 
 #include "apps/commands/command.h"
 #include "apps/commands/config_arguments.h"
+#include "apps/interrupt.h"
 #include "apps/output_folder.h"
 #include "apps/preview.h"
 #include "apps/report.h"
 #include "apps/run_observer.h"
+#include "apps/tube_warnings.h"
 #include "graph/graph_io.h"
 #include "kernel/atomic_file.h"
+#include "kernel/error.h"
 #include "kernel/parallel.h"
+#include "meshing/mesh_io.h"
 
 namespace curvefusion {
 
@@ -44,12 +48,26 @@ void RemoveEarlierResult(const fs::path& folder) {
   for (const char* name : {"skeleton.json", "mesh.ply", "preview.png"}) fs::remove(folder / name);
 }
 
-void WriteResult(const RunRecord& record, const fs::path& folder) {
+void WriteSkeletonAndPicture(const RunRecord& record, const fs::path& folder) {
   const Reconstruction& reconstruction = record.reconstruction;
   WriteSkeleton(folder / "skeleton.json", reconstruction.skeleton);
   WritePreview(folder / "preview.png",
                DrawPreview(reconstruction.skeleton, reconstruction.points, record.sequence,
                            FiguresLine(MeasureGraph(reconstruction.skeleton))));
+}
+
+// Sweeps and writes the tubes. Where that fails the skeleton stays.
+MeshRecord WriteTubes(const RunRecord& record, const fs::path& folder) {
+  const auto start = Clock::now();
+  try {
+    const TubeMesh tubes = BuildTubes(record.reconstruction.skeleton, record.config.tubes);
+    WriteMesh(folder / "mesh.ply", ToTriangleMesh(tubes.surface), {});
+    return {tubes.report, SecondsSince(start),
+            TubeWarnings(record.reconstruction.skeleton, tubes, record.config.tubes)};
+  } catch (const Error& error) {
+    throw Error(error.kind(), fmt::format("{}; {} is complete", error.what(),
+                                          (folder / "skeleton.json").string()));
+  }
 }
 
 int RunReconstruct(const ReconstructArguments& arguments) {
@@ -62,14 +80,18 @@ int RunReconstruct(const ReconstructArguments& arguments) {
   RunObserver observer(printer, arguments.stages);
   const Reconstruction reconstruction = Reconstruct(sequence, config.pipeline, observer);
   printer.Finish();
+  ThrowIfInterrupted();
 
   RunRecord record{sequence, config, reconstruction, {}, 0, 0};
+  RemoveEarlierResult(arguments.output);
+  WriteText(arguments.output / "config.toml", ConfigToml(config));
   const bool found = !reconstruction.skeleton.empty();
-  if (found) WriteResult(record, arguments.output);
-  if (!found) RemoveEarlierResult(arguments.output);
+  if (found) {
+    WriteSkeletonAndPicture(record, arguments.output);
+    record.mesh = WriteTubes(record, arguments.output);
+  }
   record.seconds = SecondsSince(start);
   record.peak_memory = PeakMemory();
-  WriteText(arguments.output / "config.toml", ConfigToml(config));
   WriteText(arguments.output / "report.json", ReportJson(record));
   if (!arguments.run.quiet) fmt::print("{}", Summary(record, arguments.output));
   return found ? 0 : kNothingThin;
