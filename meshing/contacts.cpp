@@ -34,8 +34,7 @@ std::vector<Segment> SegmentsOf(const std::vector<TubePath>& paths) {
     const TubeAxis& axis = paths[p].axis;
     for (int i = 0; i < paths[p].segment_count(); ++i) {
       const size_t j = (i + 1) % axis.points.size();
-      segments.push_back(
-          {p, i, axis.points[i], axis.points[j], axis.radii[i], axis.radii[j]});
+      segments.push_back({p, i, axis.points[i], axis.points[j], axis.radii[i], axis.radii[j]});
     }
   }
   return segments;
@@ -85,8 +84,8 @@ std::vector<std::vector<double>> TurnSums(const std::vector<TubePath>& paths) {
     const size_t n = points.size();
     std::vector<double> sum = {0.0};
     for (int i = 1; i < path.segment_count() + (path.closed ? 1 : 0); ++i) {
-      sum.push_back(sum.back() + TurnAngle(points[i % n] - points[i - 1],
-                                           points[(i + 1) % n] - points[i % n]));
+      sum.push_back(sum.back() +
+                    TurnAngle(points[i % n] - points[i - 1], points[(i + 1) % n] - points[i % n]));
     }
     sums.push_back(std::move(sum));
   }
@@ -181,8 +180,8 @@ std::vector<int> GroupOfSegments(const std::vector<TubePath>& paths,
     const Segment& s = segments[i];
     if (s.index == 0) first_of_path = static_cast<int>(i);
     if (!crowded[s.path][s.index] || (s.index == 0 && !paths[s.path].closed)) continue;
-    const int before = s.index == 0 ? first_of_path + paths[s.path].segment_count() - 1
-                                    : static_cast<int>(i) - 1;
+    const int before =
+        s.index == 0 ? first_of_path + paths[s.path].segment_count() - 1 : static_cast<int>(i) - 1;
     groups.Join(before, static_cast<int>(i));
   }
   std::vector<int> group(segments.size());

@@ -1,24 +1,29 @@
 #include "meshing/junction_mesh.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <tuple>
 #include <utility>
 
 #include "kernel/geometry.h"
+#include "meshing/hashed_number.h"
 #include "meshing/junction_union.h"
 #include "meshing/self_intersections.h"
 #include "meshing/union_cleaning.h"
-#include "meshing/watertight.h"
 
 namespace curvefusion {
 
 namespace {
 
-// In radii; each further attempt adds as much again.
-constexpr double kPerturbation = 2e-3;
+// In radii.
+constexpr double kPerturbation = 2e-3;  // each further attempt adds as much again
 constexpr double kMinEdge = 0.02;
 constexpr double kMinHeight = 0.002;
+constexpr double kZoneRadius = 0.2;
+
+constexpr int kCleaningRounds = 7;
+constexpr std::array<double, 5> kZoneFactors = {0.1, 2.0, 0.4, 4.0, 0.03};
 
 using Place = std::tuple<float, float, float>;
 Place PlaceOf(const Vec3f& p) { return {p.x(), p.y(), p.z()}; }
@@ -62,8 +67,8 @@ std::optional<TriangleMesh> OpenAtCutRings(TriangleMesh mesh, const Junction& ju
   std::vector<std::array<int, 3>> open;
   for (const auto& triangle : mesh.triangles) {
     const int ring = ring_of_vertex[triangle[0]];
-    const bool in_disc = ring >= 0 && ring == ring_of_vertex[triangle[1]] &&
-                         ring == ring_of_vertex[triangle[2]];
+    const bool in_disc =
+        ring >= 0 && ring == ring_of_vertex[triangle[1]] && ring == ring_of_vertex[triangle[2]];
     if (in_disc) {
       ++removed[ring];
     } else {
@@ -77,12 +82,74 @@ std::optional<TriangleMesh> OpenAtCutRings(TriangleMesh mesh, const Junction& ju
   return mesh;
 }
 
-// Whether the mesh is sound, also as a file in millimetres rounds its coordinates.
-bool IsSound(const TriangleMesh& mesh) {
-  if (!ExamineMesh(mesh).IsWatertight()) return false;
+// The triangles that meet others, in metres or once the coordinates are rounded in millimetres.
+std::vector<std::pair<int, int>> Collisions(const TriangleMesh& mesh) {
+  std::vector<std::pair<int, int>> collisions = FindSelfIntersections(mesh);
   TriangleMesh millimetres = mesh;
   for (Vec3f& v : millimetres.vertices) v = (v.cast<double>() / kMillimetre).cast<float>();
-  return FindSelfIntersections(millimetres, 1).empty();
+  for (const auto& pair : FindSelfIntersections(millimetres)) collisions.push_back(pair);
+  return collisions;
+}
+
+// Cleaning makes sheets collide that pass each other closely: there it is done more finely at
+// first, then more coarsely.
+class ZoneList {
+ public:
+  explicit ZoneList(double radius) : radius_(radius) {}
+
+  void Mark(const TriangleMesh& mesh, const std::vector<std::pair<int, int>>& collisions) {
+    std::vector<char> marked(zones_.size(), 0);
+    for (const auto& [i, j] : collisions) {
+      for (const int face : {i, j}) {
+        for (const int v : mesh.triangles[face]) MarkPlace(mesh.vertices[v].cast<double>(), marked);
+      }
+    }
+  }
+
+  std::vector<CleaningZone> Zones() const {
+    std::vector<CleaningZone> zones;
+    for (const Zone& zone : zones_) {
+      zones.push_back({zone.centre, radius_, kZoneFactors[zone.level % kZoneFactors.size()]});
+    }
+    return zones;
+  }
+
+ private:
+  struct Zone {
+    Vec3 centre;
+    size_t level;
+  };
+
+  // Raises the level of the zone at a place, once in a round, or makes a new one.
+  void MarkPlace(const Vec3& place, std::vector<char>& marked) {
+    for (size_t i = 0; i < zones_.size(); ++i) {
+      if ((zones_[i].centre - place).norm() > radius_) continue;
+      if (!marked[i]) ++zones_[i].level;
+      marked[i] = 1;
+      return;
+    }
+    zones_.push_back({place, 0});
+    marked.push_back(1);
+  }
+
+  double radius_;
+  std::vector<Zone> zones_;
+};
+
+// Cleans a union until nothing collides.
+std::optional<TriangleMesh> CleanSoundly(const UnionMesh& united, const Junction& junction) {
+  std::vector<Vec3f> kept;
+  for (const auto& ring : junction.cut_rings) kept.insert(kept.end(), ring.begin(), ring.end());
+  ZoneList zones(kZoneRadius * junction.radius);
+  for (int round = 0; round < kCleaningRounds; ++round) {
+    std::optional<TriangleMesh> clean = CleanUnion(
+        united, kept, {kMinEdge * junction.radius, kMinHeight * junction.radius, zones.Zones()});
+    if (!clean) return std::nullopt;
+    const auto collisions = Collisions(*clean);
+    if (collisions.empty()) return clean;
+    zones.Mark(*clean, collisions);
+  }
+  return std::nullopt;
 }
 
 std::optional<TriangleMesh> Attempt(const Junction& junction, const std::map<Place, int>& rings,
@@ -90,12 +157,8 @@ std::optional<TriangleMesh> Attempt(const Junction& junction, const std::map<Pla
   const std::optional<UnionMesh> united =
       UniteSolids(PerturbedStubs(junction, rings, attempt, seed));
   if (!united) return std::nullopt;
-  std::vector<Vec3f> kept;
-  for (const auto& ring : junction.cut_rings) kept.insert(kept.end(), ring.begin(), ring.end());
-  const double coarseness = (1 + attempt) * junction.radius;
-  std::optional<TriangleMesh> clean =
-      CleanUnion(*united, kept, {kMinEdge * coarseness, kMinHeight * coarseness});
-  if (!clean || !IsSound(*clean)) return std::nullopt;
+  std::optional<TriangleMesh> clean = CleanSoundly(*united, junction);
+  if (!clean) return std::nullopt;
   return OpenAtCutRings(std::move(*clean), junction, rings);
 }
 
@@ -108,14 +171,6 @@ JunctionMesh MeshJunction(const Junction& junction, int max_attempts, uint64_t s
     result.surface = Attempt(junction, rings, result.attempts++, seed);
   }
   return result;
-}
-
-// SplitMix64.
-double HashedNumber(uint64_t seed) {
-  seed += 0x9e3779b97f4a7c15ULL;
-  seed = (seed ^ (seed >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  seed = (seed ^ (seed >> 27)) * 0x94d049bb133111ebULL;
-  return static_cast<double>((seed ^ (seed >> 31)) >> 11) * 0x1.0p-53;
 }
 
 }  // namespace curvefusion

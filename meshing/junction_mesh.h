@@ -21,13 +21,10 @@ struct JunctionMesh {
   int attempts = 0;                     ///< how many it took
 };
 
-/// Unites the stubs of a junction exactly, cleans and rounds the union, checks that it is watertight
-/// in metres and in millimetres, and opens it at the cut rings, whose vertices stay in place. Where
-/// something fails it tries again with the other vertices moved by a few thousandths of the radius
-/// and a coarser cleaning. The same seed gives the same result.
+/// Unites the stubs of a junction exactly, cleans and rounds the union, checks that it is
+/// watertight in metres and in millimetres, and opens it at the cut rings, whose vertices stay in
+/// place. Where something fails it tries again with the other vertices moved by a few thousandths
+/// of the radius and a coarser cleaning. The same seed gives the same result.
 JunctionMesh MeshJunction(const Junction& junction, int max_attempts, uint64_t seed);
-
-/// A number in [0, 1) that looks random, the same on every machine.
-double HashedNumber(uint64_t seed);
 
 }  // namespace curvefusion

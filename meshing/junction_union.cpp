@@ -5,6 +5,7 @@
 #include <CGAL/Surface_mesh.h>
 
 #include <algorithm>
+#include <exception>
 #include <numeric>
 #include <utility>
 
@@ -49,6 +50,14 @@ UnionMesh ToDouble(const ExactMesh& mesh) {
   return rounded;
 }
 
+bool Unite(ExactMesh& a, ExactMesh& b, ExactMesh& united) {
+  try {
+    return CGAL::Polygon_mesh_processing::corefine_and_compute_union(a, b, united);
+  } catch (const std::exception&) {
+    return false;  // CGAL's way to say that a solid intersects itself
+  }
+}
+
 // Solids in the order of their centres along the longest side of their common box, so that the
 // tournament unites neighbours first.
 std::vector<size_t> OrderAlongLongestSide(const std::vector<TriangleMesh>& solids) {
@@ -64,9 +73,8 @@ std::vector<size_t> OrderAlongLongestSide(const std::vector<TriangleMesh>& solid
   box.sizes().maxCoeff(&axis);
   std::vector<size_t> order(solids.size());
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) {
-    return centres[a][axis] < centres[b][axis];
-  });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](size_t a, size_t b) { return centres[a][axis] < centres[b][axis]; });
   return order;
 }
 
@@ -79,10 +87,7 @@ std::optional<UnionMesh> UniteSolids(const std::vector<TriangleMesh>& solids) {
     std::vector<ExactMesh> next_round;
     for (size_t i = 0; i + 1 < round.size(); i += 2) {
       ExactMesh united;
-      if (!CGAL::Polygon_mesh_processing::corefine_and_compute_union(round[i], round[i + 1],
-                                                                     united)) {
-        return std::nullopt;
-      }
+      if (!Unite(round[i], round[i + 1], united)) return std::nullopt;
       next_round.push_back(std::move(united));
     }
     if (round.size() % 2 == 1) next_round.push_back(std::move(round.back()));

@@ -17,8 +17,8 @@ struct UnionMesh {
 
 /// The exact union of closed meshes without self-intersections, by corefinement in a tournament of
 /// neighbours (CGAL; all predicates and constructions exact, rounded once at the end). Triangles
-/// that no other solid touches are kept as they are. Nothing where the union would not be manifold.
-/// Thread-safe.
+/// that no other solid touches are kept as they are. Nothing where the union would not be manifold
+/// or a solid turns out to intersect itself. Thread-safe.
 std::optional<UnionMesh> UniteSolids(const std::vector<TriangleMesh>& solids);
 
 }  // namespace curvefusion

@@ -47,7 +47,8 @@ TriangleMesh ToTriangleMesh(const SurfaceMesh& mesh) {
   for (const auto face : mesh.faces()) {
     std::array<int, 3> triangle{};
     int corner = 0;
-    for (const auto v : mesh.fv_range(face)) triangle[corner++] = index[static_cast<size_t>(v.idx())];
+    for (const auto v : mesh.fv_range(face))
+      triangle[corner++] = index[static_cast<size_t>(v.idx())];
     indexed.triangles.push_back(triangle);
   }
   return indexed;

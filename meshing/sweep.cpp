@@ -8,7 +8,7 @@ namespace curvefusion {
 
 namespace {
 
-constexpr int kDomeRings = 4;        // of 16 sides: steps of 22.5 degrees in both directions
+constexpr int kDomeRings = 4;          // of 16 sides: steps of 22.5 degrees in both directions
 constexpr double kTaperLength = 0.35;  // of the radius
 constexpr double kTaperPart = 0.3;     // at most, of the segment
 
@@ -281,7 +281,9 @@ TriangleMesh CloseStub(const TubeRings& rings, int first_segment, int last_segme
     triangles.insert(triangles.end(), side.begin(), side.end());
   }
   const bool whole_ring = rings.closed && last_segment - first_segment == count;
-  const auto ring_at = [&](int point) { return rings.ring_of_point[point % (count + !rings.closed)]; };
+  const auto ring_at = [&](int point) {
+    return rings.ring_of_point[point % (count + !rings.closed)];
+  };
   if (!whole_ring && (rings.closed || first_segment > 0)) {
     AddDisc(rings, ring_at(first_segment), true, triangles);
   }

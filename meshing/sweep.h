@@ -16,8 +16,8 @@ struct TubeRings {
   int sides = 0;
   int ring_count = 0;
   bool closed = false;
-  std::vector<Vec3f> vertices;     ///< ring_count * sides, then up to two poles
-  std::vector<int> ring_of_point;  ///< the ring at each point of the axis
+  std::vector<Vec3f> vertices;       ///< ring_count * sides, then up to two poles
+  std::vector<int> ring_of_point;    ///< the ring at each point of the axis
   std::array<int, 2> poles{-1, -1};  ///< indices into vertices; -1 where the end is flat
 };
 
@@ -27,8 +27,8 @@ struct TubeRings {
 std::vector<Vec3> RotationMinimisingNormals(const TubePath& path);
 
 /// The rings of a path: at every point of the axis a regular polygon of the circle's area, mitred
-/// to the bisecting plane; rounded ends get a hemisphere, flat ones that are thinner than the tube a
-/// short taper. `phase` turns all rings about the axis (radians).
+/// to the bisecting plane; rounded ends get a hemisphere, flat ones that are thinner than the tube
+/// a short taper. `phase` turns all rings about the axis (radians).
 TubeRings SweepRings(const TubePath& path, int sides, double phase);
 
 /// The closed mesh of the segments first..last-1 of a tube (counted on over the start of a closed

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace curvefusion {
@@ -76,6 +77,49 @@ std::vector<size_t> ThinOut(const TubeAxis& axis, const std::vector<size_t>& kep
   return thinned;
 }
 
+// The turn of the axis at the k-th kept point.
+double TurnAt(const TubeAxis& axis, const std::vector<size_t>& kept, size_t k) {
+  if (k == 0 || k + 1 >= kept.size()) return 0;
+  return TurnAngle(axis.points[kept[k]] - axis.points[kept[k - 1]],
+                   axis.points[kept[k + 1]] - axis.points[kept[k]]);
+}
+
+// Whether a tube would have to be cut at one of the ends of the segment after the k-th kept point.
+bool NeedsCut(const TubeAxis& axis, const std::vector<size_t>& kept, size_t k, double max_turn) {
+  const double before = TurnAt(axis, kept, k);
+  const double after = TurnAt(axis, kept, k + 1);
+  const double radius = std::max(axis.radii[kept[k]], axis.radii[kept[k + 1]]);
+  const double length = (axis.points[kept[k + 1]] - axis.points[kept[k]]).norm();
+  return std::max(before, after) > max_turn || StripFolds(length, radius, before, after);
+}
+
+// How far the axis would be from its simplification without the k-th kept point.
+double DeviationWithout(const TubeAxis& axis, const std::vector<size_t>& kept, size_t k) {
+  if (k == 0 || k + 1 >= kept.size()) return std::numeric_limits<double>::infinity();
+  double deviation = 0;
+  for (size_t i = kept[k - 1] + 1; i < kept[k + 1]; ++i) {
+    deviation = std::max(deviation, ChordDeviation(axis, kept[k - 1], i, kept[k + 1]));
+  }
+  return deviation;
+}
+
+// Drops points at kinks that are as small as noise: bends too tight for a tube.
+std::vector<size_t> SmoothKinks(const TubeAxis& axis, std::vector<size_t> kept,
+                                const AxisOptions& options) {
+  for (size_t k = 0; k + 1 < kept.size();) {
+    const bool kink = NeedsCut(axis, kept, k, options.max_turn);
+    const double first = kink ? DeviationWithout(axis, kept, k) : 0;
+    const double second = kink ? DeviationWithout(axis, kept, k + 1) : 0;
+    if (!kink || std::min(first, second) > options.kink_tolerance) {
+      ++k;
+      continue;
+    }
+    kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(first <= second ? k : k + 1));
+    k = k > 2 ? k - 2 : 0;
+  }
+  return kept;
+}
+
 TubeAxis WithoutRepeatedPoints(const TubeAxis& axis) {
   TubeAxis distinct;
   for (size_t i = 0; i < axis.points.size(); ++i) {
@@ -88,11 +132,12 @@ TubeAxis WithoutRepeatedPoints(const TubeAxis& axis) {
 
 }  // namespace
 
-TubeAxis SimplifyAxis(const TubeAxis& axis, double tolerance, double min_spacing) {
+TubeAxis SimplifyAxis(const TubeAxis& axis, const AxisOptions& options) {
   const TubeAxis distinct = WithoutRepeatedPoints(axis);
+  std::vector<size_t> kept = PointsWithinTolerance(distinct, options.tolerance);
+  kept = SmoothKinks(distinct, ThinOut(distinct, kept, options.min_spacing), options);
   TubeAxis simple;
-  for (const size_t i :
-       ThinOut(distinct, PointsWithinTolerance(distinct, tolerance), min_spacing)) {
+  for (const size_t i : kept) {
     simple.points.push_back(distinct.points[i]);
     simple.radii.push_back(distinct.radii[i]);
   }
@@ -104,7 +149,8 @@ double TurnAngle(const Vec3& before, const Vec3& after) {
 }
 
 bool StripFolds(double length, double radius, double first_turn, double last_turn) {
-  const double reach = std::tan(std::min(first_turn, 3.0) / 2) + std::tan(std::min(last_turn, 3.0) / 2);
+  const double reach =
+      std::tan(std::min(first_turn, 3.0) / 2) + std::tan(std::min(last_turn, 3.0) / 2);
   return length < kFoldMargin * radius * reach;
 }
 
@@ -148,7 +194,8 @@ TubeAxis SubdivideAxis(const TubeAxis& axis, double max_spacing) {
   for (size_t i = 0; i + 1 < axis.points.size(); ++i) {
     const Vec3 step = axis.points[i + 1] - axis.points[i];
     const double radius = std::min(axis.radii[i], axis.radii[i + 1]);
-    const int parts = std::max(1, static_cast<int>(std::ceil(step.norm() / (max_spacing * radius))));
+    const int parts =
+        std::max(1, static_cast<int>(std::ceil(step.norm() / (max_spacing * radius))));
     for (int k = 0; k < parts; ++k) {
       const double t = static_cast<double>(k) / parts;
       fine.points.push_back(axis.points[i] + t * step);

@@ -13,10 +13,19 @@ struct TubeAxis {
   std::vector<double> radii;
 };
 
-/// The fewest points that follow `axis` (position and radius) within `tolerance` local radii
-/// (Douglas-Peucker), thinned until consecutive points lie `min_spacing` local radii apart. Both
-/// ends are kept bit for bit; points equal to their predecessor are dropped.
-TubeAxis SimplifyAxis(const TubeAxis& axis, double tolerance, double min_spacing);
+/// How a noisy polyline becomes the axis of a tube; lengths in local radii.
+struct AxisOptions {
+  double tolerance = 0.04;       ///< the simplified axis follows the given one within this
+  double min_spacing = 0.3;      ///< least distance of consecutive points
+  double kink_tolerance = 0.15;  ///< the same where a tube could not be swept otherwise
+  double max_turn = 0.785;       ///< radians, at one point of a swept tube
+};
+
+/// The fewest points that follow `axis` (position and radius) within the tolerance
+/// (Douglas-Peucker), thinned to the least spacing and, within the wider tolerance, until no tube
+/// along them has to be cut for a kink. Both ends are kept bit for bit; points equal to their
+/// predecessor are dropped.
+TubeAxis SimplifyAxis(const TubeAxis& axis, const AxisOptions& options);
 
 /// The angle in radians by which a curve turns between two directions (any length > 0).
 double TurnAngle(const Vec3& before, const Vec3& after);

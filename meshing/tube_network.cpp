@@ -17,9 +17,11 @@ namespace curvefusion {
 namespace {
 
 // In radii: nodes joined by less become one, ...
-constexpr double kShortBranch = 0.25;
-// ... and points of a branch stay so far apart, so that rings are not crowded.
-constexpr double kMinSpacing = 0.5;
+constexpr double kShortBranch = 0.15;
+// ... and what begins and ends in it without leaving this distance is dropped.
+constexpr double kShortLoop = 0.3;
+// A tube that is all there is of its component is at least so long.
+constexpr double kLeastLength = 0.05;
 // Radii that differ by a smaller factor belong to one tube.
 constexpr double kSameRadius = 0.9;
 // A branch may stick out of the one that swallows it by so much of the radius.
@@ -84,8 +86,7 @@ class NodeMerging {
   void MergeAcross(const TubeBranch& branch) {
     const int a = Root(branch.nodes[0]);
     const int b = Root(branch.nodes[1]);
-    const double radius =
-        *std::min_element(branch.axis.radii.begin(), branch.axis.radii.end());
+    const double radius = *std::min_element(branch.axis.radii.begin(), branch.axis.radii.end());
     if (a == b || !StaysWithin(branch.axis, positions_[a], kShortBranch * radius)) return;
     if (!merged_[b]) {
       root_[b] = a;
@@ -101,22 +102,50 @@ class NodeMerging {
   std::vector<char> merged_;
 };
 
+// What is left of a branch that shrank to a point: a short straight one to its farthest point.
+TubeBranch Remnant(const TubeBranch& branch, int node_count) {
+  const Polyline& points = branch.axis.points;
+  const auto farthest = std::max_element(points.begin(), points.end(), [&](auto& p, auto& q) {
+    return (p - points[0]).norm() < (q - points[0]).norm();
+  });
+  const double radius = *std::max_element(branch.axis.radii.begin(), branch.axis.radii.end());
+  const double length = std::max((*farthest - points[0]).norm(), kLeastLength * radius);
+  const Vec3 direction = (*farthest - points[0]).normalized();
+  return {{branch.nodes[0], node_count},
+          {{points[0], points[0] + length * direction}, {radius, radius}}};
+}
+
+// Keeps components that would vanish because they are shorter than the tube is thick.
+void KeepLastOfShrunk(std::vector<TubeBranch> shrunk, TubeNetwork& network) {
+  std::vector<char> used(network.node_count, 0);
+  for (const TubeBranch& branch : network.branches) {
+    used[branch.nodes[0]] = used[branch.nodes[1]] = 1;
+  }
+  for (const TubeBranch& branch : shrunk) {
+    if (used[branch.nodes[0]] || Length(branch.axis.points) <= 0) continue;
+    used[branch.nodes[0]] = 1;
+    network.branches.push_back(Remnant(branch, network.node_count++));
+  }
+}
+
 void MergeNodes(TubeNetwork& network, const std::vector<Vec3>& positions) {
   NodeMerging merging(positions);
   for (const TubeBranch& branch : network.branches) merging.MergeAcross(branch);
   std::vector<TubeBranch> kept;
+  std::vector<TubeBranch> shrunk;
   for (TubeBranch& branch : network.branches) {
-    for (int side = 0; side < 2; ++side) {
-      branch.nodes[side] = merging.Root(branch.nodes[side]);
-      (side == 0 ? branch.axis.points.front() : branch.axis.points.back()) =
-          positions[branch.nodes[side]];
-    }
+    TubeBranch moved = branch;
+    for (int& node : moved.nodes) node = merging.Root(node);
+    moved.axis.points.front() = positions[moved.nodes[0]];
+    moved.axis.points.back() = positions[moved.nodes[1]];
     const double radius = *std::max_element(branch.axis.radii.begin(), branch.axis.radii.end());
-    const bool shrunk = branch.nodes[0] == branch.nodes[1] &&
-                        StaysWithin(branch.axis, branch.axis.points[0], kMinSpacing * radius);
-    if (!shrunk) kept.push_back(std::move(branch));
+    const bool is_short = moved.nodes[0] == moved.nodes[1] &&
+                          StaysWithin(moved.axis, moved.axis.points[0], kShortLoop * radius);
+    if (is_short) branch.nodes = moved.nodes;
+    (is_short ? shrunk : kept).push_back(is_short ? std::move(branch) : std::move(moved));
   }
   network.branches = std::move(kept);
+  KeepLastOfShrunk(std::move(shrunk), network);
 }
 
 void Reverse(TubeBranch& branch) {
@@ -199,7 +228,8 @@ bool IsInside(const TubeAxis& inner, const TubeAxis& outer) {
   };
   for (size_t i = 0; i < inner.points.size(); ++i) {
     if (!covered(inner.points[i], inner.radii[i])) return false;
-    if (i > 0 && !covered((inner.points[i - 1] + inner.points[i]) / 2, inner.radii[i])) return false;
+    if (i > 0 && !covered((inner.points[i - 1] + inner.points[i]) / 2, inner.radii[i]))
+      return false;
   }
   return true;
 }
@@ -234,8 +264,8 @@ std::vector<std::vector<BranchEnd>> TubeNetwork::EndsAtNodes() const {
   return ends;
 }
 
-TubeNetwork PrepareTubes(const SkeletonGraph& graph, double default_radius, double tolerance,
-                         double max_turn) {
+TubeNetwork PrepareTubes(const SkeletonGraph& graph, double default_radius,
+                         const AxisOptions& options) {
   TubeNetwork network;
   std::map<NodeId, int> dense_node;
   std::vector<Vec3> positions;
@@ -251,9 +281,9 @@ TubeNetwork PrepareTubes(const SkeletonGraph& graph, double default_radius, doub
   MergeNodes(network, positions);
   DissolveDegree2Nodes(network);
   for (TubeBranch& branch : network.branches) {
-    branch.axis = SimplifyAxis(branch.axis, tolerance, kMinSpacing);
+    branch.axis = SimplifyAxis(branch.axis, options);
   }
-  CutAtTightBends(network, max_turn);
+  CutAtTightBends(network, options.max_turn);
   DropSwallowedBranches(network);
   return network;
 }

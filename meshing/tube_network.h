@@ -11,8 +11,7 @@ namespace curvefusion {
 /// A stretch of tube that can be swept without folding, between two nodes (dense indices).
 struct TubeBranch {
   std::array<int, 2> nodes{};
-  TubeAxis axis;  ///< runs from nodes[0] to nodes[1]; the points are at least half a radius apart,
-                  ///< save for the last pair
+  TubeAxis axis;  ///< runs from nodes[0] to nodes[1]
 };
 
 /// One end of a branch: side 0 is axis.points.front(), side 1 the back.
@@ -30,14 +29,13 @@ struct TubeNetwork {
   std::vector<std::vector<BranchEnd>> EndsAtNodes() const;
 };
 
-/// Prepares a skeleton for sweeping: nodes at the same place, or joined by an edge shorter than a
-/// quarter of the radius, become one; degree-2 nodes are dissolved; curves are simplified to within
-/// `tolerance` radii and cut where they turn by more than `max_turn` radians or more tightly than
-/// the tube is thick; a branch that lies inside another between the same nodes is dropped.
-/// Edges without radii get `default_radius`. Throws Error(kBadInput) for coordinates or radii that
-/// are not finite, radii that are not positive, or ones too thin for float32 coordinates at their
-/// distance from the origin.
-TubeNetwork PrepareTubes(const SkeletonGraph& graph, double default_radius, double tolerance,
-                         double max_turn);
+/// Prepares a skeleton for sweeping: nodes at the same place, or joined by an edge shorter than
+/// 0.15 radii, become one; degree-2 nodes are dissolved; curves are simplified and cut where they
+/// turn by more than `max_turn` or more tightly than the tube is thick; a branch that lies inside
+/// another between the same nodes is dropped. Edges without radii get `default_radius`. Throws
+/// Error(kBadInput) for coordinates or radii that are not finite, radii that are not positive, or
+/// ones too thin for float32 coordinates at their distance from the origin.
+TubeNetwork PrepareTubes(const SkeletonGraph& graph, double default_radius,
+                         const AxisOptions& options);
 
 }  // namespace curvefusion

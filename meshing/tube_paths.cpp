@@ -62,10 +62,10 @@ std::vector<ThroughCandidate> CandidatesAtNode(const TubeNetwork& network,
     for (size_t j = i + 1; j < ends.size(); ++j) {
       const TubeAxis& a = network.branches[ends[i].branch].axis;
       const TubeAxis& b = network.branches[ends[j].branch].axis;
-      const double turn = TurnAngle(-InwardDirection(a, ends[i].side),
-                                    InwardDirection(b, ends[j].side));
-      const auto [thin, thick] = std::minmax(
-          {EndRadius(a, ends[i].side), EndRadius(b, ends[j].side)});
+      const double turn =
+          TurnAngle(-InwardDirection(a, ends[i].side), InwardDirection(b, ends[j].side));
+      const auto [thin, thick] =
+          std::minmax({EndRadius(a, ends[i].side), EndRadius(b, ends[j].side)});
       if (turn <= max_turn && thin >= kSameRadius * thick) {
         candidates.push_back({turn, ends[i], ends[j]});
       }

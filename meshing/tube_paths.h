@@ -20,9 +20,7 @@ struct TubePath {
   bool closed = false;  ///< a ring without ends
   std::array<TubeEnd, 2> ends;
 
-  int segment_count() const {
-    return static_cast<int>(axis.points.size()) - (closed ? 0 : 1);
-  }
+  int segment_count() const { return static_cast<int>(axis.points.size()) - (closed ? 0 : 1); }
 };
 
 /// Chains branches that run straight on through a node (by less than `max_turn` radians, with about

@@ -4,45 +4,22 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <numbers>
+#include <limits>
+#include <string>
 #include <utility>
 
 #include "kernel/error.h"
 #include "kernel/parallel.h"
-#include "meshing/contacts.h"
 #include "meshing/junction_mesh.h"
-#include "meshing/sweep.h"
-#include "meshing/tube_network.h"
-#include "meshing/tube_paths.h"
+#include "meshing/tube_layout.h"
 
 namespace curvefusion {
 
 namespace {
 
-constexpr double kMaxTurn = std::numbers::pi / 4;  // at a mitred ring
-
-// Tubes ready to be swept, and the groups of them that touch.
-struct TubeLayout {
-  std::vector<TubePath> paths;
-  std::vector<TubeRings> rings;
-  std::vector<std::vector<TubeStretch>> groups;
-};
-
-TubeLayout LayOutTubes(const SkeletonGraph& graph, const TubeOptions& options) {
-  TubeLayout layout;
-  const TubeNetwork network =
-      PrepareTubes(graph, options.default_radius, options.axis_tolerance, kMaxTurn);
-  layout.paths = CutSelfContacts(ChainTubes(network, kMaxTurn, options.ring_spacing));
-  layout.rings.resize(layout.paths.size());
-  ParallelFor(0, static_cast<int64_t>(layout.paths.size()), 16, [&](int64_t i) {
-    // Rings of different tubes are turned against each other, so that their facets do not lie in
-    // one plane where the tubes meet.
-    const double phase = 2 * std::numbers::pi / options.sides * HashedNumber(static_cast<uint64_t>(i));
-    layout.rings[i] = SweepRings(layout.paths[i], options.sides, phase);
-  });
-  layout.groups = GroupContacts(layout.paths);
-  return layout;
-}
+// How often all tubes are laid out anew, turned about their axes, where one place does not come
+// out.
+constexpr int kTurns = 3;
 
 std::vector<Vec3f> RingVertices(const TubeRings& rings, int point) {
   const int ring = rings.ring_of_point[point % rings.ring_of_point.size()];
@@ -57,8 +34,8 @@ Junction JunctionOf(const TubeLayout& layout, const std::vector<TubeStretch>& gr
     const TubePath& path = layout.paths[stretch.path];
     const TubeRings& rings = layout.rings[stretch.path];
     junction.stubs.push_back(CloseStub(rings, stretch.first, stretch.last));
-    junction.radius = std::min(
-        junction.radius, *std::min_element(path.axis.radii.begin(), path.axis.radii.end()));
+    junction.radius = std::min(junction.radius,
+                               *std::min_element(path.axis.radii.begin(), path.axis.radii.end()));
     const bool whole_ring = path.closed && stretch.last - stretch.first == path.segment_count();
     if (whole_ring) continue;
     if (path.closed || stretch.first > 0) {
@@ -97,11 +74,55 @@ Vec3 MiddleOf(const Junction& junction) {
   return box.center().cast<double>();
 }
 
-[[noreturn]] void ThrowUnsound(const Vec3& place, const std::string& what) {
-  throw Error(ErrorKind::kBadInput,
-              fmt::format("tubes near ({:.4f}, {:.4f}, {:.4f}) m: {}; remove doubled or very short "
-                          "edges there, or make the tubes a little thinner or thicker",
-                          place.x(), place.y(), place.z(), what));
+// All tubes as one surface, or where and why it is not sound.
+struct Assembly {
+  TriangleMesh mesh;
+  WatertightReport report;
+  int unions = 0;
+  std::vector<TubeFallback> fallbacks;
+  std::string failure;
+  Vec3 failure_place = Vec3::Zero();
+};
+
+void AppendJunction(const Junction& junction, const JunctionMesh& part, Assembly& assembly) {
+  const Vec3 place = MiddleOf(junction);
+  ++assembly.unions;
+  if (!part.surface) {
+    assembly.failure = fmt::format("the union of {} tubes did not come out in {} attempts",
+                                   junction.stubs.size(), part.attempts);
+    assembly.failure_place = place;
+    return;
+  }
+  if (part.attempts > 1) {
+    assembly.fallbacks.push_back({place, static_cast<int>(junction.stubs.size()), part.attempts,
+                                  "moved vertices by a few thousandths of the radius"});
+  }
+  AppendMesh(*part.surface, assembly.mesh);
+}
+
+Assembly Assemble(const TubeLayout& layout, const TubeOptions& options) {
+  const int64_t count = static_cast<int64_t>(layout.groups.size());
+  std::vector<Junction> junctions(layout.groups.size());
+  std::vector<JunctionMesh> parts(layout.groups.size());
+  ParallelFor(0, count, 1, [&](int64_t i) {
+    if (layout.groups[i].size() == 1) return;
+    junctions[i] = JunctionOf(layout, layout.groups[i]);
+    parts[i] = MeshJunction(junctions[i], options.attempts, static_cast<uint64_t>(i));
+  });
+  Assembly assembly;
+  for (int64_t i = 0; i < count; ++i) {
+    if (layout.groups[i].size() == 1) {
+      AppendMesh(SweptStretch(layout, layout.groups[i][0]), assembly.mesh);
+    } else {
+      AppendJunction(junctions[i], parts[i], assembly);
+    }
+  }
+  if (!assembly.failure.empty()) return assembly;
+  assembly.mesh = WeldVertices(assembly.mesh);
+  assembly.report = ExamineMesh(assembly.mesh);
+  assembly.failure = assembly.report.Defects();
+  assembly.failure_place = assembly.report.defect_place.value_or(Vec3::Zero());
+  return assembly;
 }
 
 }  // namespace
@@ -123,37 +144,28 @@ void VisitOptions(TubeOptions& options, OptionVisitor& visitor) {
 TubeMesh BuildTubes(const SkeletonGraph& graph, const TubeOptions& options) {
   TubeMesh tubes;
   if (graph.empty()) return tubes;
-  const TubeLayout layout = LayOutTubes(graph, options);
-  tubes.paths = static_cast<int>(layout.paths.size());
-  std::vector<Junction> junctions(layout.groups.size());
-  std::vector<JunctionMesh> meshes(layout.groups.size());
-  ParallelFor(0, static_cast<int64_t>(layout.groups.size()), 1, [&](int64_t i) {
-    if (layout.groups[i].size() == 1) return;
-    junctions[i] = JunctionOf(layout, layout.groups[i]);
-    meshes[i] = MeshJunction(junctions[i], options.attempts, static_cast<uint64_t>(i));
-  });
-  TriangleMesh whole;
-  for (size_t i = 0; i < layout.groups.size(); ++i) {
-    if (layout.groups[i].size() == 1) {
-      AppendMesh(SweptStretch(layout, layout.groups[i][0]), whole);
-      continue;
+  for (int turn = 0;; ++turn) {
+    const TubeLayout layout = LayOutTubes(graph, options, static_cast<uint64_t>(turn));
+    Assembly assembly = Assemble(layout, options);
+    const Vec3& place = assembly.failure_place;
+    if (assembly.failure.empty()) {
+      tubes.surface = *ToSurfaceMesh(assembly.mesh);
+      tubes.report = assembly.report;
+      tubes.paths = static_cast<int>(layout.paths.size());
+      tubes.unions = assembly.unions;
+      tubes.fallbacks.insert(tubes.fallbacks.end(), assembly.fallbacks.begin(),
+                             assembly.fallbacks.end());
+      return tubes;
     }
-    ++tubes.unions;
-    const Vec3 place = MiddleOf(junctions[i]);
-    if (!meshes[i].surface) ThrowUnsound(place, "their union did not come out");
-    if (meshes[i].attempts > 1) {
-      tubes.fallbacks.push_back({place, static_cast<int>(junctions[i].stubs.size()),
-                                 meshes[i].attempts, "perturbed by a few thousandths of the radius"});
+    if (turn + 1 == kTurns) {
+      throw Error(ErrorKind::kBadInput,
+                  fmt::format("tubes near ({:.4f}, {:.4f}, {:.4f}) m: {}; remove doubled or very "
+                              "short edges there, or make the tubes a little thinner or thicker",
+                              place.x(), place.y(), place.z(), assembly.failure));
     }
-    AppendMesh(*meshes[i].surface, whole);
+    tubes.fallbacks.push_back({place, static_cast<int>(layout.paths.size()), turn + 1,
+                               "turned the polygons of all tubes (" + assembly.failure + ")"});
   }
-  whole = WeldVertices(whole);
-  tubes.report = ExamineMesh(whole);
-  if (!tubes.report.IsWatertight()) {
-    ThrowUnsound(whole.vertices.front().cast<double>(), tubes.report.Defects());
-  }
-  tubes.surface = *ToSurfaceMesh(whole);
-  return tubes;
 }
 
 }  // namespace curvefusion

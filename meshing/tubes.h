@@ -14,19 +14,19 @@ namespace curvefusion {
 struct TubeOptions {
   double default_radius = 0.0025;  ///< m, > 0, of edges without radii; Kinect-size wires
   int sides = 16;                  ///< corners of a ring, 8 to 64; chosen here: < 1 % of the radius
-  double ring_spacing = 2.5;       ///< radii between rings along straight tubes, 1 to 20; chosen here
-  double axis_tolerance = 0.04;    ///< radii by which the simplified axis may differ, 0.005 to 0.2;
-                                   ///< chosen here: far below what a scan resolves
-  int attempts = 8;                ///< per junction, each a little perturbed, 1 to 20; chosen here
+  double ring_spacing = 2.5;     ///< radii between rings along straight tubes, 1 to 20; chosen here
+  double axis_tolerance = 0.04;  ///< radii by which the simplified axis may differ, 0.005 to 0.2;
+                                 ///< chosen here: far below what a scan resolves
+  int attempts = 8;              ///< per junction, each a little perturbed, 1 to 20; chosen here
 };
 
 /// Visits the options (section "tubes").
 void VisitOptions(TubeOptions& options, OptionVisitor& visitor);
 
-/// A junction or contact that did not come out at the first attempt.
+/// A place that did not come out at the first attempt.
 struct TubeFallback {
-  Vec3 position = Vec3::Zero();  ///< about the middle of its tubes
-  int tubes = 0;                 ///< how many tubes meet there
+  Vec3 position = Vec3::Zero();  ///< about the middle of the tubes that meet there
+  int tubes = 0;                 ///< how many tubes the remedy changed
   int attempts = 0;              ///< how many it took
   std::string remedy;            ///< what was done, a phrase
 };
@@ -34,9 +34,9 @@ struct TubeFallback {
 /// The tubes of a skeleton as one surface.
 struct TubeMesh {
   SurfaceMesh surface;  ///< outward normals, metres; coordinates as in the files written from it
-  WatertightReport report;  ///< of the surface; always watertight unless empty
-  int paths = 0;            ///< tubes swept in one piece
-  int unions = 0;           ///< junctions, contacts and groups of them, united exactly
+  WatertightReport report;              ///< of the surface; always watertight unless empty
+  int paths = 0;                        ///< tubes swept in one piece
+  int unions = 0;                       ///< junctions, contacts and groups of them, united exactly
   std::vector<TubeFallback> fallbacks;  ///< empty when all unions came out at once
 };
 
@@ -46,8 +46,8 @@ struct TubeMesh {
 /// the tubes and stays so in float32 files: all of this is checked before it is returned. Nodes
 /// without edges are ignored; an empty skeleton gives an empty surface. Throws Error(kBadInput)
 /// for radii or coordinates that cannot be (see PrepareTubes) and, naming the place, where no
-/// attempt gives a sound surface. Cost: about 4 ms per junction. Deviation: the paper does not say
-/// how its tubes are joined (CurveFusion 3.4).
+/// attempt gives a sound surface. Cost: about 6 ms of one core per junction. The paper assumes
+/// tubes of constant radius about the curves (CurveFusion 3.3) and does not say how they join.
 TubeMesh BuildTubes(const SkeletonGraph& graph, const TubeOptions& options);
 
 }  // namespace curvefusion

@@ -17,6 +17,8 @@ constexpr int kMaxPasses = 12;
 // A collapse or flip may turn the normal of a sound triangle by 60 or 25 degrees.
 constexpr double kMinCosCollapse = 0.5;
 constexpr double kMinCosFlip = 0.9;
+// The shortest edge of a flat triangle may be collapsed up to this multiple of the least length.
+constexpr double kFlatCollapse = 5;
 
 using Vertex = SurfaceMesh::VertexHandle;
 using HalfEdge = SurfaceMesh::HalfedgeHandle;
@@ -44,6 +46,9 @@ class UnionCleaner {
     mesh_.request_edge_status();
     mesh_.request_halfedge_status();
     mesh_.request_face_status();
+    for (const CleaningZone& zone : options.zones) {
+      max_factor_ = std::max(max_factor_, zone.factor);
+    }
     std::set<std::tuple<float, float, float>> places;
     for (const Vec3f& p : kept) places.insert({p.x(), p.y(), p.z()});
     for (const auto v : mesh_.vertices()) {
@@ -54,7 +59,7 @@ class UnionCleaner {
 
   void Run() {
     for (int pass = 0; pass < kMaxPasses; ++pass) {
-      const int changes = CollapseShortEdges() + FlipFlatTriangles();
+      const int changes = CollapseShortEdges() + MendFlatTriangles();
       if (changes == 0) break;
     }
     mesh_.garbage_collection();
@@ -62,9 +67,24 @@ class UnionCleaner {
 
  private:
   double Length(HalfEdge h) const {
-    return (PointOf(mesh_, mesh_.to_vertex_handle(h)) -
-            PointOf(mesh_, mesh_.from_vertex_handle(h)))
+    return (PointOf(mesh_, mesh_.to_vertex_handle(h)) - PointOf(mesh_, mesh_.from_vertex_handle(h)))
         .norm();
+  }
+
+  // The factor of the zone in which a half-edge lies.
+  double FactorAt(HalfEdge h) const {
+    const Vec3 middle =
+        (PointOf(mesh_, mesh_.to_vertex_handle(h)) + PointOf(mesh_, mesh_.from_vertex_handle(h))) /
+        2;
+    for (const CleaningZone& zone : options_.zones) {
+      if ((middle - zone.centre).squaredNorm() <= zone.radius * zone.radius) return zone.factor;
+    }
+    return 1;
+  }
+
+  bool IsShort(HalfEdge h) const {
+    const double length = Length(h);
+    return length < max_factor_ * options_.min_edge && length < FactorAt(h) * options_.min_edge;
   }
 
   // The worst cosine between old and new normals when the start of h moves to its end; -2 where the
@@ -90,11 +110,11 @@ class UnionCleaner {
     return worst;
   }
 
-  bool Collapse(HalfEdge h) {
+  bool Collapse(HalfEdge h, double min_cos) {
     const HalfEdge opposite = mesh_.opposite_halfedge_handle(h);
     const double forward = CollapseQuality(h);
     const double backward = CollapseQuality(opposite);
-    if (std::max(forward, backward) < kMinCosCollapse) return false;
+    if (std::max(forward, backward) < min_cos) return false;
     mesh_.collapse(forward >= backward ? h : opposite);
     return true;
   }
@@ -103,8 +123,8 @@ class UnionCleaner {
     std::vector<std::pair<double, int>> candidates;
     for (const auto e : mesh_.edges()) {
       if (mesh_.status(e).deleted()) continue;
-      const double length = Length(mesh_.halfedge_handle(e, 0));
-      if (length < options_.min_edge) candidates.emplace_back(length, e.idx());
+      const HalfEdge h = mesh_.halfedge_handle(e, 0);
+      if (IsShort(h)) candidates.emplace_back(Length(h), e.idx());
     }
     std::sort(candidates.begin(), candidates.end());
     int changes = 0;
@@ -112,7 +132,7 @@ class UnionCleaner {
       const Edge e(index);
       if (mesh_.status(e).deleted()) continue;
       const HalfEdge h = mesh_.halfedge_handle(e, 0);
-      if (Length(h) < options_.min_edge) changes += Collapse(h);
+      if (IsShort(h)) changes += Collapse(h, kMinCosCollapse);
     }
     return changes;
   }
@@ -142,27 +162,40 @@ class UnionCleaner {
                std::min(MinHeight(a, b, c), MinHeight(b, a, d));
   }
 
-  int FlipFlatTriangles() {
+  // A flat triangle loses its longest edge by a flip, or else its shortest one if that is not much
+  // longer than edges may be.
+  int MendFlatTriangles() {
     int changes = 0;
     for (const auto face : mesh_.faces()) {
       if (mesh_.status(face).deleted()) continue;
       HalfEdge longest = mesh_.halfedge_handle(face);
+      HalfEdge shortest = longest;
       HalfEdge h = longest;
       for (int k = 0; k < 2; ++k) {
         h = mesh_.next_halfedge_handle(h);
         if (Length(h) > Length(longest)) longest = h;
+        if (Length(h) < Length(shortest)) shortest = h;
       }
       const Vec3 a = PointOf(mesh_, mesh_.from_vertex_handle(longest));
       const Vec3 b = PointOf(mesh_, mesh_.to_vertex_handle(longest));
-      if (MinHeight(a, b, Opposite(longest)) >= options_.min_height || !MayFlip(longest)) continue;
-      mesh_.flip(mesh_.edge_handle(longest));
-      ++changes;
+      const double height = MinHeight(a, b, Opposite(longest));
+      if (height >= max_factor_ * options_.min_height ||
+          height >= FactorAt(longest) * options_.min_height) {
+        continue;
+      }
+      if (MayFlip(longest)) {
+        mesh_.flip(mesh_.edge_handle(longest));
+        ++changes;
+      } else if (Length(shortest) < kFlatCollapse * FactorAt(shortest) * options_.min_edge) {
+        changes += Collapse(shortest, kMinCosFlip);
+      }
     }
     return changes;
   }
 
   SurfaceMesh& mesh_;
-  UnionCleaningOptions options_;
+  const UnionCleaningOptions& options_;
+  double max_factor_ = 1;
 };
 
 }  // namespace

@@ -56,8 +56,8 @@ class DisjointSets {
   std::vector<int> parent_;
 };
 
-// Corner 3 f + k stands for vertex k of triangle f; corners of one vertex that lie in one fan end up
-// in one set.
+// Corner 3 f + k stands for vertex k of triangle f; corners of one vertex that lie in one fan end
+// up in one set.
 class Fans {
  public:
   explicit Fans(const TriangleMesh& mesh) : mesh_(mesh), corners_(3 * mesh.triangles.size()) {}
@@ -67,7 +67,8 @@ class Fans {
     corners_.Join(Corner(a.face, a.high), Corner(b.face, a.high));
   }
 
-  int64_t VerticesWithSeveralFans() {
+  // Their number; `first` becomes one of them.
+  int64_t VerticesWithSeveralFans(int& first) {
     std::vector<int> fans(mesh_.vertices.size(), 0);
     for (size_t f = 0; f < mesh_.triangles.size(); ++f) {
       for (int k = 0; k < 3; ++k) {
@@ -75,7 +76,9 @@ class Fans {
         fans[mesh_.triangles[f][k]] += corners_.Root(corner) == corner;
       }
     }
-    return std::count_if(fans.begin(), fans.end(), [](int n) { return n > 1; });
+    const auto several = [](int n) { return n > 1; };
+    first = static_cast<int>(std::find_if(fans.begin(), fans.end(), several) - fans.begin());
+    return std::count_if(fans.begin(), fans.end(), several);
   }
 
  private:
@@ -87,6 +90,10 @@ class Fans {
   const TriangleMesh& mesh_;
   DisjointSets corners_;
 };
+
+void NotePlace(const TriangleMesh& mesh, int vertex, WatertightReport& report) {
+  if (!report.defect_place) report.defect_place = mesh.vertices[vertex].cast<double>();
+}
 
 // Counts edges by how many triangles they have; returns the number of edges and, in `component`,
 // the component of every face.
@@ -102,13 +109,18 @@ int64_t ExamineEdges(const TriangleMesh& mesh, WatertightReport& report,
       faces.Join(half_edges[i].face, half_edges[end].face);
       ++end;
     }
+    const bool paired = end - i == 2;
+    const bool misoriented = paired && half_edges[i].forward == half_edges[i + 1].forward;
+    if (!paired || misoriented) NotePlace(mesh, half_edges[i].low, report);
     report.boundary_edges += end - i == 1;
     report.non_manifold_edges += end - i > 2;
-    if (end - i != 2) continue;
-    report.misoriented_edges += half_edges[i].forward == half_edges[i + 1].forward;
-    fans.JoinAcrossEdge(half_edges[i], half_edges[i + 1]);
+    report.misoriented_edges += misoriented;
+    if (paired) fans.JoinAcrossEdge(half_edges[i], half_edges[i + 1]);
   }
-  report.non_manifold_vertices = fans.VerticesWithSeveralFans();
+  int vertex = 0;
+  const int64_t several_fans = fans.VerticesWithSeveralFans(vertex);
+  if (several_fans > 0) NotePlace(mesh, vertex, report);
+  report.non_manifold_vertices = several_fans;
   component.resize(mesh.triangles.size());
   std::vector<int> number(mesh.triangles.size(), -1);
   for (size_t f = 0; f < component.size(); ++f) {
@@ -159,8 +171,7 @@ std::vector<Shell> ShellsOf(const TriangleMesh& mesh, const std::vector<int>& co
 
 double SolidAngle(const Vec3& a, const Vec3& b, const Vec3& c) {
   const double x = a.norm(), y = b.norm(), z = c.norm();
-  return 2 * std::atan2(a.dot(b.cross(c)),
-                        x * y * z + a.dot(b) * z + b.dot(c) * x + c.dot(a) * y);
+  return 2 * std::atan2(a.dot(b.cross(c)), x * y * z + a.dot(b) * z + b.dot(c) * x + c.dot(a) * y);
 }
 
 // Shells around a point of another shell: the sum of their winding numbers must be 0 for a solid,
@@ -209,17 +220,25 @@ void RequireUsable(const TriangleMesh& mesh) {
 }  // namespace
 
 TriangleMesh WeldVertices(const TriangleMesh& mesh) {
-  const auto key = [&mesh](int v) {
-    const Vec3f& p = mesh.vertices[v];
-    return std::make_tuple(p.x(), p.y(), p.z());
+  struct Place {
+    float x, y, z;
+    int vertex;
+    bool operator<(const Place& o) const {
+      return std::tie(x, y, z, vertex) < std::tie(o.x, o.y, o.z, o.vertex);
+    }
+    bool SameAs(const Place& o) const { return x == o.x && y == o.y && z == o.z; }
   };
-  std::vector<int> order(mesh.vertices.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return key(a) < key(b); });
+  std::vector<Place> places;
+  places.reserve(mesh.vertices.size());
+  for (size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const Vec3f& p = mesh.vertices[v];
+    places.push_back({p.x(), p.y(), p.z(), static_cast<int>(v)});
+  }
+  std::sort(places.begin(), places.end());
   std::vector<int> first(mesh.vertices.size());
-  for (size_t i = 0; i < order.size(); ++i) {
-    const bool repeated = i > 0 && key(order[i]) == key(order[i - 1]);
-    first[order[i]] = repeated ? first[order[i - 1]] : order[i];
+  for (size_t i = 0; i < places.size(); ++i) {
+    const bool repeated = i > 0 && places[i].SameAs(places[i - 1]);
+    first[places[i].vertex] = repeated ? first[places[i - 1].vertex] : places[i].vertex;
   }
   TriangleMesh welded;
   std::vector<int> index(mesh.vertices.size(), -1);
@@ -247,6 +266,7 @@ WatertightReport ExamineMesh(const TriangleMesh& original) {
   const int64_t edges = ExamineEdges(mesh, report, component);
   const std::vector<Shell> shells = ShellsOf(mesh, component, report);
   for (const auto& [i, j] : FindSelfIntersections(mesh)) {
+    NotePlace(mesh, mesh.triangles[i][0], report);
     ++(i == j ? report.degenerate_faces : report.self_intersections);
   }
   if (report.boundary_edges + report.non_manifold_edges + report.non_manifold_vertices +

@@ -33,7 +33,8 @@ void SetRadius(SkeletonGraph& graph, EdgeId id, double first, double last) {
   Polyline points = graph.edge(id).points;
   std::vector<double> radii(points.size());
   for (size_t i = 0; i < radii.size(); ++i) {
-    radii[i] = first + (last - first) * static_cast<double>(i) / static_cast<double>(radii.size() - 1);
+    radii[i] =
+        first + (last - first) * static_cast<double>(i) / static_cast<double>(radii.size() - 1);
   }
   graph.SetCurve(id, std::move(points), std::move(radii));
 }
@@ -62,8 +63,8 @@ Polyline Noisy(const Polyline& points, Random& random, double jitter) {
   return noisy;
 }
 
-Polyline Arc(const Vec3& centre, const Vec3& u, const Vec3& v, double radius, double from, double to,
-             int n) {
+Polyline Arc(const Vec3& centre, const Vec3& u, const Vec3& v, double radius, double from,
+             double to, int n) {
   Polyline arc;
   for (int i = 0; i <= n; ++i) {
     const double a = from + (to - from) * i / n;
@@ -164,8 +165,8 @@ SkeletonGraph TightBends(Random& random) {
     points.push_back(points.back() + Uniform(random, 2, 12) * radius * direction);
     const double bend_radius = Uniform(random, 0.2, 1.5) * radius;
     const double angle = Uniform(random, 0.5, kPi);
-    const Polyline arc = Arc(points.back() + bend_radius * side, -side, direction, bend_radius, 0,
-                             angle, 12);
+    const Polyline arc =
+        Arc(points.back() + bend_radius * side, -side, direction, bend_radius, 0, angle, 12);
     points.insert(points.end(), arc.begin() + 1, arc.end());
     direction = (std::cos(angle) * direction + std::sin(angle) * side).normalized();
   }
@@ -276,13 +277,18 @@ SkeletonGraph NoisyNetwork(Random& random) {
 
 using Generator = SkeletonGraph (*)(Random&);
 const std::map<std::string, Generator>& Generators() {
-  static const std::map<std::string, Generator> generators = {
-      {"star", Star},           {"broom", Broom},
-      {"mixed_radii", MixedRadii}, {"unjoined", Unjoined},
-      {"close_parallel", CloseParallel}, {"tight_bends", TightBends},
-      {"short_edges", ShortEdges}, {"duplicates", Duplicates},
-      {"loops", Loops},         {"coplanar_grid", CoplanarGrid},
-      {"coil", Coil},           {"noisy", NoisyNetwork}};
+  static const std::map<std::string, Generator> generators = {{"star", Star},
+                                                              {"broom", Broom},
+                                                              {"mixed_radii", MixedRadii},
+                                                              {"unjoined", Unjoined},
+                                                              {"close_parallel", CloseParallel},
+                                                              {"tight_bends", TightBends},
+                                                              {"short_edges", ShortEdges},
+                                                              {"duplicates", Duplicates},
+                                                              {"loops", Loops},
+                                                              {"coplanar_grid", CoplanarGrid},
+                                                              {"coil", Coil},
+                                                              {"noisy", NoisyNetwork}};
   return generators;
 }
 
@@ -387,7 +393,8 @@ SkeletonGraph ChairGraph() {
   }
   const auto add = [&](NodeId a, NodeId b, double u0, double v0, double u1, double v1) {
     Polyline points = {graph.position(a)};
-    for (int k = 1; k < 8; ++k) points.push_back(sheet(u0 + (u1 - u0) * k / 8, v0 + (v1 - v0) * k / 8));
+    for (int k = 1; k < 8; ++k)
+      points.push_back(sheet(u0 + (u1 - u0) * k / 8, v0 + (v1 - v0) * k / 8));
     points.push_back(graph.position(b));
     AddTube(graph, a, b, points, 2.25 * kMm);
   };
@@ -446,8 +453,7 @@ SkeletonGraph HelixGraph(double helix_radius, double pitch, int turns, double ra
 }
 
 SkeletonGraph RingGraph(double ring_radius, double radius) {
-  Polyline points =
-      Arc(Vec3::Zero(), Vec3::UnitX(), Vec3::UnitY(), ring_radius, 0, 2 * kPi, 360);
+  Polyline points = Arc(Vec3::Zero(), Vec3::UnitX(), Vec3::UnitY(), ring_radius, 0, 2 * kPi, 360);
   points.back() = points.front();
   SkeletonGraph graph;
   AddCurve(graph, points, radius);

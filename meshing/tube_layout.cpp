@@ -1,0 +1,94 @@
+#include "meshing/tube_layout.h"
+
+#include <algorithm>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "kernel/parallel.h"
+#include "meshing/hashed_number.h"
+#include "meshing/self_intersections.h"
+#include "meshing/tube_network.h"
+#include "meshing/tubes.h"
+
+namespace curvefusion {
+
+namespace {
+
+constexpr double kMaxTurn = std::numbers::pi / 4;  // at a mitred ring
+
+// Rings of different tubes are turned against each other, so that their facets do not lie in one
+// plane where the tubes meet.
+double PhaseOf(uint64_t path, int sides, uint64_t seed) {
+  return 2 * std::numbers::pi / sides * HashedNumber((seed << 32) + path);
+}
+
+// The point at which a path that intersects itself is best cut: the sharpest turn between the first
+// two segments found to meet. Nothing where the tube is sound.
+std::optional<int> CutAgainstSelfIntersection(const TubePath& path, const TubeRings& rings) {
+  TriangleMesh tube{rings.vertices, {}};
+  std::vector<int> segment_of_face;
+  for (int segment = 0; segment < path.segment_count(); ++segment) {
+    const auto side = SegmentTriangles(rings, segment);
+    tube.triangles.insert(tube.triangles.end(), side.begin(), side.end());
+    segment_of_face.resize(tube.triangles.size(), segment);
+  }
+  const auto hits = FindSelfIntersections(tube, 1);
+  if (hits.empty()) return std::nullopt;
+  const int n = static_cast<int>(path.axis.points.size());
+  const int last_cut = path.closed ? n - 1 : n - 2;
+  const int from = std::max(segment_of_face[hits[0].first], path.closed ? 0 : 1);
+  const int to = std::min(segment_of_face[hits[0].second] + 1, last_cut);
+  int best = -1;
+  double sharpest = -1;
+  for (int i = from; i <= to; ++i) {
+    const Polyline& p = path.axis.points;
+    const double turn = TurnAngle(p[i] - p[(i + n - 1) % n], p[(i + 1) % n] - p[i]);
+    if (turn > sharpest) {
+      sharpest = turn;
+      best = i;
+    }
+  }
+  if (best < 0) return std::nullopt;  // a single segment: the check of the result will tell
+  return best;
+}
+
+// Sweeps all paths; those that intersect themselves are cut until none does.
+void SweepSoundly(int sides, uint64_t seed, TubeLayout& layout) {
+  for (bool all_sound = false; !all_sound;) {
+    std::vector<std::optional<int>> cuts(layout.paths.size());
+    layout.rings.resize(layout.paths.size());
+    ParallelFor(0, static_cast<int64_t>(layout.paths.size()), 1, [&](int64_t i) {
+      const TubePath& path = layout.paths[i];
+      layout.rings[i] = SweepRings(path, sides, PhaseOf(static_cast<uint64_t>(i), sides, seed));
+      cuts[i] = CutAgainstSelfIntersection(path, layout.rings[i]);
+    });
+    all_sound = std::none_of(cuts.begin(), cuts.end(), [](const auto& cut) { return cut; });
+    if (all_sound) continue;
+    std::vector<TubePath> pieces;
+    for (size_t i = 0; i < cuts.size(); ++i) {
+      if (!cuts[i]) {
+        pieces.push_back(std::move(layout.paths[i]));
+        continue;
+      }
+      for (TubePath& piece : CutPath(layout.paths[i], *cuts[i])) pieces.push_back(std::move(piece));
+    }
+    layout.paths = CutSelfContacts(std::move(pieces));
+  }
+}
+
+}  // namespace
+
+TubeLayout LayOutTubes(const SkeletonGraph& graph, const TubeOptions& options, uint64_t seed) {
+  TubeLayout layout;
+  AxisOptions axis;
+  axis.tolerance = options.axis_tolerance;
+  axis.max_turn = kMaxTurn;
+  const TubeNetwork network = PrepareTubes(graph, options.default_radius, axis);
+  layout.paths = CutSelfContacts(ChainTubes(network, kMaxTurn, options.ring_spacing));
+  SweepSoundly(options.sides, seed, layout);
+  layout.groups = GroupContacts(layout.paths);
+  return layout;
+}
+
+}  // namespace curvefusion
