@@ -1,0 +1,70 @@
+#include "capture/check.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "apps/commands/command.h"
+#include "kernel/error.h"
+#include "kernel/parallel.h"
+
+namespace curvefusion {
+
+namespace {
+
+struct CheckArguments {
+  std::filesystem::path sequence;
+  RunOptions run;
+};
+
+void PrintFigures(const CheckReport& report) {
+  const ImageSizes& sizes = report.image_sizes;
+  fmt::print("format       {}\n", report.format.empty() ? "unknown" : report.format);
+  if (report.frames == 0) return;
+  fmt::print("frames       {} ({} without pose, {} without partner)\n", report.frames,
+             report.frames_without_pose, report.frames_without_partner);
+  fmt::print("depth        {} x {}, {:g} units per metre, {:.0f} % valid, median {:.2f} m\n",
+             sizes.depth_width, sizes.depth_height, report.depth_scale, 100 * report.depth_validity,
+             report.median_depth);
+  fmt::print("colour       {} x {}\n", sizes.color_width, sizes.color_height);
+  const std::string duration =
+      report.duration > 0 ? fmt::format(" in {:.1f} s", report.duration) : "";
+  fmt::print("camera path  {:.2f} m{}\n", report.trajectory_length, duration);
+}
+
+void PrintFindings(const CheckReport& report) {
+  for (const CheckFinding& finding : report.findings) {
+    fmt::print("{}: {}\n", finding.severity == Severity::kError ? "error" : "warning",
+               finding.message);
+  }
+  if (report.findings.empty()) fmt::print("nothing is wrong with this sequence\n");
+}
+
+int RunCheck(const CheckArguments& arguments) {
+  const ThreadLimit limit(arguments.run.threads);
+  ProgressPrinter printer = MakeProgressPrinter(arguments.run.quiet);
+  const CheckReport report = CheckSequence(arguments.sequence, InterruptibleProgress(printer));
+  printer.Finish();
+  if (!arguments.run.quiet) {
+    PrintFigures(report);
+    PrintFindings(report);
+  }
+  return report.has_errors() ? ExitCode(ErrorKind::kBadInput) : 0;
+}
+
+}  // namespace
+
+void AddCheckCommand(CLI::App& app, int& exit_code) {
+  CLI::App* command =
+      app.add_subcommand("check", "Tell what is wrong with a sequence before it is reconstructed");
+  const auto arguments = std::make_shared<CheckArguments>();
+  command->add_option("SEQUENCE", arguments->sequence, "Folder of the sequence")->required();
+  AddRunOptions(*command, arguments->run);
+  command->footer("Example:\n  curvefusion check scan");
+  command->callback([arguments, &exit_code] { exit_code = RunCheck(*arguments); });
+}
+
+}  // namespace curvefusion

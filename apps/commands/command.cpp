@@ -1,0 +1,23 @@
+#include "apps/commands/command.h"
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "apps/interrupt.h"
+
+namespace curvefusion {
+
+void AddRunOptions(CLI::App& command, RunOptions& options) {
+  command.add_option("--threads", options.threads, "Threads to use; 0 = all cores")
+      ->check(CLI::Range(0, 1024));
+  command.add_flag("--quiet", options.quiet, "Print nothing but errors");
+}
+
+Progress InterruptibleProgress(ProgressPrinter& printer) {
+  return [&printer](std::string_view stage, int64_t done, int64_t total) {
+    ThrowIfInterrupted();
+    printer.Report(std::string(stage), done, total);
+  };
+}
+
+}  // namespace curvefusion

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "apps/progress_printer.h"
+#include "kernel/progress.h"
+
+namespace CLI {
+class App;
+}
+
+namespace curvefusion {
+
+// Each command adds itself to the command line; parsing a line that names it runs it and sets the
+// exit code. Errors leave as exceptions: main tells the user and turns them into exit codes.
+void AddReconstructCommand(CLI::App& app, int& exit_code);
+void AddCheckCommand(CLI::App& app, int& exit_code);
+void AddContractCommand(CLI::App& app, int& exit_code);
+void AddGraphCommand(CLI::App& app, int& exit_code);
+void AddMeshCommand(CLI::App& app, int& exit_code);
+void AddConfigCommand(CLI::App& app, int& exit_code);
+void AddDemoScanCommand(CLI::App& app, int& exit_code);
+
+/// Exit code of a run that worked but found nothing thin.
+inline constexpr int kNothingThin = 4;
+
+/// What every command that takes time has.
+struct RunOptions {
+  int threads = 0;  ///< 0 = all cores
+  bool quiet = false;
+};
+void AddRunOptions(CLI::App& command, RunOptions& options);
+
+/// Progress that is shown by `printer` and ends the step once the user interrupts.
+Progress InterruptibleProgress(ProgressPrinter& printer);
+
+}  // namespace curvefusion

@@ -1,0 +1,104 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <numbers>
+#include <string>
+
+#include "apps/commands/command.h"
+#include "apps/interrupt.h"
+#include "apps/output_folder.h"
+#include "apps/report.h"
+#include "apps/set_radius.h"
+#include "graph/graph_io.h"
+#include "graph/l1_contraction.h"
+#include "graph/ridge_skeleton.h"
+#include "kernel/cloud_io.h"
+#include "kernel/parallel.h"
+
+namespace curvefusion {
+
+namespace {
+
+struct ContractArguments {
+  std::filesystem::path cloud;
+  std::filesystem::path output;
+  std::string method = "ridge";
+  double scale = 1;             // metres per unit of the file
+  double neighbourhood_mm = 0;  // 0 = from the cloud
+  double radius_mm = 0;         // 0 = unknown
+  RunOptions run;
+};
+
+SkeletonGraph ExtractL1(const ObservedPoints& points, double neighbourhood) {
+  const double radius = neighbourhood > 0 ? neighbourhood : SuggestedRadius(points);
+  return radius > 0 ? ExtractL1Skeleton(points, OptionsForRadius(radius)) : SkeletonGraph();
+}
+
+// Points of a depth camera lie on the near side of a wire, pi/4 radii before its axis on average.
+SkeletonGraph ExtractAtAxis(const ObservedPoints& points, const ContractArguments& arguments) {
+  const double radius = arguments.radius_mm * kMillimetre;
+  const ObservedPoints axis_points = ShiftAlongRays(points, std::numbers::pi / 4 * radius);
+  return arguments.method == "l1" ? ExtractL1(axis_points, arguments.neighbourhood_mm * kMillimetre)
+                                  : ExtractRidgeSkeleton(axis_points, {});
+}
+
+int RunContract(const ContractArguments& arguments) {
+  const ThreadLimit limit(arguments.run.threads);
+  ObservedPoints points = ReadCloud(arguments.cloud);
+  for (Vec3& position : points.positions) position *= arguments.scale;
+  MakeFolderOf(arguments.output);
+  SkeletonGraph graph = ExtractAtAxis(points, arguments);
+  ThrowIfInterrupted();
+  if (graph.empty()) {
+    fmt::print(stderr,
+               "curvefusion: no curve in the {} points of {}; is --scale right (metres per unit "
+               "of the file)?\n",
+               points.size(), arguments.cloud.string());
+    return kNothingThin;
+  }
+  if (arguments.radius_mm > 0) SetRadius(arguments.radius_mm * kMillimetre, graph);
+  WriteSkeleton(arguments.output, graph);
+  if (!arguments.run.quiet) {
+    fmt::print("Found {}\n  skeleton  {}\n", FiguresLine(MeasureGraph(graph)),
+               arguments.output.string());
+  }
+  return 0;
+}
+
+}  // namespace
+
+void AddContractCommand(CLI::App& app, int& exit_code) {
+  CLI::App* command =
+      app.add_subcommand("contract", "Contract a point cloud of thin structures to its curves");
+  const auto arguments = std::make_shared<ContractArguments>();
+  command->add_option("CLOUD", arguments->cloud, "PLY or XYZ file")->required();
+  command->add_option("-o,--output", arguments->output, "The skeleton.json to write")->required();
+  command->add_option("--scale", arguments->scale, "Metres per unit of the file; 0.001 for mm")
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option(
+          "--method", arguments->method,
+          "ridge (default): for wires measured in metres, also close ones; l1: the paper's "
+          "L1 axis, adapts to any scale")
+      ->check(CLI::IsMember({"ridge", "l1"}));
+  command
+      ->add_option("--neighbourhood", arguments->neighbourhood_mm,
+                   "First radius of l1 in mm, about three times the wires' thickness; otherwise "
+                   "from the cloud")
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--radius", arguments->radius_mm,
+                   "Radius of the wires in mm, stored with the curves; where the cloud has viewing "
+                   "rays, its points are moved from the surface to the axis")
+      ->check(CLI::PositiveNumber);
+  AddRunOptions(*command, arguments->run);
+  command->footer(
+      "Example:\n  curvefusion contract cloud.ply -o skeleton.json\n"
+      "  curvefusion contract cloud_mm.xyz -o skeleton.json --scale 0.001 --radius 2.5\n"
+      "  curvefusion contract tree.ply -o tree.json --method l1");
+  command->callback([arguments, &exit_code] { exit_code = RunContract(*arguments); });
+}
+
+}  // namespace curvefusion

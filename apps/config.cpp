@@ -1,0 +1,284 @@
+#include "apps/config.h"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <utility>
+
+#include "kernel/error.h"
+
+namespace curvefusion {
+
+namespace {
+
+[[noreturn]] void ThrowUsage(const std::string& message) {
+  throw Error(ErrorKind::kUsage, message);
+}
+
+std::string Number(double value) { return fmt::format("{}", value); }
+
+std::string Range(const OptionInfo& info) {
+  const std::string unit = *info.unit == '\0' ? "" : fmt::format(" {}", info.unit);
+  const bool bounded_above = info.max < std::numeric_limits<int>::max();
+  return bounded_above ? fmt::format("{} to {}{}", Number(info.min), Number(info.max), unit)
+                       : fmt::format("at least {}{}", Number(info.min), unit);
+}
+
+// The names of all sections and their keys, in the order they are visited.
+class NameCollector : public OptionVisitor {
+ public:
+  using Section = std::pair<std::string, std::vector<std::string>>;
+
+  void BeginSection(const char* name) override { sections_.push_back({name, {}}); }
+  void Visit(const OptionInfo& info, double&) override { Add(info); }
+  void Visit(const OptionInfo& info, int&) override { Add(info); }
+  void Visit(const OptionInfo& info, bool&) override { Add(info); }
+  const std::vector<Section>& sections() const { return sections_; }
+
+ private:
+  void Add(const OptionInfo& info) {
+    assert(!sections_.empty());
+    sections_.back().second.push_back(info.name);
+  }
+
+  std::vector<Section> sections_;
+};
+
+// A parsed piece of TOML and what messages call its places: "a.toml:12" or "--set a.b=c".
+struct Source {
+  toml::table table;
+  std::string name;
+  bool has_lines = false;
+
+  std::string Place(const toml::node& node) const {
+    return has_lines ? fmt::format("{}:{}", name, node.source().begin.line) : name;
+  }
+};
+
+bool Contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+// The best guess at what an unknown key was meant to be: the same key in another section, or the
+// nearest one in its own.
+std::string MeantKey(const std::vector<NameCollector::Section>& known,
+                     const NameCollector::Section& section, const std::string& key) {
+  for (const auto& [name, keys] : known) {
+    if (Contains(keys, key)) return fmt::format("{}.{}", name, key);
+  }
+  return fmt::format("{}.{}", section.first, NearestName(key, section.second));
+}
+
+void CheckKeys(const Source& source, const toml::table& table,
+               const NameCollector::Section& section,
+               const std::vector<NameCollector::Section>& known) {
+  for (const auto& [key, value] : table) {
+    const std::string name(key.str());
+    if (Contains(section.second, name)) continue;
+    ThrowUsage(fmt::format("{}: there is no option {}.{}; did you mean {}?", source.Place(value),
+                           section.first, name, MeantKey(known, section, name)));
+  }
+}
+
+void CheckNames(const Source& source, Config config) {
+  NameCollector collector;
+  VisitOptions(config, collector);
+  const auto& known = collector.sections();
+  std::vector<std::string> top_level = {"profile"};
+  for (const auto& section : known) top_level.push_back(section.first);
+  for (const auto& [key, value] : source.table) {
+    const std::string name(key.str());
+    if (name == "profile") continue;
+    const auto section =
+        std::find_if(known.begin(), known.end(), [&](const auto& s) { return s.first == name; });
+    if (section == known.end()) {
+      ThrowUsage(fmt::format("{}: there is no section {}; did you mean {}? All: {}",
+                             source.Place(value), name, NearestName(name, top_level),
+                             fmt::join(top_level, ", ")));
+    }
+    if (!value.is_table()) {
+      ThrowUsage(fmt::format("{}: {} is a section; write [{}] and its keys below",
+                             source.Place(value), name, name));
+    }
+    CheckKeys(source, *value.as_table(), *section, known);
+  }
+}
+
+// Overwrites the visited options by what the source says of them.
+class OptionReader : public OptionVisitor {
+ public:
+  explicit OptionReader(const Source& source) : source_(source) {}
+
+  void BeginSection(const char* name) override {
+    section_ = name;
+    table_ = source_.table[name].as_table();
+  }
+
+  void Visit(const OptionInfo& info, double& value) override {
+    const toml::node* node = Find(info);
+    if (node == nullptr) return;
+    if (!node->is_number()) ThrowWrongType(info, *node, "a number");
+    value = CheckedRange(info, *node, *node->value<double>());
+  }
+
+  void Visit(const OptionInfo& info, int& value) override {
+    const toml::node* node = Find(info);
+    if (node == nullptr) return;
+    if (!node->is_integer()) ThrowWrongType(info, *node, "a whole number");
+    const auto read = static_cast<double>(*node->value<int64_t>());
+    const double lowest = std::numeric_limits<int>::lowest();
+    const double greatest = std::numeric_limits<int>::max();
+    CheckedRange(info, *node, read);
+    if (read < lowest || read > greatest) ThrowOutOfRange(info, *node, read);
+    value = static_cast<int>(read);
+  }
+
+  void Visit(const OptionInfo& info, bool& value) override {
+    const toml::node* node = Find(info);
+    if (node == nullptr) return;
+    if (!node->is_boolean()) ThrowWrongType(info, *node, "true or false");
+    value = *node->value<bool>();
+  }
+
+ private:
+  const toml::node* Find(const OptionInfo& info) const {
+    return table_ == nullptr ? nullptr : table_->get(info.name);
+  }
+
+  double CheckedRange(const OptionInfo& info, const toml::node& node, double value) const {
+    if (!(value >= info.min && value <= info.max)) ThrowOutOfRange(info, node, value);
+    return value;
+  }
+
+  [[noreturn]] void ThrowOutOfRange(const OptionInfo& info, const toml::node& node,
+                                    double value) const {
+    ThrowUsage(fmt::format("{}: {}.{} = {} is out of its range: {}", source_.Place(node), section_,
+                           info.name, Number(value), Range(info)));
+  }
+
+  [[noreturn]] void ThrowWrongType(const OptionInfo& info, const toml::node& node,
+                                   const char* wanted) const {
+    ThrowUsage(
+        fmt::format("{}: {}.{} must be {}", source_.Place(node), section_, info.name, wanted));
+  }
+
+  const Source& source_;
+  std::string section_;
+  const toml::table* table_ = nullptr;
+};
+
+Source ParseFile(const std::filesystem::path& path) {
+  std::ifstream stream(path);
+  std::stringstream text;
+  text << stream.rdbuf();
+  if (!stream) ThrowUsage(fmt::format("{}: this config file cannot be read", path.string()));
+  try {
+    return {toml::parse(text.str()), path.string(), true};
+  } catch (const toml::parse_error& error) {
+    ThrowUsage(fmt::format("{}:{}: not valid TOML: {}", path.string(), error.source().begin.line,
+                           error.description()));
+  }
+}
+
+Source ParseAssignment(const std::string& assignment) {
+  const std::string name = "--set " + assignment;
+  try {
+    return {toml::parse(assignment), name, false};
+  } catch (const toml::parse_error&) {
+    ThrowUsage(
+        fmt::format("{}: write section.key=value, for example volume.voxel_size=0.005", name));
+  }
+}
+
+void Apply(const Source& source, Config& config) {
+  CheckNames(source, config);
+  OptionReader reader(source);
+  VisitOptions(config, reader);
+}
+
+Profile FileProfile(const Source& source) {
+  const toml::node* node = source.table.get("profile");
+  if (node == nullptr) return Profile::kBest;
+  if (!node->is_string()) {
+    ThrowUsage(fmt::format("{}: profile must be \"paper\" or \"best\"", source.Place(*node)));
+  }
+  return ProfileNamed(*node->value<std::string>());
+}
+
+// Prints the visited options as TOML tables.
+class TomlWriter : public OptionVisitor {
+ public:
+  void BeginSection(const char* name) override { text_ += fmt::format("\n[{}]\n", name); }
+
+  void Visit(const OptionInfo& info, double& value) override {
+    std::string number = Number(value);
+    if (number.find_first_of(".en") == std::string::npos) number += ".0";
+    Write(info, number, Range(info));
+  }
+  void Visit(const OptionInfo& info, int& value) override {
+    Write(info, std::to_string(value), Range(info));
+  }
+  void Visit(const OptionInfo& info, bool& value) override {
+    Write(info, value ? "true" : "false", "true or false");
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  void Write(const OptionInfo& info, const std::string& value, const std::string& range) {
+    text_ +=
+        fmt::format("# {}\n# Range: {}.\n{} = {}\n", info.description, range, info.name, value);
+  }
+
+  std::string text_;
+};
+
+}  // namespace
+
+void VisitOptions(Config& config, OptionVisitor& visitor) {
+  VisitOptions(config.pipeline, visitor);
+  VisitOptions(config.tubes, visitor);
+}
+
+Config ProfileConfig(Profile profile) { return {profile, ProfileOptions(profile), {}}; }
+
+std::string ProfileName(Profile profile) { return profile == Profile::kPaper ? "paper" : "best"; }
+
+Profile ProfileNamed(const std::string& name) {
+  for (const Profile profile : {Profile::kPaper, Profile::kBest}) {
+    if (ProfileName(profile) == name) return profile;
+  }
+  ThrowUsage(fmt::format("there is no profile {}; did you mean {}?", name,
+                         NearestName(name, {"paper", "best"})));
+}
+
+Config ReadConfig(const ConfigSources& sources) {
+  std::optional<Source> file;
+  if (!sources.file.empty()) file = ParseFile(sources.file);
+  const Profile file_profile = file ? FileProfile(*file) : Profile::kBest;
+  Config config = ProfileConfig(sources.profile.value_or(file_profile));
+  if (file) Apply(*file, config);
+  for (const std::string& assignment : sources.assignments) {
+    const Source source = ParseAssignment(assignment);
+    if (source.table.contains("profile")) ThrowUsage(source.name + ": use --profile instead");
+    Apply(source, config);
+  }
+  return config;
+}
+
+std::string ConfigToml(const Config& config) {
+  TomlWriter writer;
+  Config visited = config;
+  VisitOptions(visited, writer);
+  return fmt::format(
+      "# Effective settings of CurveFusion. Lengths are in metres unless the range says otherwise."
+      "\n# Use with: curvefusion reconstruct SEQUENCE -o OUT --config FILE\n\n"
+      "# What unset options start from: \"paper\" or \"best\".\nprofile = \"{}\"\n{}",
+      ProfileName(config.profile), writer.text());
+}
+
+}  // namespace curvefusion

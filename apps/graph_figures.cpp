@@ -1,0 +1,53 @@
+#include "apps/graph_figures.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace curvefusion {
+
+namespace {
+
+double Median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+GraphFigures MeasureGraph(const SkeletonGraph& graph) {
+  GraphFigures figures;
+  figures.nodes = graph.node_count();
+  figures.edges = graph.edge_count();
+  figures.components = graph.ComponentCount();
+  figures.cycles = graph.CycleRank();
+  figures.length = graph.TotalLength();
+  for (const NodeId node : graph.Nodes()) {
+    figures.junctions += graph.Degree(node) >= 3 ? 1 : 0;
+    figures.free_ends += graph.Degree(node) == 1 ? 1 : 0;
+  }
+  for (const EdgeId edge : graph.Edges()) {
+    figures.edge_length.push_back(Length(graph.edge(edge).points));
+    figures.edge_radius.push_back(Median(graph.edge(edge).radii));
+  }
+  return figures;
+}
+
+double TypicalRadius(const GraphFigures& figures) {
+  std::vector<std::pair<double, double>> radius_length;
+  double half = 0;
+  for (size_t i = 0; i < figures.edge_radius.size(); ++i) {
+    if (figures.edge_radius[i] <= 0) continue;
+    radius_length.emplace_back(figures.edge_radius[i], figures.edge_length[i]);
+    half += figures.edge_length[i] / 2;
+  }
+  std::sort(radius_length.begin(), radius_length.end());
+  for (const auto& [radius, length] : radius_length) {
+    half -= length;
+    if (half <= 0) return radius;
+  }
+  return 0;
+}
+
+}  // namespace curvefusion

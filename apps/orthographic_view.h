@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+
+#include "graph/skeleton_graph.h"
+#include "kernel/geometry.h"
+#include "kernel/image.h"
+#include "kernel/observed_points.h"
+
+namespace curvefusion {
+
+/// A direction to look at a skeleton from.
+struct OrthographicView {
+  std::string name;
+  Mat3 R_view_world = Mat3::Identity();  ///< rows: right, up, towards the viewer
+};
+
+/// Width and height (metres) of a graph seen in a view.
+Vec2 ViewExtent(const SkeletonGraph& graph, const Mat3& R_view_world);
+
+/// Draws the graph, its junctions and free ends over the points it was made from, nearer points
+/// darker, with a scale bar; the middle of the graph in the middle of the picture. `scale` is in
+/// pixels per metre.
+ColorImage DrawOrthographicView(const SkeletonGraph& graph, const ObservedPoints& points,
+                                const OrthographicView& view, int width, int height, double scale);
+
+}  // namespace curvefusion

@@ -1,0 +1,128 @@
+#include "apps/preview.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "apps/frame_overlay.h"
+#include "apps/orthographic_view.h"
+#include "apps/preview_style.h"
+#include "kernel/atomic_file.h"
+#include "kernel/error.h"
+
+namespace curvefusion {
+
+namespace {
+
+constexpr int kPanelWidth = 790;
+constexpr int kPanelHeight = 560;
+constexpr int kGap = 10;
+constexpr int kTitleHeight = 64;
+constexpr int kFooterHeight = 40;
+constexpr int kWidth = 2 * kPanelWidth + 3 * kGap;
+constexpr int kHeight = kTitleHeight + 2 * kPanelHeight + 2 * kGap + kFooterHeight;
+constexpr double kFilled = 0.76;          // share of a panel that the graph fills at most
+constexpr double kSmallestExtent = 0.01;  // metres, so that a single point has a scale too
+
+cv::Scalar Ink(const Rgb& color) { return {double(color[0]), double(color[1]), double(color[2])}; }
+
+cv::Mat View(ColorImage& image) { return {image.height(), image.width(), CV_8UC3, image.data()}; }
+
+std::array<OrthographicView, 3> Views(const Mat3& front) {
+  Mat3 side;
+  Mat3 top;
+  side << -front.row(2), front.row(1), front.row(0);
+  top << front.row(0), -front.row(2), front.row(1);
+  return {{{"front", front}, {"side", side}, {"top", top}}};
+}
+
+// Pixels per metre with which the graph fits into the panels of all views.
+double CommonScale(const SkeletonGraph& graph, const std::array<OrthographicView, 3>& views) {
+  double scale = kFilled * kPanelHeight / kSmallestExtent;
+  for (const OrthographicView& view : views) {
+    const Vec2 extent = ViewExtent(graph, view.R_view_world).cwiseMax(kSmallestExtent);
+    scale =
+        std::min({scale, kFilled * kPanelWidth / extent.x(), kFilled * kPanelHeight / extent.y()});
+  }
+  return scale;
+}
+
+void Paste(ColorImage panel, int index, cv::Mat& canvas) {
+  const int x = kGap + (index % 2) * (kPanelWidth + kGap);
+  const int y = kTitleHeight + (index / 2) * (kPanelHeight + kGap);
+  const cv::Rect place(x, y, kPanelWidth, kPanelHeight);
+  View(panel).copyTo(canvas(place));
+  cv::rectangle(canvas, place, {218, 220, 224}, 1);
+}
+
+// Text of smooth strokes: drawn large, then reduced.
+void Text(cv::Mat& canvas, const std::string& text, const cv::Rect& place, double size,
+          const Rgb& color) {
+  cv::Mat large(place.height * kSupersampling, place.width * kSupersampling, CV_8UC3, Ink(kWhite));
+  const cv::Point at(0, static_cast<int>(0.7 * large.rows));
+  cv::putText(large, text, at, cv::FONT_HERSHEY_SIMPLEX, size * kSupersampling, Ink(color),
+              kSupersampling, cv::LINE_AA);
+  cv::resize(large, canvas(place), place.size(), 0, 0, cv::INTER_AREA);
+}
+
+}  // namespace
+
+Mat3 MeanCameraAxes(const Sequence& sequence) {
+  Vec3 forward = Vec3::Zero();
+  Vec3 down = Vec3::Zero();
+  for (const SequenceFrame& frame : sequence.frames) {
+    down += frame.T_world_camera.linear().col(1);
+    forward += frame.T_world_camera.linear().col(2);
+  }
+  // Views from all around an object cancel out; then the first one decides.
+  if (!sequence.frames.empty() && (forward.norm() < 1e-6 || down.cross(forward).norm() < 1e-6)) {
+    forward = sequence.frames.front().T_world_camera.linear().col(2);
+    down = sequence.frames.front().T_world_camera.linear().col(1);
+  }
+  if (forward.isZero()) return Mat3::Identity();
+  const Vec3 up = -down.normalized();
+  const Vec3 right = forward.cross(up).normalized();
+  Mat3 axes;
+  axes << right.transpose(), up.transpose(), right.cross(up).transpose();
+  return axes;
+}
+
+ColorImage DrawPreview(const SkeletonGraph& graph, const ObservedPoints& points,
+                       const Sequence& sequence, const std::string& title) {
+  ColorImage preview(kWidth, kHeight, kWhite);
+  cv::Mat canvas = View(preview);
+  const auto views = Views(MeanCameraAxes(sequence));
+  const double scale = CommonScale(graph, views);
+  for (int i = 0; i < 3; ++i) {
+    Paste(DrawOrthographicView(graph, points, views[i], kPanelWidth, kPanelHeight, scale), i,
+          canvas);
+  }
+  const int frame = FrameSeeingMost(graph, sequence);
+  if (frame >= 0) {
+    Paste(DrawFrameOverlay(graph, sequence, frame, kPanelWidth, kPanelHeight), 3, canvas);
+  }
+  const int text_width = kWidth - 4 * kGap;
+  Text(canvas, title, {2 * kGap, 8, text_width, kTitleHeight - 16}, 0.85, kInk);
+  const std::string footer = fmt::format(
+      "filled dot: junction   ring: free end   grey: measured points   lower right: frame {}",
+      frame >= 0 ? sequence.frames[frame].name : "-");
+  Text(canvas, footer, {2 * kGap, kHeight - kFooterHeight + 2, text_width, kFooterHeight - 8}, 0.5,
+       kPaleInk);
+  return preview;
+}
+
+void WritePreview(const std::filesystem::path& path, const ColorImage& preview) {
+  ColorImage copy = preview;
+  cv::Mat image;
+  cv::cvtColor(View(copy), image, cv::COLOR_RGB2BGR);
+  WriteFileAtomically(path, [&](const std::filesystem::path& temporary) {
+    if (!cv::imwrite(temporary.string(), image)) {
+      throw Error(ErrorKind::kResource, path.string() + ": cannot be written");
+    }
+  });
+}
+
+}  // namespace curvefusion

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "capture/sequence.h"
+#include "graph/skeleton_graph.h"
+#include "kernel/image.h"
+#include "kernel/observed_points.h"
+
+namespace curvefusion {
+
+/// The result at a glance: the graph over the points it was made from, seen from where the camera
+/// was, from the side and from above, and the tubes drawn into the frame that sees most of them.
+/// The graph must not be empty.
+ColorImage DrawPreview(const SkeletonGraph& graph, const ObservedPoints& points,
+                       const Sequence& sequence, const std::string& title);
+
+/// DrawPreview into a PNG file, atomically.
+void WritePreview(const std::filesystem::path& path, const ColorImage& preview);
+
+/// The axes of the view from the mean camera: rows are right, up and towards the viewer.
+Mat3 MeanCameraAxes(const Sequence& sequence);
+
+}  // namespace curvefusion

@@ -1,0 +1,168 @@
+#include "apps/report.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+namespace curvefusion {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kBundle = 30;  // frames of a bundle in the paper; its times are given per bundle
+
+// Counts are whole numbers nearly always; 12 reads better than 12.0.
+Json NumberJson(double value) {
+  const bool whole = std::abs(value) < 1e15 && value == std::floor(value);
+  return whole ? Json(static_cast<int64_t>(value)) : Json(value);
+}
+
+Json StagesJson(const std::vector<StageReport>& stages) {
+  Json result = Json::array();
+  for (const StageReport& stage : stages) {
+    Json counts = Json::object();
+    for (const auto& [name, value] : stage.counts) counts[name] = NumberJson(value);
+    result.push_back({{"name", stage.name}, {"seconds", stage.seconds}, {"counts", counts}});
+  }
+  return result;
+}
+
+Json SequenceJson(const Sequence& sequence) {
+  return {{"folder", sequence.folder.string()},
+          {"format", sequence.format},
+          {"frames", sequence.frame_count()},
+          {"frames_without_pose", sequence.frames_without_pose},
+          {"frames_without_partner", sequence.frames_without_partner}};
+}
+
+Json DiameterJson(double radius) {
+  return radius > 0 ? Json(2 * radius / kMillimetre) : Json(nullptr);
+}
+
+Json SkeletonJson(const SkeletonGraph& graph, double global_radius) {
+  const GraphFigures figures = MeasureGraph(graph);
+  Json edges = Json::array();
+  for (size_t i = 0; i < figures.edge_length.size(); ++i) {
+    edges.push_back({{"length", figures.edge_length[i]},
+                     {"diameter_mm", DiameterJson(figures.edge_radius[i])}});
+  }
+  return {{"nodes", figures.nodes},
+          {"edges", figures.edges},
+          {"junctions", figures.junctions},
+          {"free_ends", figures.free_ends},
+          {"components", figures.components},
+          {"cycles", figures.cycles},
+          {"length", figures.length},
+          {"global_diameter_mm", DiameterJson(global_radius)},
+          {"per_edge", edges}};
+}
+
+Json MeshJson(const MeshRecord& mesh) {
+  const WatertightReport& figures = mesh.figures;
+  return {{"seconds", mesh.seconds},
+          {"watertight", figures.IsWatertight()},
+          {"vertices", figures.vertices},
+          {"faces", figures.faces},
+          {"components", figures.components},
+          {"genus", figures.genus},
+          {"volume", figures.volume},
+          {"area", figures.area},
+          {"boundary_edges", figures.boundary_edges},
+          {"non_manifold_edges", figures.non_manifold_edges},
+          {"non_manifold_vertices", figures.non_manifold_vertices},
+          {"misoriented_edges", figures.misoriented_edges},
+          {"degenerate_faces", figures.degenerate_faces},
+          {"self_intersections", figures.self_intersections}};
+}
+
+std::string Counted(int count, const char* noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+// "5.0 mm", "4.5 to 7.0 mm" or "unknown".
+std::string DiameterText(const GraphFigures& figures) {
+  std::vector<double> known;
+  for (const double radius : figures.edge_radius) {
+    if (radius > 0) known.push_back(2 * radius / kMillimetre);
+  }
+  if (known.empty()) return "unknown";
+  const auto [least, most] = std::minmax_element(known.begin(), known.end());
+  const std::string from = fmt::format("{:.1f}", *least);
+  const std::string to = fmt::format("{:.1f}", *most);
+  return from == to ? from + " mm" : fmt::format("{} to {} mm", from, to);
+}
+
+std::vector<std::string> AllWarnings(const RunRecord& record) {
+  std::vector<std::string> warnings = record.sequence.warnings;
+  const auto append = [&](const std::vector<std::string>& more) {
+    warnings.insert(warnings.end(), more.begin(), more.end());
+  };
+  append(record.reconstruction.warnings);
+  if (record.mesh) append(record.mesh->warnings);
+  return warnings;
+}
+
+constexpr const char* kNothingThinText =
+    "Found nothing thin.\n"
+    "  Thin parts show where they are 2 to 12 mm thick, 0.5 to 0.9 m away, some centimetres in\n"
+    "  front of other things, and not black to the infrared camera. `curvefusion check` tells\n"
+    "  whether poses and depth unit fit; --save-stages keeps what every step found.\n";
+
+}  // namespace
+
+std::string ReportJson(const RunRecord& record) {
+  const Reconstruction& reconstruction = record.reconstruction;
+  const int frames = record.sequence.frame_count();
+  const Json report = {
+      {"format", "curvefusion-report"},
+      {"version", 1},
+      {"profile", ProfileName(record.config.profile)},
+      {"sequence", SequenceJson(record.sequence)},
+      {"seconds", record.seconds},
+      {"seconds_per_30_frames",
+       frames > 0 ? Json(record.seconds * kBundle / frames) : Json(nullptr)},
+      {"peak_memory_bytes", record.peak_memory},
+      {"stages", StagesJson(reconstruction.stages)},
+      {"points", reconstruction.points.size()},
+      {"skeleton", SkeletonJson(reconstruction.skeleton, reconstruction.global_radius)},
+      {"mesh", record.mesh ? MeshJson(*record.mesh) : Json(nullptr)},
+      {"warnings", AllWarnings(record)}};
+  return report.dump(2) + "\n";
+}
+
+int64_t PeakMemory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return int64_t{usage.ru_maxrss} * 1024;  // Linux counts it in KiB
+}
+
+std::string FiguresLine(const GraphFigures& figures) {
+  return fmt::format("{}, {:.2f} m, diameter {}, {}, {}", Counted(figures.edges, "curve"),
+                     figures.length, DiameterText(figures), Counted(figures.junctions, "junction"),
+                     Counted(figures.free_ends, "free end"));
+}
+
+std::string Summary(const RunRecord& record, const std::filesystem::path& folder) {
+  const SkeletonGraph& skeleton = record.reconstruction.skeleton;
+  std::string text = skeleton.empty()
+                         ? std::string(kNothingThinText)
+                         : fmt::format("Found {}\n", FiguresLine(MeasureGraph(skeleton)));
+  const auto add_file = [&](const char* what, const char* name) {
+    text += fmt::format("  {:<9} {}\n", what, (folder / name).string());
+  };
+  if (!skeleton.empty()) {
+    add_file("picture", "preview.png");
+    add_file("mesh", "mesh.ply");
+    add_file("skeleton", "skeleton.json");
+  }
+  add_file("report", "report.json");
+  for (const std::string& warning : AllWarnings(record)) text += "  warning: " + warning + "\n";
+  return text;
+}
+
+}  // namespace curvefusion

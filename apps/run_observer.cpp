@@ -1,0 +1,37 @@
+#include "apps/run_observer.h"
+
+#include <utility>
+
+#include "apps/interrupt.h"
+#include "apps/output_folder.h"
+#include "graph/graph_io.h"
+#include "kernel/cloud_io.h"
+#include "meshing/mesh_io.h"
+
+namespace curvefusion {
+
+RunObserver::RunObserver(ProgressPrinter& printer, StageOutputs outputs)
+    : printer_(printer), outputs_(std::move(outputs)) {
+  if (!outputs_.folder.empty()) MakeOutputFolder(outputs_.folder);
+  if (!outputs_.volume.empty()) MakeFolderOf(outputs_.volume);
+}
+
+void RunObserver::OnProgress(const std::string& stage, int64_t done, int64_t total) {
+  ThrowIfInterrupted();
+  printer_.Report(stage, done, total);
+}
+
+void RunObserver::OnPoints(const std::string& name, const ObservedPoints& points) {
+  if (!outputs_.folder.empty()) WriteCloud(outputs_.folder / (name + ".ply"), points);
+}
+
+void RunObserver::OnGraph(const std::string& name, const SkeletonGraph& graph) {
+  if (!outputs_.folder.empty()) WriteSkeletonLines(outputs_.folder / (name + ".ply"), graph);
+}
+
+void RunObserver::OnVolume(const TsdfVolume& volume) {
+  if (outputs_.volume.empty()) return;
+  WriteMesh(outputs_.volume, volume.ExtractMesh(), {.require_watertight = false});
+}
+
+}  // namespace curvefusion

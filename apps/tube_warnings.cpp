@@ -1,0 +1,27 @@
+#include "apps/tube_warnings.h"
+
+#include <fmt/format.h>
+
+namespace curvefusion {
+
+std::vector<std::string> TubeWarnings(const SkeletonGraph& skeleton, const TubeMesh& tubes,
+                                      const TubeOptions& options) {
+  std::vector<std::string> warnings;
+  int unknown = 0;
+  for (const EdgeId edge : skeleton.Edges()) unknown += skeleton.edge(edge).radii.empty() ? 1 : 0;
+  if (unknown > 0) {
+    warnings.push_back(
+        fmt::format("the thickness of {} of {} curves is unknown; {:g} mm was assumed for the mesh "
+                    "(change it with tubes.default_radius)",
+                    unknown, skeleton.edge_count(), 2 * options.default_radius / kMillimetre));
+  }
+  for (const TubeFallback& fallback : tubes.fallbacks) {
+    const Vec3& p = fallback.position;
+    warnings.push_back(
+        fmt::format("the {} tubes that meet at ({:.3f}, {:.3f}, {:.3f}) m took {} attempts: {}",
+                    fallback.tubes, p.x(), p.y(), p.z(), fallback.attempts, fallback.remedy));
+  }
+  return warnings;
+}
+
+}  // namespace curvefusion

@@ -1,0 +1,144 @@
+#include "apps/config.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <string>
+
+#include "kernel/error.h"
+
+namespace curvefusion {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+
+// The message of the Error that reading these sources throws; empty where it throws none.
+std::string MessageOf(const ConfigSources& sources) {
+  try {
+    ReadConfig(sources);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kUsage);
+    return error.what();
+  }
+  return "";
+}
+
+std::string MessageOfSet(const std::string& assignment) {
+  return MessageOf({.profile = {}, .file = {}, .assignments = {assignment}});
+}
+
+class ConfigFile : public testing::Test {
+ protected:
+  void SetUp() override { fs::create_directories(folder_); }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  ConfigSources Write(const std::string& text) {
+    std::ofstream(folder_ / "a.toml") << text;
+    return {.profile = {}, .file = folder_ / "a.toml", .assignments = {}};
+  }
+
+  const fs::path folder_ = fs::temp_directory_path() / "curvefusion_config_test";
+};
+
+TEST_F(ConfigFile, WhatIsWrittenIsReadBack) {
+  for (const Profile profile : {Profile::kPaper, Profile::kBest}) {
+    Config config = ProfileConfig(profile);
+    config.pipeline.volume.voxel_size = 0.1 / 13;  // needs all its digits
+    const std::string text = ConfigToml(config);
+    EXPECT_EQ(ConfigToml(ReadConfig(Write(text))), text);
+    EXPECT_EQ(ReadConfig(Write(text)).pipeline.volume.voxel_size,
+              config.pipeline.volume.voxel_size);
+  }
+}
+
+TEST_F(ConfigFile, TheProfileComesFromTheCommandLineThenTheFileThenIsBest) {
+  EXPECT_EQ(ReadConfig({}).profile, Profile::kBest);
+  ConfigSources sources = Write("profile = \"paper\"\n");
+  EXPECT_EQ(ReadConfig(sources).profile, Profile::kPaper);
+  sources.profile = Profile::kBest;
+  EXPECT_EQ(ReadConfig(sources).profile, Profile::kBest);
+}
+
+TEST_F(ConfigFile, AnAssignmentOverridesTheFile) {
+  ConfigSources sources = Write("[volume]\nvoxel_size = 0.006\ntruncation_voxels = 5\n");
+  sources.assignments = {"volume.voxel_size=0.007"};
+  const Config config = ReadConfig(sources);
+  EXPECT_EQ(config.pipeline.volume.voxel_size, 0.007);
+  EXPECT_EQ(config.pipeline.volume.truncation_voxels, 5);
+}
+
+TEST_F(ConfigFile, ErrorsNameFileAndLine) {
+  EXPECT_THAT(MessageOf(Write("\n[volume]\n\nvoxel_siz = 0.006\n")),
+              AllOf(HasSubstr("a.toml:4:"), HasSubstr("volume.voxel_siz"),
+                    HasSubstr("did you mean volume.voxel_size?")));
+  EXPECT_THAT(MessageOf(Write("[volume]\nvoxel_size = = 1\n")), HasSubstr("a.toml:2: not valid"));
+  EXPECT_THAT(MessageOf(Write("profile = 3\n")), HasSubstr("\"paper\" or \"best\""));
+  EXPECT_THAT(MessageOf({.profile = {}, .file = folder_ / "none.toml", .assignments = {}}),
+              HasSubstr("none.toml"));
+}
+
+TEST(Config, AnUnknownNameIsAnswereWithTheNearest) {
+  EXPECT_THAT(MessageOfSet("volum.voxel_size=0.01"), HasSubstr("did you mean volume?"));
+  EXPECT_THAT(MessageOfSet("volume.truncation_voxel=4"),
+              HasSubstr("did you mean volume.truncation_voxels?"));
+}
+
+TEST(Config, AValueOutOfRangeIsAnsweredWithTheRangeAndItsUnit) {
+  EXPECT_THAT(MessageOfSet("volume.voxel_size=7"),
+              AllOf(HasSubstr("volume.voxel_size = 7"), HasSubstr(" to "), HasSubstr(" m")));
+  EXPECT_THAT(MessageOfSet("volume.voxel_size=nan"), HasSubstr("range"));
+  EXPECT_THAT(MessageOfSet("volume.truncation_voxels=9223372036854775807"), HasSubstr("range"));
+}
+
+TEST(Config, AValueOfAnotherTypeIsRefused) {
+  EXPECT_THAT(MessageOfSet("volume.voxel_size=\"5 mm\""), HasSubstr("must be a number"));
+  EXPECT_THAT(MessageOfSet("volume.truncation_voxels=4.5"), HasSubstr("must be a whole number"));
+  EXPECT_THAT(MessageOfSet("volume=4"), HasSubstr("is a section"));
+  EXPECT_THAT(MessageOfSet("volume.voxel_size"), HasSubstr("section.key=value"));
+  EXPECT_THAT(MessageOfSet("profile=\"paper\""), HasSubstr("--profile"));
+}
+
+TEST(Config, AnUnknownProfileIsAnsweredWithTheNearest) {
+  EXPECT_THROW(ProfileNamed("papper"), Error);
+  EXPECT_EQ(ProfileNamed("paper"), Profile::kPaper);
+}
+
+// Records whether a default lies outside of its range.
+class RangeCheck : public OptionVisitor {
+ public:
+  void BeginSection(const char* name) override {
+    section_ = name;
+    EXPECT_TRUE(names_.insert(section_).second) << section_ << " is there twice";
+  }
+  void Visit(const OptionInfo& info, double& value) override { Check(info, value); }
+  void Visit(const OptionInfo& info, int& value) override { Check(info, value); }
+  void Visit(const OptionInfo& info, bool&) override { Check(info, info.min); }
+
+ private:
+  void Check(const OptionInfo& info, double value) {
+    const std::string name = section_ + "." + info.name;
+    EXPECT_TRUE(names_.insert(name).second) << name << " is there twice";
+    EXPECT_GE(value, info.min) << name;
+    EXPECT_LE(value, info.max) << name;
+    EXPECT_STRNE(info.description, "") << name;
+  }
+
+  std::string section_;
+  std::set<std::string> names_;
+};
+
+TEST(Config, NamesAreUniqueAndEveryDefaultLiesInItsRange) {
+  for (const Profile profile : {Profile::kPaper, Profile::kBest}) {
+    Config config = ProfileConfig(profile);
+    RangeCheck check;
+    VisitOptions(config, check);
+  }
+}
+
+}  // namespace
+}  // namespace curvefusion

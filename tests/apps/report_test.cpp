@@ -1,0 +1,114 @@
+#include "apps/report.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+namespace curvefusion {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+// A Y of three 100 mm arms, 4, 5 and 6 mm thick.
+SkeletonGraph Y() {
+  SkeletonGraph graph;
+  const NodeId centre = graph.AddNode(Vec3::Zero());
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vec3 tip = 0.1 * Vec3::Unit(axis);
+    const double radius = (4 + axis) * kMillimetre / 2;
+    graph.AddEdge({{centre, graph.AddNode(tip)}, {Vec3::Zero(), tip}, {radius, radius}, {}});
+  }
+  return graph;
+}
+
+struct YRun {
+  Sequence sequence;
+  Config config = ProfileConfig(Profile::kPaper);
+  Reconstruction reconstruction;
+
+  YRun() {
+    sequence.folder = "scans/y";
+    sequence.format = "tum";
+    sequence.frames.resize(60);
+    sequence.frames_without_pose = 2;
+    sequence.warnings = {"Two frames have no pose."};
+    reconstruction.skeleton = Y();
+    reconstruction.stages = {{"volume", 1.25, {{"blocks", 12}}}};
+    reconstruction.warnings = {"One wire is thinner than a pixel."};
+  }
+  RunRecord Record() {
+    RunRecord record{sequence, config, reconstruction, MeshRecord{}, 10, 1000};
+    record.mesh->figures.faces = 1200;
+    record.mesh->warnings = {"One tube is thinner than its ends."};
+    return record;
+  }
+};
+
+TEST(Report, TellsWhatARunWasAndFound) {
+  YRun run;
+  const auto report = nlohmann::json::parse(ReportJson(run.Record()));
+  EXPECT_EQ(report["profile"], "paper");
+  EXPECT_EQ(report["sequence"]["folder"], "scans/y");
+  EXPECT_EQ(report["sequence"]["frames"], 60);
+  EXPECT_EQ(report["sequence"]["frames_without_pose"], 2);
+  EXPECT_EQ(report["seconds"], 10);
+  EXPECT_EQ(report["seconds_per_30_frames"], 5);
+  EXPECT_EQ(report["peak_memory_bytes"], 1000);
+  EXPECT_EQ(report["stages"][0]["name"], "volume");
+  EXPECT_EQ(report["stages"][0]["seconds"], 1.25);
+  EXPECT_EQ(report["stages"][0]["counts"]["blocks"], 12);
+  EXPECT_EQ(report["mesh"]["faces"], 1200);
+  EXPECT_EQ(report["warnings"].size(), 3u);
+}
+
+TEST(Report, TellsTheFiguresOfTheSkeleton) {
+  YRun run;
+  const auto skeleton = nlohmann::json::parse(ReportJson(run.Record()))["skeleton"];
+  EXPECT_EQ(skeleton["nodes"], 4);
+  EXPECT_EQ(skeleton["edges"], 3);
+  EXPECT_EQ(skeleton["junctions"], 1);
+  EXPECT_EQ(skeleton["free_ends"], 3);
+  EXPECT_EQ(skeleton["components"], 1);
+  EXPECT_EQ(skeleton["cycles"], 0);
+  EXPECT_NEAR(skeleton["length"], 0.3, 1e-12);  // rounding of three additions
+  EXPECT_NEAR(skeleton["per_edge"][2]["diameter_mm"], 6, 1e-12);
+  EXPECT_TRUE(skeleton["global_diameter_mm"].is_null());
+}
+
+TEST(Summary, NamesFindingsFilesAndWarnings) {
+  YRun run;
+  const std::string summary = Summary(run.Record(), "out");
+  EXPECT_THAT(summary, HasSubstr("3 curves, 0.30 m, diameter 4.0 to 6.0 mm, 1 junction, 3 free"));
+  for (const char* file : {"out/skeleton.json", "out/mesh.ply", "out/preview.png"}) {
+    EXPECT_THAT(summary, HasSubstr(file));
+  }
+  EXPECT_THAT(summary, HasSubstr("warning: Two frames have no pose."));
+  EXPECT_THAT(summary, HasSubstr("warning: One wire is thinner than a pixel."));
+}
+
+TEST(Summary, OfNothingNamesNoFilesThatAreNotThere) {
+  YRun run;
+  run.reconstruction.skeleton = SkeletonGraph();
+  const std::string summary = Summary(run.Record(), "out");
+  EXPECT_THAT(summary, HasSubstr("nothing thin"));
+  EXPECT_THAT(summary, Not(HasSubstr("mesh.ply")));
+}
+
+TEST(GraphFigures, TheTypicalRadiusIsTheMedianByLength) {
+  SkeletonGraph graph = Y();
+  EXPECT_NEAR(TypicalRadius(MeasureGraph(graph)), 2.5 * kMillimetre, 1e-15);
+  // A long thick curve outweighs the three thin ones.
+  const EdgeId edge = graph.AddPolyline({{1, 0, 0}, {2, 0, 0}});
+  graph.SetCurve(edge, graph.edge(edge).points, {0.004, 0.004});
+  EXPECT_EQ(TypicalRadius(MeasureGraph(graph)), 0.004);
+  EXPECT_EQ(TypicalRadius(MeasureGraph(SkeletonGraph())), 0);
+}
+
+TEST(PeakMemory, IsThatOfAProcess) {
+  EXPECT_GT(PeakMemory(), 1'000'000);  // no program with this many libraries is smaller
+}
+
+}  // namespace
+}  // namespace curvefusion
