@@ -12,7 +12,7 @@ namespace curvefusion {
 struct MotionOptions {
   double speed = 0.15;      ///< metres per second on average; it varies by a third
   double frame_rate = 30;   ///< frames per second
-  double standoff = 0.62;   ///< metres from the object's near side on average; it varies by .07
+  double standoff = 0.56;   ///< metres from the object's near side on average; it varies by .07
   double hand_noise = 1.0;  ///< factor on sway and tremor of the hand; 0 is a robot's
 };
 

@@ -12,9 +12,10 @@ class SceneView;
 struct StructuredLightOptions {
   PinholeCamera camera{640, 480, 580, 580, 319.5, 239.5};
   double baseline = 0.075;  ///< metres from the camera to the projector, along +x
-  double light_power =
-      1.18e9;  ///< mean intensity of a dot of integral 1 px, times squared distance in mm; twice
-               ///< the 5.9e8 of Landau et al. 2015, which has wider dots
+  /// Mean intensity of a dot of integral 1 px on a white surface, times the squared distance in mm:
+  /// twice the 5.9e8 of Landau et al. 2015 (whose dots are wider), whose wall is taken as of albedo
+  /// .7.
+  double light_power = 1.69e9;
   double noise_sigma = 10.4;  ///< of the infrared image in 1/1023; Landau et al. 2015
   BlockMatchingOptions matching;
 };
