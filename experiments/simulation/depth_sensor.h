@@ -26,8 +26,18 @@ class DepthSensor {
   virtual ~DepthSensor() = default;
   virtual const PinholeCamera& camera() const = 0;
 
+  /// How far from an object one would hold it, in metres.
+  virtual double WorkingDistance() const { return 0.56; }
+
   /// The depth image of one frame in metres, 0 where the sensor has no measurement.
   virtual DepthImage Measure(const Scene& scene, const Exposure& exposure) const = 0;
 };
+
+/// The names MakeDepthSensor knows: `kinect_v1`, `primesense`, `kinect_v2`, `sr300`, `d400`,
+/// `artec_spider`, `ideal`.
+std::vector<std::string> SensorNames();
+
+/// A sensor by name; `seed` draws its pattern and noise. Throws Error(kUsage) for another name.
+std::unique_ptr<DepthSensor> MakeDepthSensor(const std::string& name, uint64_t seed);
 
 }  // namespace curvefusion

@@ -6,11 +6,12 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "experiments/simulation/color_image.h"
+#include "experiments/simulation/depth_sensor.h"
 #include "experiments/simulation/drift.h"
 #include "experiments/simulation/object_truth.h"
 #include "experiments/simulation/random.h"
 #include "experiments/simulation/scan_files.h"
-#include "experiments/simulation/structured_light.h"
 #include "graph/graph_io.h"
 #include "kernel/atomic_file.h"
 #include "kernel/error.h"
@@ -37,11 +38,15 @@ void CheckCounts(const SimulationOptions& options) {
   }
 }
 
-// The colour camera sees what the depth camera sees, at the depth camera's or at twice the
-// resolution; a sensor with another image size keeps the Kinect's colour camera.
-PinholeCamera ColorCamera(bool large) {
-  if (large) return {1280, 1024, 1160, 1160, 639.5, 511.5};
-  return {640, 480, 580, 580, 319.5, 239.5};
+// The colour camera sees what the depth camera sees: pixel by pixel, or at twice the resolution
+// and, as the Kinect's has, with a fifteenth more rows than the depth camera's shape asks for.
+PinholeCamera ColorCamera(const PinholeCamera& depth_camera, bool large) {
+  if (!large) return depth_camera;
+  PinholeCamera camera = depth_camera.Scaled(2);
+  const int more_rows = camera.height / 15;
+  camera.height += more_rows;
+  camera.cy += more_rows / 2.0;
+  return camera;
 }
 
 // A shift of the given length in a direction of the seed's.
@@ -51,14 +56,23 @@ Vec2 RegistrationShift(const SimulationOptions& options) {
   return options.registration_error_px * Vec2(std::cos(angle), std::sin(angle));
 }
 
+ScanTask TaskOf(const Scene& scene, const DepthSensor& sensor, const MotionOptions& motion) {
+  ScanTask task;
+  task.object_bounds = scene.object_bounds;
+  task.table_height = scene.TableHeight();
+  task.standoff = motion.standoff > 0 ? motion.standoff : sensor.WorkingDistance();
+  task.view_half_height = task.standoff * sensor.camera().height / sensor.camera().fy / 2;
+  return task;
+}
+
 ScanPlan PlanScan(const SimulationOptions& options) {
   ScanPlan plan;
   plan.scene =
       MakeScene(MakeObject(options.object, options.object_options), options.scene, options.seed);
-  plan.sensor = MakeSensor(options.sensor, options.seed);
-  plan.color.camera = ColorCamera(options.large_color);
+  plan.sensor = MakeDepthSensor(options.sensor, options.seed);
+  plan.color.camera = ColorCamera(plan.sensor->camera(), options.large_color);
   plan.color_shift_px = RegistrationShift(options);
-  plan.true_poses = HandheldPath(plan.scene.object_bounds, plan.scene.TableHeight(), options.frames,
+  plan.true_poses = HandheldPath(TaskOf(plan.scene, *plan.sensor, options.motion), options.frames,
                                  options.motion, options.seed);
   for (int frame = 0; frame < options.frames; ++frame) {
     plan.frame_names.push_back(FrameName(frame, options.motion.frame_rate));
@@ -142,7 +156,8 @@ void VisitOptions(SimulationOptions& options, OptionVisitor& visitor) {
   visitor.Visit({"pose_error_scale", "", 0, 10, "Factor on the errors of the poses; own choice."},
                 options.pose_error_scale);
   visitor.Visit({"large_color", "", 0, 1,
-                 "Colour at 1280x1024 instead of 640x480; CurveFusion 4, RGB resolutions."},
+                 "Colour at twice the resolution (1280x1024 for a Kinect V1); CurveFusion 4, RGB "
+                 "resolutions."},
                 options.large_color);
   visitor.Visit({"registration_error_px", "px", 0, 20,
                  "Fixed shift between depth and colour: 1 calibrated, 2 to 5 as delivered."},
@@ -159,19 +174,6 @@ void VisitOptions(SimulationOptions& options, OptionVisitor& visitor) {
                 options.object_options.spacing);
   VisitOptions(options.scene, visitor);
   VisitOptions(options.motion, visitor);
-}
-
-std::vector<std::string> SensorNames() { return {"kinect_v1", "primesense"}; }
-
-std::unique_ptr<DepthSensor> MakeSensor(const std::string& name, uint64_t seed) {
-  StructuredLightOptions structured_light;
-  if (name == "kinect_v1") return std::make_unique<StructuredLightSensor>(structured_light, seed);
-  if (name == "primesense") {
-    structured_light.camera.fx = structured_light.camera.fy = 570;
-    return std::make_unique<StructuredLightSensor>(structured_light, seed);
-  }
-  throw Error(ErrorKind::kUsage, "no sensor is called '" + name + "'; did you mean '" +
-                                     NearestName(name, SensorNames()) + "'?");
 }
 
 void SimulateScan(const SimulationOptions& options, const std::filesystem::path& folder,

@@ -1,12 +1,8 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
 #include <string>
-#include <vector>
 
-#include "experiments/simulation/color_image.h"
-#include "experiments/simulation/depth_sensor.h"
 #include "experiments/simulation/motion.h"
 #include "experiments/simulation/objects.h"
 #include "experiments/simulation/scene.h"
@@ -32,12 +28,6 @@ struct SimulationOptions {
 };
 
 void VisitOptions(SimulationOptions& options, OptionVisitor& visitor);
-
-/// The depth sensors SimulateScan knows.
-std::vector<std::string> SensorNames();
-
-/// A sensor by name; `seed` draws its pattern and noise. Throws Error(kUsage) for another name.
-std::unique_ptr<DepthSensor> MakeSensor(const std::string& name, uint64_t seed);
 
 /// Simulates a scan into `folder` (created where it is missing): a TUM sequence with depth/, rgb/,
 /// depth.txt, rgb.txt, associations.txt, trajectory.txt with the pose source's errors and
