@@ -39,7 +39,7 @@ class FootprintSensor : public DepthSensor {
 FootprintSensorOptions IdealSensor();
 
 /// RealSense SR300: 0.2 to 1.5 m, steps of .125 mm, sigma 4 z^2 mm. The filter is fitted so that a
-/// 5 mm wire at 0.7 m is lost and one of 8 mm half survives.
+/// 5 mm wire at 0.7 m is lost and one of 8 mm survives.
 FootprintSensorOptions RealSenseSr300();
 
 /// RealSense D435: stereo of baseline 50 mm, sigma .08 px of disparity.
