@@ -156,6 +156,10 @@ Curves Chair() {
     curves.push_back(Wire({front, {front.x() * 1.1, front.y() + 40, -320}}, 12));
     curves.push_back(Wire({back, {back.x() * 1.25, back.y() - 140, -320}}, 12));
   }
+  // The drawing has the back in front: turn the seat to the viewer.
+  for (WireCurve& curve : curves) {
+    for (Vec3& p : curve.points) p = Vec3(-p.x(), -p.y(), p.z());
+  }
   return curves;
 }
 
