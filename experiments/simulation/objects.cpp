@@ -1,0 +1,26 @@
+#include "experiments/simulation/objects.h"
+
+#include "kernel/error.h"
+#include "kernel/options.h"
+
+namespace curvefusion {
+
+std::vector<std::string> ObjectNames() {
+  return {"dish",        "cage",     "cat",        "deco",      "hanger",
+          "rack",        "chair",    "wine",       "triangles", "parallel_wires",
+          "breadholder", "valence6", "mesh_panel", "cubeframe", "empty"};
+}
+
+WireObject MakeObject(const std::string& name, const ObjectOptions& options) {
+  WireObject object{name, {}};
+  if (!MakePaperObject(name, object.curves) && !MakeStudyObject(name, options, object.curves)) {
+    throw Error(ErrorKind::kUsage, "no object is called '" + name + "'; did you mean '" +
+                                       NearestName(name, ObjectNames()) + "'?");
+  }
+  if (options.wire_diameter > 0) {
+    for (WireCurve& curve : object.curves) curve.diameter = options.wire_diameter;
+  }
+  return object;
+}
+
+}  // namespace curvefusion

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "kernel/polyline.h"
+
+namespace curvefusion {
+
+/// One wire: its centre line (a closed one repeats its first point) and its diameter, in metres.
+struct WireCurve {
+  Polyline points;
+  double diameter = 0;
+
+  bool IsClosed() const { return points.size() > 2 && points.front() == points.back(); }
+};
+
+/// A thing made of wires, in its own frame: z up, seen best from -y. Wires whose centre lines meet
+/// are welded there.
+struct WireObject {
+  std::string name;
+  std::vector<WireCurve> curves;
+};
+
+/// How an object may differ from its description.
+struct ObjectOptions {
+  double wire_diameter = 0;  ///< metres; 0 keeps the object's own diameters
+  double spacing = 0.020;    ///< metres between the axes of `parallel_wires`
+};
+
+/// Every name MakeObject knows: the paper's eight first, in the order of its Table 1.
+std::vector<std::string> ObjectNames();
+
+/// The paper's eight objects as analogues (`dish`, `cage`, `cat`, `deco`, `hanger`, `rack`,
+/// `chair`, `wine`: sizes guessed from its figures, diameters from its Table 1), and objects of the
+/// studies: `triangles` (1, 2, 3 and 4 mm), `parallel_wires`, `breadholder`, `valence6` (the
+/// junction of the paper's limitations), `mesh_panel`, `cubeframe`, `empty` (no wire at all).
+/// Throws Error(kUsage) for another name.
+WireObject MakeObject(const std::string& name, const ObjectOptions& options = {});
+
+/// The paper's eight; false where `name` is none of them.
+bool MakePaperObject(const std::string& name, std::vector<WireCurve>& curves);
+
+/// The objects of the studies; false where `name` is none of them.
+bool MakeStudyObject(const std::string& name, const ObjectOptions& options,
+                     std::vector<WireCurve>& curves);
+
+}  // namespace curvefusion

@@ -1,0 +1,102 @@
+#include "experiments/simulation/scan_files.h"
+
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "kernel/atomic_file.h"
+
+namespace curvefusion {
+namespace {
+
+constexpr double kStartTime = 1000;  // names of equal width sort by time
+
+void WriteEncoded(const std::filesystem::path& path, const cv::Mat& image,
+                  const std::vector<int>& parameters) {
+  std::vector<uint8_t> bytes;
+  cv::imencode(path.extension().string(), image, bytes, parameters);
+  WriteStreamAtomically(path, [&](std::ostream& stream) {
+    stream.write(reinterpret_cast<const char*>(bytes.data()),
+                 static_cast<std::streamsize>(bytes.size()));
+  });
+}
+
+nlohmann::ordered_json CameraJson(const PinholeCamera& camera) {
+  return {{"width", camera.width}, {"height", camera.height}, {"fx", camera.fx},
+          {"fy", camera.fy},       {"cx", camera.cx},         {"cy", camera.cy}};
+}
+
+bool SameCamera(const PinholeCamera& a, const PinholeCamera& b) {
+  return a.width == b.width && a.height == b.height && a.fx == b.fx && a.fy == b.fy &&
+         a.cx == b.cx && a.cy == b.cy;
+}
+
+}  // namespace
+
+std::string FrameName(int frame, double frame_rate) {
+  char name[32];
+  std::snprintf(name, sizeof name, "%.6f", kStartTime + frame / frame_rate);
+  return name;
+}
+
+void WriteDepthPng(const std::filesystem::path& path, const DepthImage& depth) {
+  cv::Mat image(depth.height(), depth.width(), CV_16UC1);
+  for (int v = 0; v < depth.height(); ++v) {
+    for (int u = 0; u < depth.width(); ++u) {
+      const double units = std::round(depth(u, v) * kDepthScale);
+      image.at<uint16_t>(v, u) = units > 65535 ? 0 : static_cast<uint16_t>(units);
+    }
+  }
+  WriteEncoded(path, image, {cv::IMWRITE_PNG_COMPRESSION, 3});
+}
+
+void WriteColorJpeg(const std::filesystem::path& path, const ColorImage& color) {
+  cv::Mat image(color.height(), color.width(), CV_8UC3);
+  for (int v = 0; v < color.height(); ++v) {
+    for (int u = 0; u < color.width(); ++u) {
+      const Rgb& pixel = color(u, v);
+      image.at<cv::Vec3b>(v, u) = cv::Vec3b(pixel[2], pixel[1], pixel[0]);
+    }
+  }
+  WriteEncoded(path, image, {cv::IMWRITE_JPEG_QUALITY, 95});
+}
+
+void WriteFrameLists(const std::filesystem::path& folder, const std::vector<std::string>& names) {
+  const auto write = [&](const char* file, const auto& line_of) {
+    WriteStreamAtomically(folder / file, [&](std::ostream& stream) {
+      for (const std::string& name : names) stream << line_of(name) << "\n";
+    });
+  };
+  const auto color = [](const std::string& name) { return name + " rgb/" + name + ".jpg"; };
+  const auto depth = [](const std::string& name) { return name + " depth/" + name + ".png"; };
+  write("rgb.txt", color);
+  write("depth.txt", depth);
+  write("associations.txt",
+        [&](const std::string& name) { return color(name) + " " + depth(name); });
+}
+
+void WriteTrajectory(const std::filesystem::path& path, const std::vector<std::string>& names,
+                     const std::vector<RigidTransform>& T_world_camera) {
+  WriteStreamAtomically(path, [&](std::ostream& stream) {
+    for (size_t i = 0; i < names.size(); ++i) {
+      const Vec3 t = T_world_camera[i].translation();
+      const Eigen::Quaterniond q(T_world_camera[i].rotation());
+      char line[256];
+      std::snprintf(line, sizeof line, "%s %.9f %.9f %.9f %.9f %.9f %.9f %.9f\n", names[i].c_str(),
+                    t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w());
+      stream << line;
+    }
+  });
+}
+
+void WriteIntrinsics(const std::filesystem::path& path, const PinholeCamera& depth_camera,
+                     const PinholeCamera& color_camera) {
+  nlohmann::ordered_json json = CameraJson(depth_camera);
+  json["depth_scale"] = kDepthScale;
+  if (!SameCamera(depth_camera, color_camera)) json["color_camera"] = CameraJson(color_camera);
+  WriteStreamAtomically(path, [&](std::ostream& stream) { stream << json.dump() << "\n"; });
+}
+
+}  // namespace curvefusion

@@ -1,0 +1,167 @@
+#include "experiments/simulation/scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "experiments/simulation/random.h"
+
+namespace curvefusion {
+namespace {
+
+constexpr double kLongestCapsule = 0.010;  // keeps the tiles a piece may touch few
+constexpr double kFlat = 1.0 / 3;          // height over width below which an object is stood up
+
+Eigen::AlignedBox3d Bounds(const WireObject& object) {
+  Eigen::AlignedBox3d bounds;
+  for (const WireCurve& curve : object.curves) {
+    for (const Vec3& p : curve.points) {
+      bounds.extend(Vec3(p - Vec3::Constant(curve.diameter / 2)));
+      bounds.extend(Vec3(p + Vec3::Constant(curve.diameter / 2)));
+    }
+  }
+  if (bounds.isEmpty()) bounds.extend(Vec3::Constant(-0.15)).extend(Vec3::Constant(0.15));
+  return bounds;
+}
+
+// Stood up if flat, and moved so that its bounding box is centred at the origin.
+WireObject Placed(WireObject object) {
+  const Vec3 size = Bounds(object).sizes();
+  if (size.z() < kFlat * std::min(size.x(), size.y())) {
+    for (WireCurve& curve : object.curves) {
+      for (Vec3& p : curve.points) p = Vec3(p.x(), -p.z(), p.y());
+    }
+  }
+  const Vec3 center = Bounds(object).center();
+  for (WireCurve& curve : object.curves) {
+    for (Vec3& p : curve.points) p -= center;
+  }
+  return object;
+}
+
+std::vector<SceneCapsule> Capsules(const WireObject& object) {
+  std::vector<SceneCapsule> capsules;
+  for (const WireCurve& curve : object.curves) {
+    for (size_t i = 0; i + 1 < curve.points.size(); ++i) {
+      const Vec3& a = curve.points[i];
+      const Vec3& b = curve.points[i + 1];
+      const int pieces = std::max(1, static_cast<int>(std::ceil((b - a).norm() / kLongestCapsule)));
+      for (int k = 0; k < pieces; ++k) {
+        capsules.push_back(
+            {a + (b - a) * k / pieces, a + (b - a) * (k + 1) / pieces, curve.diameter / 2});
+      }
+    }
+  }
+  return capsules;
+}
+
+Vec3 ColorOfHue(double hue, double saturation, double value) {
+  const auto channel = [&](double shift) {
+    const double k = std::fmod(hue * 6 + shift, 6.0);
+    return value - value * saturation * std::clamp(std::min(k, 4 - k), 0.0, 1.0);
+  };
+  return {channel(5), channel(3), channel(1)};
+}
+
+SurfaceMaterial WireMaterial(const SceneOptions& options) {
+  SurfaceMaterial material;
+  material.color = ColorOfHue(options.wire_hue, options.wire_saturation, options.wire_albedo);
+  material.infrared_albedo = options.wire_albedo;
+  material.shininess = options.wire_shininess;
+  return material;
+}
+
+// Matt and speckled, as wallpaper, wood or cardboard.
+SurfaceMaterial BackgroundMaterial(Random& random, uint64_t texture_seed) {
+  SurfaceMaterial material;
+  material.color =
+      ColorOfHue(random.Uniform(), random.Uniform(0.05, 0.3), random.Uniform(0.4, 0.75));
+  material.texture_contrast = random.Uniform(0.4, 0.7);
+  material.texture_seed = texture_seed;
+  material.infrared_albedo = random.Uniform(0.5, 0.85);
+  return material;
+}
+
+std::vector<ScenePlane> RoomAround(const Eigen::AlignedBox3d& object, Random& random) {
+  constexpr double kSideWall = 1.0;  // beside the object, so that no view ends in nothing
+  const double table = object.min().z() - random.Uniform(0.06, 0.10);
+  const double wall = object.max().y() + random.Uniform(0.4, 0.6);
+  return {{Vec3::UnitZ(), table},
+          {-Vec3::UnitY(), -wall},
+          {Vec3::UnitX(), object.min().x() - kSideWall},
+          {-Vec3::UnitX(), -object.max().x() - kSideWall}};
+}
+
+// Whether a box's circumscribed circle keeps clear of the object and of the camera's side.
+bool StandsClear(const SceneBox& box, const Eigen::AlignedBox3d& object) {
+  constexpr double kClearance = 0.08;
+  const double reach = box.half_size.head<2>().norm() + kClearance;
+  const Vec3 nearest = box.center.cwiseMax(object.min()).cwiseMin(object.max());
+  return (nearest - box.center).head<2>().norm() > reach && box.center.y() > object.center().y();
+}
+
+std::vector<SceneBox> BoxesAround(const Eigen::AlignedBox3d& object,
+                                  const std::vector<ScenePlane>& room, Random& random) {
+  constexpr int kAttempts = 200;
+  const double table = room[0].offset;
+  const double wall = -room[1].offset;
+  const size_t count = 3 + random.Next() % 3;
+  std::vector<SceneBox> boxes;
+  for (int attempt = 0; attempt < kAttempts && boxes.size() < count; ++attempt) {
+    SceneBox box;
+    box.half_size = {random.Uniform(0.04, 0.10), random.Uniform(0.04, 0.10),
+                     random.Uniform(0.05, 0.16)};
+    const double yaw = random.Uniform(0, std::numbers::pi);
+    box.heading = {std::cos(yaw), std::sin(yaw)};
+    const double reach = box.half_size.head<2>().norm();
+    box.center = {random.Uniform(object.min().x() - 0.35, object.max().x() + 0.35),
+                  random.Uniform(object.min().y(), wall - reach), table + box.half_size.z()};
+    bool clear = StandsClear(box, object);
+    for (const SceneBox& other : boxes) {
+      const double gap = (other.center - box.center).head<2>().norm();
+      clear = clear && gap > reach + other.half_size.head<2>().norm();
+    }
+    if (clear) boxes.push_back(box);
+  }
+  return boxes;
+}
+
+}  // namespace
+
+void VisitOptions(SceneOptions& options, OptionVisitor& visitor) {
+  visitor.Visit(
+      {"wire_albedo", "", 0, 1,
+       "Brightness of the wires in colour and infrared; CurveFusion 4, effect of colour."},
+      options.wire_albedo);
+  visitor.Visit(
+      {"wire_hue", "", 0, 1, "Hue of the wires from red over green and blue; own choice."},
+      options.wire_hue);
+  visitor.Visit({"wire_saturation", "", 0, 1, "Saturation of the wires' colour; own choice."},
+                options.wire_saturation);
+  visitor.Visit({"wire_shininess", "", 0, 1,
+                 "Share of light the wires mirror; CurveFusion 4, effect of colour."},
+                options.wire_shininess);
+}
+
+double MirrorLobe(double cosine) {
+  constexpr double kExponent = 60;
+  return cosine <= 0 ? 0.0 : (kExponent + 8) / 8 * std::pow(cosine, kExponent);
+}
+
+Scene MakeScene(const WireObject& object, const SceneOptions& options, uint64_t seed) {
+  Random random(seed, RandomStream::kScene);
+  Scene scene;
+  scene.object = Placed(object);
+  scene.object_bounds = Bounds(scene.object);
+  scene.capsules = Capsules(scene.object);
+  scene.planes = RoomAround(scene.object_bounds, random);
+  scene.boxes = BoxesAround(scene.object_bounds, scene.planes, random);
+  scene.materials.push_back(WireMaterial(options));
+  for (size_t i = 0; i < scene.planes.size() + scene.boxes.size(); ++i) {
+    const uint64_t texture_seed = Random(seed, RandomStream::kTexture, i).Next();
+    scene.materials.push_back(BackgroundMaterial(random, texture_seed));
+  }
+  return scene;
+}
+
+}  // namespace curvefusion

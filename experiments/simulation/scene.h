@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "experiments/simulation/objects.h"
+#include "kernel/geometry.h"
+#include "kernel/options.h"
+
+namespace curvefusion {
+
+/// How a surface looks, to the colour camera and to infrared light.
+struct SurfaceMaterial {
+  Vec3 color = Vec3::Constant(0.5);  ///< diffuse reflectance in red, green and blue, 0 to 1
+  double texture_contrast = 0;       ///< share by which the texture varies the colour
+  uint64_t texture_seed = 0;
+  double infrared_albedo = 0.6;  ///< diffuse reflectance of the projector's light, 0 to 1
+  double shininess = 0;          ///< share of the light that is mirrored instead of scattered
+};
+
+/// What a mirror-like surface sends on, relative to a matt white one seen head-on, where the normal
+/// and the direction half-way between light and eye enclose an angle of that cosine: a normalised
+/// Phong lobe of about 10 degrees.
+double MirrorLobe(double cosine);
+
+/// A cylinder with half-balls at its ends: a straight piece of wire.
+struct SceneCapsule {
+  Vec3 start;
+  Vec3 end;
+  double radius;
+};
+
+/// The points with normal . p = offset; the scene lies on the side the normal points to.
+struct ScenePlane {
+  Vec3 normal;
+  double offset;
+};
+
+/// A box on the table, turned about the vertical.
+struct SceneBox {
+  Vec3 center;
+  Vec3 half_size;
+  Vec2 heading;  ///< unit vector of its x axis in the table's plane
+};
+
+/// What stands before the camera, in the world frame: z up, the object's bounding box centred at
+/// the origin, the camera on the side of -y, a wall on the side of +y.
+struct Scene {
+  WireObject object;
+  Eigen::AlignedBox3d object_bounds;
+  std::vector<SceneCapsule> capsules;
+  std::vector<ScenePlane> planes;
+  std::vector<SceneBox> boxes;
+  std::vector<SurfaceMaterial> materials;  ///< of the wires, of each plane, of each box
+
+  double TableHeight() const { return planes.front().offset; }
+};
+
+/// What of the scene is chosen; the rest is drawn from the seed.
+struct SceneOptions {
+  double wire_albedo = 0.7;      ///< 0 to 1; black is .05, white .9
+  double wire_hue = 0.35;        ///< 0 to 1, red through green and blue to red
+  double wire_saturation = 0.6;  ///< 0 (grey) to 1
+  double wire_shininess = 0;     ///< 0 (matt) to 1 (mirror)
+};
+
+void VisitOptions(SceneOptions& options, OptionVisitor& visitor);
+
+/// A room with a table 60 to 100 mm below the object, a wall 0.4 to 0.6 m behind it, walls to both
+/// sides and 3 to 5 boxes on the table that neither touch the object nor stand in front of it.
+/// Objects flatter than a third of their width are stood up, as one would hang them to scan them.
+/// An object without curves gets the room of one of 0.3 m. The same seed gives the same scene.
+Scene MakeScene(const WireObject& object, const SceneOptions& options, uint64_t seed);
+
+}  // namespace curvefusion

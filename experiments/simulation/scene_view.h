@@ -1,0 +1,77 @@
+#pragma once
+
+#include <vector>
+
+#include "experiments/simulation/scene.h"
+#include "kernel/camera.h"
+
+namespace curvefusion {
+
+/// What a ray meets first: a primitive (capsules, then planes, then boxes; -1 for nothing) and its
+/// depth along the optical axis in metres.
+struct RayHit {
+  int primitive = -1;
+  double depth = 0;
+};
+
+/// A scene seen through one camera, with the primitives binned by tiles of 8x8 pixels. The camera
+/// may move while its rows are read (a rolling shutter): every row of tiles has its own pose. Keeps
+/// a reference to the scene. Thread-safe for concurrent queries.
+class SceneView {
+ public:
+  /// The poses of the first and the last row; equal ones for a global shutter.
+  SceneView(const Scene& scene, const PinholeCamera& camera, const RigidTransform& T_world_first,
+            const RigidTransform& T_world_last);
+
+  /// First hit of the ray through a pixel position, which must lie in the image.
+  RayHit Trace(double u, double v) const;
+
+  /// Whether something stands more than 1 mm in front of `depth` on the ray through a pixel
+  /// position; nothing does outside the image.
+  bool IsHidden(double u, double v, double depth) const;
+
+  /// The world point on the ray through a pixel position at a depth.
+  Vec3 PointAt(double u, double v, double depth) const;
+
+  /// Centre of projection while the row of a pixel position is read.
+  const Vec3& Center(double v) const { return rows_[TileRow(v)].center; }
+
+  /// Outward unit normal of a primitive at a point of its surface.
+  Vec3 Normal(int primitive, const Vec3& p_world) const;
+
+  /// Index into Scene::materials of a primitive.
+  int Surface(int primitive) const;
+
+  /// Whether the tile around a pixel can show one plane only, so that one ray tells all.
+  bool IsUniform(int u, int v) const;
+
+ private:
+  struct TileRowPose {
+    Vec3 center;
+    Mat3 rotation;
+  };
+  struct TileRect {
+    int first_column = 0, last_column = -1, first_row = 0, last_row = -1;
+  };
+
+  int TileColumn(double u) const;
+  int TileRow(double v) const;
+  Vec3 Direction(double u, double v) const;
+  TileRect RectAround(const std::vector<Vec3>& points, double radius) const;
+  std::vector<TileRect> PrimitiveRects() const;
+  int NearestPlane(double u, double v) const;
+  std::vector<int> VisiblePlanes(int column, int row) const;
+  void FillTiles();
+  double HitDepth(int primitive, const Vec3& center, const Vec3& direction) const;
+
+  const Scene& scene_;
+  PinholeCamera camera_;
+  RigidTransform T_first_world_;
+  RigidTransform T_last_world_;
+  int columns_;
+  std::vector<TileRowPose> rows_;
+  std::vector<int> tile_begin_;  // of each tile in tile_primitives_, and the end
+  std::vector<int> tile_primitives_;
+};
+
+}  // namespace curvefusion

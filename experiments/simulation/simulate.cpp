@@ -1,0 +1,202 @@
+#include "experiments/simulation/simulate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "experiments/simulation/color_image.h"
+#include "experiments/simulation/depth_sensor.h"
+#include "experiments/simulation/drift.h"
+#include "experiments/simulation/object_truth.h"
+#include "experiments/simulation/random.h"
+#include "experiments/simulation/scan_files.h"
+#include "graph/graph_io.h"
+#include "kernel/atomic_file.h"
+#include "kernel/error.h"
+#include "kernel/options.h"
+#include "kernel/parallel.h"
+
+namespace curvefusion {
+namespace {
+
+// Everything about a scan but its images.
+struct ScanPlan {
+  Scene scene;
+  std::unique_ptr<DepthSensor> sensor;
+  ColorCameraOptions color;
+  Vec2 color_shift_px = Vec2::Zero();
+  std::vector<RigidTransform> true_poses;
+  std::vector<std::string> frame_names;
+};
+
+void CheckCounts(const SimulationOptions& options) {
+  if (options.frames < 1) {
+    throw Error(ErrorKind::kUsage,
+                "a scan needs at least 1 frame, not " + std::to_string(options.frames));
+  }
+}
+
+// The colour camera sees what the depth camera sees: pixel by pixel, or at twice the resolution
+// and, as the Kinect's has, with a fifteenth more rows than the depth camera's shape asks for.
+PinholeCamera ColorCamera(const PinholeCamera& depth_camera, bool large) {
+  if (!large) return depth_camera;
+  PinholeCamera camera = depth_camera.Scaled(2);
+  const int more_rows = camera.height / 15;
+  camera.height += more_rows;
+  camera.cy += more_rows / 2.0;
+  return camera;
+}
+
+// A shift of the given length in a direction of the seed's.
+Vec2 RegistrationShift(const SimulationOptions& options) {
+  Random random(options.seed, RandomStream::kRegistration);
+  const double angle = random.Uniform(0, 2 * std::numbers::pi);
+  return options.registration_error_px * Vec2(std::cos(angle), std::sin(angle));
+}
+
+ScanTask TaskOf(const Scene& scene, const DepthSensor& sensor, const MotionOptions& motion) {
+  ScanTask task;
+  task.object_bounds = scene.object_bounds;
+  task.table_height = scene.TableHeight();
+  task.standoff = motion.standoff > 0 ? motion.standoff : sensor.WorkingDistance();
+  task.view_half_height = task.standoff * sensor.camera().height / sensor.camera().fy / 2;
+  return task;
+}
+
+ScanPlan PlanScan(const SimulationOptions& options) {
+  ScanPlan plan;
+  plan.scene =
+      MakeScene(MakeObject(options.object, options.object_options), options.scene, options.seed);
+  plan.sensor = MakeDepthSensor(options.sensor, options.seed);
+  plan.color.camera = ColorCamera(plan.sensor->camera(), options.large_color);
+  plan.color_shift_px = RegistrationShift(options);
+  plan.true_poses = HandheldPath(TaskOf(plan.scene, *plan.sensor, options.motion), options.frames,
+                                 options.motion, options.seed);
+  for (int frame = 0; frame < options.frames; ++frame) {
+    plan.frame_names.push_back(FrameName(frame, options.motion.frame_rate));
+  }
+  return plan;
+}
+
+// The pose `share` of the way from a frame to the next (negative: towards the one before).
+RigidTransform PoseNear(const std::vector<RigidTransform>& poses, int frame, double share) {
+  const int other = std::clamp(frame + (share < 0 ? -1 : 1), 0, static_cast<int>(poses.size()) - 1);
+  const double t = std::abs(share);
+  const Eigen::Quaterniond from(poses[frame].rotation());
+  const Eigen::Quaterniond to(poses[other].rotation());
+  RigidTransform pose = RigidTransform::Identity();
+  pose.linear() = from.slerp(t, to).toRotationMatrix();
+  pose.translation() = (1 - t) * poses[frame].translation() + t * poses[other].translation();
+  return pose;
+}
+
+// A frame's pose is that of its middle row.
+Exposure ExposureOf(const ScanPlan& plan, const SimulationOptions& options, int frame) {
+  const double half = options.readout_time * options.motion.frame_rate / 2;
+  if (half == 0) {
+    return {plan.true_poses[frame], plan.true_poses[frame], static_cast<uint64_t>(frame)};
+  }
+  return {PoseNear(plan.true_poses, frame, -half), PoseNear(plan.true_poses, frame, half),
+          static_cast<uint64_t>(frame)};
+}
+
+void TakeFrame(const ScanPlan& plan, const SimulationOptions& options, int frame,
+               const std::filesystem::path& folder) {
+  const Exposure exposure = ExposureOf(plan, options, frame);
+  const std::string& name = plan.frame_names[frame];
+  WriteDepthPng(folder / "depth" / (name + ".png"), plan.sensor->Measure(plan.scene, exposure));
+  Random random(options.seed, RandomStream::kRegistration, exposure.frame + 1);
+  const Vec2 jitter = options.registration_jitter_px * Vec2(random.Normal(), random.Normal());
+  const double scale = plan.color.camera.fx / plan.sensor->camera().fx;
+  const ColorImage color = RenderColor(plan.scene, exposure, scale * (plan.color_shift_px + jitter),
+                                       plan.color, options.seed);
+  WriteColorJpeg(folder / "rgb" / (name + ".jpg"), color);
+}
+
+nlohmann::ordered_json JsonOf(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+nlohmann::ordered_json SceneJson(const ScanPlan& plan, const SimulationOptions& options) {
+  nlohmann::ordered_json json = {{"object", options.object},
+                                 {"sensor", options.sensor},
+                                 {"pose_source", options.pose_source},
+                                 {"pose_error_scale", options.pose_error_scale},
+                                 {"seed", options.seed},
+                                 {"wire_albedo", options.scene.wire_albedo},
+                                 {"wire_shininess", options.scene.wire_shininess},
+                                 {"readout_time", options.readout_time}};
+  json["color_shift_px"] = {plan.color_shift_px.x(), plan.color_shift_px.y()};
+  for (const ScenePlane& plane : plan.scene.planes) {
+    json["planes"].push_back({{"normal", JsonOf(plane.normal)}, {"offset", plane.offset}});
+  }
+  for (const SceneBox& box : plan.scene.boxes) {
+    json["boxes"].push_back({{"center", JsonOf(box.center)},
+                             {"half_size", JsonOf(box.half_size)},
+                             {"heading", {box.heading.x(), box.heading.y()}}});
+  }
+  return json;
+}
+
+void WriteTruth(const ScanPlan& plan, const SimulationOptions& options,
+                const std::filesystem::path& folder) {
+  WriteSkeleton(folder / "skeleton.json", TruthSkeleton(plan.scene.object));
+  WriteCurves(folder / "curves.json", plan.scene.object);
+  WriteTrajectory(folder / "trajectory.txt", plan.frame_names, plan.true_poses);
+  const nlohmann::ordered_json scene = SceneJson(plan, options);
+  WriteStreamAtomically(folder / "scene.json",
+                        [&](std::ostream& stream) { stream << scene.dump(1) << "\n"; });
+}
+
+}  // namespace
+
+void VisitOptions(SimulationOptions& options, OptionVisitor& visitor) {
+  visitor.Visit({"frames", "frames", 1, 100000, "Length of the scan; CurveFusion, Table 1."},
+                options.frames);
+  visitor.Visit({"pose_error_scale", "", 0, 10, "Factor on the errors of the poses; own choice."},
+                options.pose_error_scale);
+  visitor.Visit({"large_color", "", 0, 1,
+                 "Colour at twice the resolution (1280x1024 for a Kinect V1); CurveFusion 4, RGB "
+                 "resolutions."},
+                options.large_color);
+  visitor.Visit({"registration_error_px", "px", 0, 20,
+                 "Fixed shift between depth and colour: 1 calibrated, 2 to 5 as delivered."},
+                options.registration_error_px);
+  visitor.Visit({"registration_jitter_px", "px", 0, 5,
+                 "Change of that shift from frame to frame; own choice."},
+                options.registration_jitter_px);
+  visitor.Visit({"readout_time", "s", 0, 0.033,
+                 "Time from the first to the last row of an image; about .028 for a Kinect V1."},
+                options.readout_time);
+  visitor.Visit({"wire_diameter", "m", 0, 0.05, "Diameter of all wires; 0 keeps the object's own."},
+                options.object_options.wire_diameter);
+  visitor.Visit({"spacing", "m", 0.005, 0.1, "Between the axes of parallel_wires."},
+                options.object_options.spacing);
+  VisitOptions(options.scene, visitor);
+  VisitOptions(options.motion, visitor);
+}
+
+void SimulateScan(const SimulationOptions& options, const std::filesystem::path& folder,
+                  const Progress& progress) {
+  CheckCounts(options);
+  const PoseErrorModel pose_errors = PoseErrorOf(options.pose_source, options.pose_error_scale);
+  const ScanPlan plan = PlanScan(options);
+  for (const char* part : {"depth", "rgb", "truth"}) {
+    std::filesystem::create_directories(folder / part);
+  }
+  std::mutex progress_mutex;
+  int done = 0;
+  ParallelFor(0, options.frames, 1, [&](int64_t frame) {
+    TakeFrame(plan, options, static_cast<int>(frame), folder);
+    const std::lock_guard<std::mutex> lock(progress_mutex);
+    progress("simulate", ++done, options.frames);
+  });
+  WriteTruth(plan, options, folder / "truth");
+  WriteIntrinsics(folder / "intrinsics.json", plan.sensor->camera(), plan.color.camera);
+  WriteTrajectory(
+      folder / "trajectory.txt", plan.frame_names,
+      DriftedPoses(plan.true_poses, options.motion.frame_rate, pose_errors, options.seed));
+  WriteFrameLists(folder, plan.frame_names);
+}
+
+}  // namespace curvefusion

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "experiments/simulation/motion.h"
+#include "experiments/simulation/objects.h"
+#include "experiments/simulation/scene.h"
+#include "kernel/progress.h"
+
+namespace curvefusion {
+
+/// A scan to simulate.
+struct SimulationOptions {
+  std::string object = "cubeframe";      ///< one of ObjectNames()
+  std::string sensor = "kinect_v1";      ///< one of SensorNames()
+  std::string pose_source = "orbslam2";  ///< one of PoseSourceNames()
+  uint64_t seed = 1;
+  int frames = 150;
+  double pose_error_scale = 1;          ///< factor on the pose source's errors
+  bool large_color = false;             ///< colour at 1280x1024 instead of 640x480
+  double registration_error_px = 1;     ///< fixed shift between depth and colour, in depth pixels
+  double registration_jitter_px = 0.5;  ///< standard deviation of its change from frame to frame
+  double readout_time = 0;  ///< seconds from first to last row (rolling shutter); 0 = all at once
+  ObjectOptions object_options;
+  SceneOptions scene;
+  MotionOptions motion;
+};
+
+void VisitOptions(SimulationOptions& options, OptionVisitor& visitor);
+
+/// Simulates a scan into `folder` (created where it is missing): a TUM sequence with depth/, rgb/,
+/// depth.txt, rgb.txt, associations.txt, trajectory.txt with the pose source's errors and
+/// intrinsics.json; and the truth: truth/skeleton.json with radii, truth/curves.json,
+/// truth/trajectory.txt without errors, truth/scene.json. The lists are written last, so that an
+/// interrupted scan is not taken for a whole one. The same options give the same bytes for any
+/// number of threads. Frames are made in parallel; one takes about .4 s of one core. Throws
+/// Error(kUsage) for an unknown name or a count that is not positive, Error(kResource) where a file
+/// cannot be written.
+void SimulateScan(const SimulationOptions& options, const std::filesystem::path& folder,
+                  const Progress& progress);
+
+}  // namespace curvefusion

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "experiments/simulation/depth_sensor.h"
+
+namespace curvefusion {
+
+/// A Kinect V2.
+struct TimeOfFlightOptions {
+  PinholeCamera camera{512, 424, 365, 365, 255.5, 211.5};
+  double blur_sigma_px = 0.9;  ///< the lens; decides which wires survive
+  double noise = 0.006;        ///< of each phasor's parts, relative to white at 1 m
+  double nearest = 0.5;
+  double farthest = 4.5;
+};
+
+/// Depth from the phase of modulated light at 16, 80 and 120 MHz: each pixel sums the phasors of
+/// everything it sees, so that edges give flying pixels and wires drown in the wall behind. The
+/// sums then pass an edge-preserving filter, unwrapping and the edge tests of the usual open driver
+/// (Xiang et al., libfreenect2), with its thresholds.
+class TimeOfFlightSensor : public DepthSensor {
+ public:
+  TimeOfFlightSensor(const TimeOfFlightOptions& options, uint64_t seed)
+      : options_(options), seed_(seed) {}
+
+  const PinholeCamera& camera() const override { return options_.camera; }
+  double WorkingDistance() const override { return 0.7; }
+  DepthImage Measure(const Scene& scene, const Exposure& exposure) const override;
+
+ private:
+  TimeOfFlightOptions options_;
+  uint64_t seed_;
+};
+
+}  // namespace curvefusion

@@ -1,0 +1,117 @@
+#include "experiments/simulation/objects.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "experiments/simulation/object_truth.h"
+#include "kernel/error.h"
+
+namespace curvefusion {
+namespace {
+
+// Independent counts: made with another program from the same drawings (junctions by valence,
+// components, cycles, free ends, length of wire in metres by diameter in millimetres).
+struct ObjectCounts {
+  std::string name;
+  std::map<int, int> valences;
+  int components;
+  int cycles;
+  int free_ends;
+  std::map<double, double> lengths;
+};
+
+std::vector<ObjectCounts> KnownCounts() {
+  return {{"dish", {{3, 14}}, 1, 8, 0, {{9, 1.32}, {5, 3.26}}},
+          {"cage", {{3, 20}, {4, 30}}, 1, 41, 0, {{4.5, 6.14}}},
+          {"cat", {{3, 22}}, 1, 12, 0, {{6, 1.95}, {4.5, 0.66}}},
+          {"deco", {{3, 14}}, 1, 8, 0, {{5.5, 2.58}}},
+          {"hanger", {{3, 30}}, 1, 16, 0, {{12, 1.79}, {4, 6.18}}},
+          {"rack", {{3, 32}}, 1, 17, 0, {{11, 2.07}, {5.5, 5.61}}},
+          {"chair", {{3, 70}, {4, 266}}, 1, 300, 4, {{4.5, 21.29}, {12, 2.17}}},
+          {"wine", {{3, 12}}, 1, 7, 0, {{6, 3.12}}},
+          {"cubeframe", {{3, 6}, {4, 4}, {5, 3}}, 1, 12, 1, {{4.5, 2.72}, {7, 0.355}}}};
+}
+
+std::map<int, int> CountDegrees(const SkeletonGraph& graph) {
+  std::map<int, int> degrees;
+  for (const NodeId node : graph.Nodes()) ++degrees[graph.Degree(node)];
+  return degrees;
+}
+
+class Objects : public testing::TestWithParam<ObjectCounts> {};
+
+TEST_P(Objects, TruthSkeletonHasTheCountedTopology) {
+  const SkeletonGraph truth = TruthSkeleton(MakeObject(GetParam().name));
+  std::map<int, int> expected = GetParam().valences;
+  if (GetParam().free_ends > 0) expected[1] = GetParam().free_ends;
+  EXPECT_EQ(CountDegrees(truth), expected);
+  EXPECT_EQ(truth.ComponentCount(), GetParam().components);
+  EXPECT_EQ(truth.CycleRank(), GetParam().cycles);
+}
+
+TEST_P(Objects, WireLengthsByDiameterAreThoseCounted) {
+  std::map<double, double> lengths;
+  for (const WireCurve& curve : MakeObject(GetParam().name).curves) {
+    lengths[std::round(curve.diameter * 1e4) / 10] += Length(curve.points);
+  }
+  ASSERT_EQ(lengths.size(), GetParam().lengths.size());
+  // 5 mm: the counts are given to a centimetre.
+  for (const auto& [diameter, length] : GetParam().lengths) {
+    EXPECT_NEAR(lengths[diameter], length, 0.0051) << diameter << " mm wire";
+  }
+}
+
+TEST_P(Objects, TruthSkeletonKeepsLengthAndRadii) {
+  const WireObject object = MakeObject(GetParam().name);
+  const SkeletonGraph truth = TruthSkeleton(object);
+  double length = 0;
+  for (const WireCurve& curve : object.curves) length += Length(curve.points);
+  // 0.05 %: polygons miss the true meeting of their curves by up to 0.05 mm at a contact.
+  EXPECT_NEAR(truth.TotalLength(), length, 0.0005 * length);
+  for (const EdgeId edge : truth.Edges()) {
+    EXPECT_EQ(truth.edge(edge).radii.size(), truth.edge(edge).points.size());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Counted, Objects, testing::ValuesIn(KnownCounts()),
+                         [](const auto& test) { return test.param.name; });
+
+TEST(StudyObjects, HaveTheStructureTheirStudiesNeed) {
+  EXPECT_EQ(TruthSkeleton(MakeObject("triangles")).ComponentCount(), 4);
+  EXPECT_EQ(TruthSkeleton(MakeObject("triangles")).CycleRank(), 4);
+  EXPECT_EQ(TruthSkeleton(MakeObject("parallel_wires")).ComponentCount(), 6);
+  EXPECT_EQ(CountDegrees(TruthSkeleton(MakeObject("valence6"))),
+            (std::map<int, int>{{1, 6}, {6, 1}}));
+  EXPECT_EQ(CountDegrees(TruthSkeleton(MakeObject("breadholder"))), (std::map<int, int>{{3, 10}}));
+  EXPECT_EQ(CountDegrees(TruthSkeleton(MakeObject("mesh_panel"))),
+            (std::map<int, int>{{3, 24}, {4, 36}}));
+  EXPECT_TRUE(MakeObject("empty").curves.empty());
+  EXPECT_TRUE(TruthSkeleton(MakeObject("empty")).empty());
+}
+
+TEST(StudyObjects, ObeySpacingAndDiameter) {
+  const WireObject wires = MakeObject("parallel_wires", {.wire_diameter = 0.003, .spacing = 0.012});
+  ASSERT_EQ(wires.curves.size(), 6u);
+  // Rounding of millimetres to metres only.
+  EXPECT_NEAR((wires.curves[1].points[0] - wires.curves[0].points[0]).norm(), 0.012, 1e-12);
+  for (const WireCurve& curve : wires.curves) EXPECT_EQ(curve.diameter, 0.003);
+}
+
+TEST(StudyObjects, EveryNameMakesAnObject) {
+  for (const std::string& name : ObjectNames()) EXPECT_EQ(MakeObject(name).name, name);
+}
+
+TEST(StudyObjects, UnknownNameIsRefusedWithTheNearest) {
+  try {
+    MakeObject("cagee");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kUsage);
+    EXPECT_THAT(error.what(), testing::HasSubstr("'cage'"));
+  }
+}
+
+}  // namespace
+}  // namespace curvefusion
