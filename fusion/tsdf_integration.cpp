@@ -107,7 +107,6 @@ class BlockUpdater {
                      block.weight.data() + row * kBlockSide + x);
       }
     }
-    SummariseSigns(block);
   }
 
  private:
@@ -150,16 +149,6 @@ class BlockUpdater {
     std::memcpy(weight, &count_16, sizeof(count_16));
   }
 
-  static void SummariseSigns(VoxelBlock& block) {
-    int inside = 0, outside = 0;
-    for (int i = 0; i < kBlockVoxels; ++i) {
-      inside |= block.tsdf[i] < 0;
-      outside |= block.tsdf[i] >= 0;
-    }
-    block.has_inside = inside != 0;
-    block.has_outside = outside != 0;
-  }
-
   ProjectiveVoxelMap map_;
   Vec3f step_x_, step_y_, step_z_;
   const DepthImage& depth_;
@@ -178,6 +167,7 @@ void UpdateBlocks(const IntegrationFrame& frame, const TsdfScale& scale, int max
     const int block = static_cast<int>(i);
     if (visibility.MayBeObserved(grid.key(block))) {
       updater.Update(grid.key(block), grid.block(block));
+      grid.SetSigns(block, FindSigns(grid.block(block)));
     }
   });
 }
