@@ -13,6 +13,9 @@ namespace {
 
 constexpr int kTileSide = 4;  ///< pixels; a tile's rays are treated as one tube
 constexpr int kTilePixels = kTileSide * kTileSide;
+/// Fewer measurements of similar depth in a tile are flying pixels or a wire, not the large
+/// surfaces the volume is for; in a noisy scan their blocks would outnumber all others.
+constexpr int kMinTileMeasurements = 4;
 constexpr int kTileRowsPerChunk = 4;
 
 // Finds the missing blocks along the tubes of some tiles, each reported about once.
@@ -57,8 +60,9 @@ class MissingBlockCollector {
       float* rest = std::partition(first, last, [&](float depth) {
         return depth <= nearest + static_cast<float>(truncation_);
       });
+      const bool is_surface = rest - first >= kMinTileMeasurements;
       for (; first != rest; ++first) farthest = std::max(farthest, *first);
-      AddTube(ray, std::max(0.0, nearest - truncation_), farthest + truncation_);
+      if (is_surface) AddTube(ray, std::max(0.0, nearest - truncation_), farthest + truncation_);
     }
   }
 

@@ -13,8 +13,9 @@ struct TsdfScale {
   double truncation = 0;
 };
 
-/// Keys of the blocks with a voxel within the truncation of a measurement that the grid has not
-/// yet, sorted. Conservative: a few blocks beside or behind may come along.
+/// Keys of the blocks with a voxel within the truncation of a surface that the grid has not yet,
+/// sorted. A surface is where at least four of 4 x 4 pixels measure similar depths; lone pixels
+/// allocate nothing. Conservative: a few blocks beside or behind may come along.
 std::vector<VoxelKey> FindMissingBlocks(const IntegrationFrame& frame, const TsdfScale& scale,
                                         const VoxelBlockGrid& grid);
 

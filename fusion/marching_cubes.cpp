@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "fusion/surface_cells.h"
 #include "kernel/parallel.h"
 
 namespace curvefusion {

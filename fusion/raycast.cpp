@@ -1,8 +1,6 @@
 #include "fusion/raycast.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
 #include <cstdlib>
 #include <optional>
@@ -18,24 +16,16 @@ namespace {
 constexpr int kBandRows = 16;  ///< image rows drawn by one thread at a time
 constexpr int kBlocksPerChunk = 128;
 
-// A range of cells in every axis, in voxels of a block: low inclusive, high exclusive.
-struct CellBox {
-  std::array<int, 3> low = {0, 0, 0};
-  std::array<int, 3> high = {kBlockSide, kBlockSide, kBlockSide};
-};
-
 // Pixel ranges, both ends inclusive.
 struct PixelBox {
   int u_min, u_max, v_min, v_max;
 };
 
-// A block with surface cells, where they are and the pixels they may cover.
-struct SurfaceBlock {
-  int block;
+// A block that may be seen, by its number in the list of surface blocks.
+struct VisibleBlock {
+  int surface_block;
   int order;  ///< of blocks on one ray the nearer has the smaller
-  CellBox box;
   PixelBox pixels;
-  CellMask cells;
 };
 
 // The camera with lengths in voxels of the world.
@@ -99,26 +89,6 @@ std::optional<PixelBox> FindCoveredPixels(const VoxelCamera& view, const VoxelKe
   return PixelBox{u_min, u_max, v_min, v_max};
 }
 
-// The smallest box around the set cells, of which there is at least one.
-CellBox BoundingBox(const CellMask& cells) {
-  CellBox box;
-  box.low.fill(kBlockSide);
-  box.high.fill(0);
-  unsigned columns = 0;
-  for (int row = 0; row < kBlockSide * kBlockSide; ++row) {
-    if (cells[row] == 0) continue;
-    columns |= cells[row];
-    const int y = row % kBlockSide, z = row / kBlockSide;
-    box.low[1] = std::min(box.low[1], y);
-    box.low[2] = std::min(box.low[2], z);
-    box.high[1] = std::max(box.high[1], y + 1);
-    box.high[2] = std::max(box.high[2], z + 1);
-  }
-  box.low[0] = std::countr_zero(columns);
-  box.high[0] = std::bit_width(columns);
-  return box;
-}
-
 // Along a ray the grid steps of block coordinates away from the camera's only add up, so their sum
 // orders the blocks of every ray front to back.
 int FrontToBackOrder(const VoxelKey& camera_block, const VoxelKey& key) {
@@ -126,31 +96,24 @@ int FrontToBackOrder(const VoxelKey& camera_block, const VoxelKey& key) {
          std::abs(key.z - camera_block.z);
 }
 
-// The blocks with surface cells in view, front to back.
-std::vector<SurfaceBlock> FindSurfaceBlocks(const VoxelBlockGrid& grid, const VoxelCamera& view) {
+// The surface blocks in view, front to back.
+std::vector<VisibleBlock> FindVisibleBlocks(const VoxelBlockGrid& grid,
+                                            const std::vector<SurfaceBlock>& surface,
+                                            const VoxelCamera& view) {
   const VoxelKey camera_block = VoxelOf(view.center, kBlockSide);
-  std::vector<std::vector<SurfaceBlock>> of_chunk(grid.size() / kBlocksPerChunk + 1);
-  ParallelChunks(0, grid.size(), kBlocksPerChunk, [&](int64_t first, int64_t last) {
-    CellCorners corners;
-    SurfaceBlock found;
-    for (int block = static_cast<int>(first); block < last; ++block) {
-      if (!MayContainSurface(grid, block)) continue;
-      if (!FindCoveredPixels(view, grid.key(block), CellBox())) continue;
-      GatherCellCorners(grid, block, corners);
-      if (!FindSurfaceCells(corners, found.cells)) continue;
-      found.box = BoundingBox(found.cells);
-      const auto pixels = FindCoveredPixels(view, grid.key(block), found.box);
-      if (!pixels) continue;
-      found.pixels = *pixels;
-      found.block = block;
-      found.order = FrontToBackOrder(camera_block, grid.key(block));
-      of_chunk[first / kBlocksPerChunk].push_back(found);
-    }
+  const auto count = static_cast<int64_t>(surface.size());
+  std::vector<std::vector<VisibleBlock>> of_chunk(count / kBlocksPerChunk + 1);
+  ParallelFor(0, count, kBlocksPerChunk, [&](int64_t i) {
+    const VoxelKey& key = grid.key(surface[i].block);
+    const auto pixels = FindCoveredPixels(view, key, surface[i].box);
+    if (!pixels) return;
+    of_chunk[i / kBlocksPerChunk].push_back(
+        {static_cast<int>(i), FrontToBackOrder(camera_block, key), *pixels});
   });
-  std::vector<SurfaceBlock> blocks;
+  std::vector<VisibleBlock> blocks;
   for (const auto& chunk : of_chunk) blocks.insert(blocks.end(), chunk.begin(), chunk.end());
   std::stable_sort(blocks.begin(), blocks.end(),
-                   [](const SurfaceBlock& a, const SurfaceBlock& b) { return a.order < b.order; });
+                   [](const VisibleBlock& a, const VisibleBlock& b) { return a.order < b.order; });
   return blocks;
 }
 
@@ -235,8 +198,8 @@ float CrossBlock(const CellCorners& corners, const SurfaceBlock& block, const Bl
   int cell[3], step[3];
   float t_next[3];
   for (int axis = 0; axis < 3; ++axis) {
-    cell[axis] =
-        std::clamp(static_cast<int>(start[axis]), block.box.low[axis], block.box.high[axis] - 1);
+    cell[axis] = std::clamp<int>(static_cast<int>(start[axis]), block.box.low[axis],
+                                 block.box.high[axis] - 1);
     step[axis] = ray.direction[axis] > 0 ? 1 : -1;
     const float face = static_cast<float>(cell[axis] + (step[axis] > 0));
     t_next[axis] = (face - ray.origin[axis]) * per_direction[axis];
@@ -256,16 +219,15 @@ float CrossBlock(const CellCorners& corners, const SurfaceBlock& block, const Bl
   }
 }
 
-// Draws the part of a block in rows [v_first, v_last] into pixels nothing nearer has covered.
+// Draws a block into those pixels that nothing nearer has covered.
 void DrawBlock(const VoxelBlockGrid& grid, const VoxelCamera& view, const SurfaceBlock& block,
-               int v_first, int v_last, DepthImage& depth) {
+               const PixelBox& pixels, DepthImage& depth) {
   CellCorners corners;
   bool is_gathered = false;
   const VoxelKey& key = grid.key(block.block);
   BlockRay ray;
   ray.origin = (view.center - kBlockSide * Vec3(key.x, key.y, key.z)).cast<float>();
-  const PixelBox& pixels = block.pixels;
-  for (int v = std::max(v_first, pixels.v_min); v <= std::min(v_last, pixels.v_max); ++v) {
+  for (int v = pixels.v_min; v <= pixels.v_max; ++v) {
     for (int u = pixels.u_min; u <= pixels.u_max; ++u) {
       if (depth(u, v) > 0) continue;
       if (!is_gathered) GatherCellCorners(grid, block.block, corners);
@@ -282,16 +244,19 @@ void DrawBlock(const VoxelBlockGrid& grid, const VoxelCamera& view, const Surfac
 
 }  // namespace
 
-DepthImage RaycastBlocks(const VoxelBlockGrid& grid, double voxel_size, const PinholeCamera& camera,
+DepthImage RaycastBlocks(const VoxelBlockGrid& grid, const std::vector<SurfaceBlock>& surface,
+                         double voxel_size, const PinholeCamera& camera,
                          const RigidTransform& T_world_camera) {
   const VoxelCamera view(camera, T_world_camera, voxel_size);
-  const std::vector<SurfaceBlock> blocks = FindSurfaceBlocks(grid, view);
+  const std::vector<VisibleBlock> blocks = FindVisibleBlocks(grid, surface, view);
   DepthImage depth(camera.width, camera.height, 0);
   ParallelChunks(0, camera.height, kBandRows, [&](int64_t first, int64_t last) {
-    const int v_first = static_cast<int>(first), v_last = static_cast<int>(last) - 1;
-    for (const SurfaceBlock& block : blocks) {
-      if (block.pixels.v_min > v_last || block.pixels.v_max < v_first) continue;
-      DrawBlock(grid, view, block, v_first, v_last, depth);
+    for (const VisibleBlock& block : blocks) {
+      PixelBox pixels = block.pixels;
+      pixels.v_min = std::max(pixels.v_min, static_cast<int>(first));
+      pixels.v_max = std::min(pixels.v_max, static_cast<int>(last) - 1);
+      if (pixels.v_min > pixels.v_max) continue;
+      DrawBlock(grid, view, surface[block.surface_block], pixels, depth);
     }
   });
   return depth;

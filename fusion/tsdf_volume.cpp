@@ -2,10 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <mutex>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "fusion/marching_cubes.h"
 #include "fusion/raycast.h"
+#include "fusion/surface_cells.h"
 #include "fusion/tsdf_integration.h"
 #include "fusion/voxel_blocks.h"
 #include "kernel/error.h"
@@ -71,6 +76,13 @@ struct TsdfVolume::Impl {
 
   void CheckReach(const PinholeCamera& camera, const RigidTransform& T_world_camera) const;
   void Allocate(const std::vector<VoxelKey>& keys);
+  const std::vector<SurfaceBlock>& SurfaceBlocks() const;
+  void ForgetSurface() { surface_.reset(); }
+
+ private:
+  // Found by the first raycast after an integration; raycasts may run at the same time.
+  mutable std::mutex surface_mutex_;
+  mutable std::optional<std::vector<SurfaceBlock>> surface_;
 };
 
 // No measurement may fall on a block whose key the grid cannot hold.
@@ -103,6 +115,12 @@ void TsdfVolume::Impl::Allocate(const std::vector<VoxelKey>& keys) {
   for (const VoxelKey& key : keys) grid.Insert(key);
 }
 
+const std::vector<SurfaceBlock>& TsdfVolume::Impl::SurfaceBlocks() const {
+  const std::lock_guard<std::mutex> lock(surface_mutex_);
+  if (!surface_) surface_ = FindSurfaceBlocks(grid);
+  return *surface_;
+}
+
 TsdfVolume::TsdfVolume(const TsdfOptions& options) : impl_(std::make_unique<Impl>()) {
   impl_->options = Checked(options);
   impl_->scale = {options.voxel_size, options.truncation_voxels * options.voxel_size};
@@ -125,12 +143,14 @@ void TsdfVolume::Integrate(const DepthImage& depth, const PinholeCamera& camera,
   const IntegrationFrame frame(depth, camera, T_world_camera, impl_->options.max_depth);
   impl_->Allocate(FindMissingBlocks(frame, impl_->scale, impl_->grid));
   UpdateBlocks(frame, impl_->scale, impl_->options.max_weight, impl_->grid);
+  impl_->ForgetSurface();
 }
 
 DepthImage TsdfVolume::Raycast(const PinholeCamera& camera,
                                const RigidTransform& T_world_camera) const {
   CheckPose(T_world_camera);
-  return RaycastBlocks(impl_->grid, impl_->scale.voxel_size, camera, T_world_camera);
+  return RaycastBlocks(impl_->grid, impl_->SurfaceBlocks(), impl_->scale.voxel_size, camera,
+                       T_world_camera);
 }
 
 TriangleMesh TsdfVolume::ExtractMesh() const {

@@ -60,6 +60,7 @@ int VoxelBlockGrid::Insert(const VoxelKey& key) {
   slots_[SlotOf(packed_key)] = {packed_key, number};
   keys_.push_back(key);
   blocks_.push_back(std::move(block));
+  signs_.emplace_back();
   neighbours_.emplace_back();
   LinkNeighbours(number);
   return number;
@@ -76,79 +77,24 @@ void VoxelBlockGrid::LinkNeighbours(int block) {
 
 size_t VoxelBlockGrid::BytesPerBlock() {
   // Two slots each, because the table is at most half full.
-  return sizeof(VoxelBlock) + sizeof(VoxelKey) + sizeof(void*) + sizeof(std::array<int, 8>) +
-         2 * sizeof(Slot);
+  return sizeof(VoxelBlock) + sizeof(VoxelKey) + sizeof(void*) + sizeof(BlockSigns) +
+         sizeof(std::array<int, 8>) + 2 * sizeof(Slot);
 }
 
 size_t VoxelBlockGrid::memory_bytes() const {
   return keys_.capacity() * sizeof(VoxelKey) + blocks_.capacity() * sizeof(void*) +
+         signs_.capacity() * sizeof(BlockSigns) +
          neighbours_.capacity() * sizeof(std::array<int, 8>) + slots_.capacity() * sizeof(Slot) +
          blocks_.size() * sizeof(VoxelBlock);
 }
 
-void GatherCellCorners(const VoxelBlockGrid& grid, int block, CellCorners& corners) {
-  static constexpr auto kNothing = [] {
-    std::array<float, kBlockVoxels> values{};
-    values.fill(kUnobserved);
-    return values;
-  }();
-  std::array<const float*, 8> sources;
-  for (int i = 0; i < 8; ++i) {
-    const int neighbour = grid.UpperNeighbours(block)[i];
-    sources[i] =
-        (neighbour == VoxelBlockGrid::kNone ? kNothing : grid.block(neighbour).tsdf).data();
+BlockSigns FindSigns(const VoxelBlock& block) {
+  int inside = 0, outside = 0;
+  for (const float tsdf : block.tsdf) {
+    inside |= tsdf < 0;
+    outside |= tsdf >= 0;
   }
-  float* row = corners.data();
-  for (int z = 0; z < kCornerSide; ++z) {
-    for (int y = 0; y < kCornerSide; ++y, row += kCornerSide) {
-      const int source = 2 * (y / kBlockSide) + 4 * (z / kBlockSide);
-      const int offset = kBlockSide * (y % kBlockSide) + 64 * (z % kBlockSide);
-      std::copy_n(sources[source] + offset, kBlockSide, row);
-      row[kBlockSide] = sources[source + 1][offset];
-    }
-  }
-}
-
-bool FindSurfaceCells(const CellCorners& corners, CellMask& cells) {
-  // One bit per corner of a row: the eight cells of a row are then decided together.
-  std::array<uint16_t, kCornerSide * kCornerSide> inside, outside;
-  for (size_t row = 0; row < inside.size(); ++row) {
-    const float* values = corners.data() + row * kCornerSide;
-    unsigned negative = 0, positive = 0;
-    for (int x = 0; x < kCornerSide; ++x) {
-      negative |= static_cast<unsigned>(values[x] < 0) << x;
-      positive |= static_cast<unsigned>(values[x] >= 0) << x;
-    }
-    inside[row] = static_cast<uint16_t>(negative);
-    outside[row] = static_cast<uint16_t>(positive);
-  }
-  unsigned found = 0;
-  for (int z = 0; z < kBlockSide; ++z) {
-    for (int y = 0; y < kBlockSide; ++y) {
-      unsigned any_inside = 0, any_outside = 0, observed = ~0u;
-      for (const int row : {y + kCornerSide * z, y + 1 + kCornerSide * z, y + kCornerSide * (z + 1),
-                            y + 1 + kCornerSide * (z + 1)}) {
-        any_inside |= inside[row];
-        any_outside |= outside[row];
-        observed &= inside[row] | outside[row];
-      }
-      const unsigned cell = (any_inside | any_inside >> 1) & (any_outside | any_outside >> 1) &
-                            observed & observed >> 1;
-      cells[y + kBlockSide * z] = static_cast<uint8_t>(cell);
-      found |= cell & 0xff;
-    }
-  }
-  return found != 0;
-}
-
-bool MayContainSurface(const VoxelBlockGrid& grid, int block) {
-  bool has_inside = false, has_outside = false;
-  for (const int neighbour : grid.UpperNeighbours(block)) {
-    if (neighbour == VoxelBlockGrid::kNone) continue;
-    has_inside |= grid.block(neighbour).has_inside;
-    has_outside |= grid.block(neighbour).has_outside;
-  }
-  return has_inside && has_outside;
+  return {inside != 0, outside != 0};
 }
 
 }  // namespace curvefusion

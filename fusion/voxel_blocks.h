@@ -19,9 +19,14 @@ struct VoxelBlock {
   /// observed, so that whatever is interpolated from an unobserved voxel is NaN as well.
   std::array<float, kBlockVoxels> tsdf;
   std::array<uint16_t, kBlockVoxels> weight;  ///< observations in the mean
-  bool has_inside = false;                    ///< some observed voxel is negative
-  bool has_outside = false;                   ///< some observed voxel is not
 };
+
+/// Which signs the observed voxels of a block have.
+struct BlockSigns {
+  bool has_inside = false;   ///< some are negative
+  bool has_outside = false;  ///< some are not
+};
+BlockSigns FindSigns(const VoxelBlock& block);
 
 /// Blocks at any place of an unbounded grid, found by key through an open-addressing hash table and
 /// numbered in order of insertion. Voxel (x, y, z) of the block with key k is the sample of the
@@ -44,6 +49,11 @@ class VoxelBlockGrid {
   VoxelBlock& block(int block) { return *blocks_[block]; }
   const VoxelBlock& block(int block) const { return *blocks_[block]; }
 
+  /// To be set by whoever changes a block's voxels; kept apart from them because every block's are
+  /// asked for at each raycast.
+  void SetSigns(int block, const BlockSigns& signs) { signs_[block] = signs; }
+  const BlockSigns& signs(int block) const { return signs_[block]; }
+
   /// The blocks at key + (i & 1, i >> 1 & 1, i >> 2 & 1) for i = 0 .. 7, or kNone. Entry 0 is the
   /// block itself.
   const std::array<int, 8>& UpperNeighbours(int block) const { return neighbours_[block]; }
@@ -64,25 +74,10 @@ class VoxelBlockGrid {
 
   std::vector<VoxelKey> keys_;
   std::vector<std::unique_ptr<VoxelBlock>> blocks_;
+  std::vector<BlockSigns> signs_;
   std::vector<std::array<int, 8>> neighbours_;
   std::vector<Slot> slots_;  ///< a power of two, at most half full
   int slot_shift_ = 0;       ///< the hash's upper bits that index slots_
 };
-
-/// The field at the 9^3 corners of a block's 8^3 cells: the cell of voxel (x, y, z) spans from it
-/// to (x+1, y+1, z+1), the last of them in the next block. Corner (x, y, z) at index x + 9 y + 81
-/// z; NaN where unobserved.
-inline constexpr int kCornerSide = kBlockSide + 1;
-using CellCorners = std::array<float, kCornerSide * kCornerSide * kCornerSide>;
-void GatherCellCorners(const VoxelBlockGrid& grid, int block, CellCorners& corners);
-
-/// Bit x of row y + 8 z: the eight corners of cell (x, y, z) are observed and of both signs.
-using CellMask = std::array<uint8_t, kBlockSide * kBlockSide>;
-/// Returns whether any cell is set.
-bool FindSurfaceCells(const CellCorners& corners, CellMask& cells);
-
-/// Whether the block's cells can contain a surface, judged without looking at their voxels: false
-/// means certainly not.
-bool MayContainSurface(const VoxelBlockGrid& grid, int block);
 
 }  // namespace curvefusion

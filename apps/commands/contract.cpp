@@ -14,6 +14,7 @@
 #include "graph/graph_io.h"
 #include "graph/l1_contraction.h"
 #include "graph/ridge_skeleton.h"
+#include "graph/suggested_radius.h"
 #include "kernel/cloud_io.h"
 #include "kernel/parallel.h"
 

@@ -17,7 +17,6 @@ TEST(BlockAllocation, CoversEveryVoxelWithinTheTruncationAndLittleMore) {
   const DepthAlongRay scene =
       Union(Sphere({0, 0, 0.5}, 0.15), Plane(Vec3(0.3, 0.1, 1).normalized(), 0.9));
   DepthImage depth = RenderDepth(scene, camera, pose);
-  for (int v = 0; v < camera.height; v += 7) depth(v, v) = 0.33f;  // single pixels count, too
   const IntegrationFrame frame(depth, camera, pose, 4.0);
   const std::vector<VoxelKey> keys = FindMissingBlocks(frame, scale, VoxelBlockGrid());
   const std::set<VoxelKey> found(keys.begin(), keys.end());
@@ -45,6 +44,17 @@ TEST(BlockAllocation, CoversEveryVoxelWithinTheTruncationAndLittleMore) {
   }
   // Boxes around tubes of 4 pixels, 9 mm, dilate the bands of 80 mm.
   EXPECT_LT(found.size(), 1.3 * static_cast<double>(needed.size()));
+}
+
+TEST(BlockAllocation, LonePixelsAllocateNothing) {
+  const PinholeCamera camera = KinectCamera(0.25);
+  DepthImage depth(camera.width, camera.height, 0);
+  for (int v = 0; v < camera.height; v += 4) {
+    for (int u = 0; u < camera.width; u += 4) depth(u, v) = depth(u + 1, v + 1) = 1.0f;
+  }
+  const RigidTransform pose = RigidTransform::Identity();
+  const IntegrationFrame frame(depth, camera, pose, 4);
+  EXPECT_TRUE(FindMissingBlocks(frame, {0.01, 0.04}, VoxelBlockGrid()).empty());
 }
 
 TEST(BlockAllocation, ReportsOnlyWhatIsMissing) {

@@ -55,7 +55,7 @@ TEST(Raycast, AgreesWithSmallStepsThroughEveryVoxel) {
       LookAt({0.011, 0.023, 0.031}, {0.1, -0.02, 0}), RigidTransform::Identity()};
   int compared = 0, differing = 0;
   for (const RigidTransform& pose : poses) {
-    const DepthImage rendering = RaycastBlocks(grid, kVoxel, camera, pose);
+    const DepthImage rendering = RaycastBlocks(grid, FindSurfaceBlocks(grid), kVoxel, camera, pose);
     for (int v = 0; v < camera.height; ++v) {
       for (int u = 0; u < camera.width; ++u) {
         const Vec3 ray = pose.linear() * camera.Unproject(u, v, 1);
@@ -75,7 +75,8 @@ TEST(Raycast, CameraOnAVoxelLookingAlongAnAxisHasNoHoles) {
   // Every quantity is a whole number: faces, edges and corners of cells are met exactly.
   const VoxelBlockGrid grid = SampleField([](const Vec3& p) { return 0.25 * (8 - p.z()); }, -2, 1);
   const PinholeCamera camera{33, 33, 16, 16, 16, 16};
-  const DepthImage rendering = RaycastBlocks(grid, kVoxel, camera, RigidTransform::Identity());
+  const DepthImage rendering =
+      RaycastBlocks(grid, FindSurfaceBlocks(grid), kVoxel, camera, RigidTransform::Identity());
   for (int v = 0; v < 33; ++v) {
     for (int u = 0; u < 33; ++u) {
       EXPECT_NEAR(rendering(u, v), 0.08, 1e-6) << u << " " << v;

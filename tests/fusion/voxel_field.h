@@ -14,14 +14,14 @@ inline VoxelBlockGrid SampleField(const std::function<double(const Vec3&)>& fiel
   for (int z = low; z <= high; ++z) {
     for (int y = low; y <= high; ++y) {
       for (int x = low; x <= high; ++x) {
-        VoxelBlock& block = grid.block(grid.Insert({x, y, z}));
+        const int number = grid.Insert({x, y, z});
+        VoxelBlock& block = grid.block(number);
         for (int i = 0; i < kBlockVoxels; ++i) {
           const Vec3 voxel(8 * x + (i & 7), 8 * y + (i >> 3 & 7), 8 * z + (i >> 6));
           block.tsdf[i] = static_cast<float>(field(voxel));
           block.weight[i] = 1;
-          block.has_inside |= block.tsdf[i] < 0;
-          block.has_outside |= block.tsdf[i] >= 0;
         }
+        grid.SetSigns(number, FindSigns(block));
       }
     }
   }
