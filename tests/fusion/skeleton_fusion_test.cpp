@@ -134,7 +134,7 @@ TEST_P(FuseSkeletonsTest, IdenticalGraphsDoNotGrow) {
 TEST_P(FuseSkeletonsTest, ALatticeSeenInSixBundlesIsTheLattice) {
   constexpr double kSpacing = 0.05;
   const SkeletonGraph truth = Lattice(4, 8, kSpacing);
-  for (unsigned seed = 0; seed < 5; ++seed) {
+  for (unsigned seed = 0; seed < 3; ++seed) {
     SkeletonGraph fused;
     for (int bundle = 0; bundle < 6; ++bundle) {
       RigidTransform T = RigidTransform::Identity();
@@ -242,9 +242,9 @@ TEST_P(FuseSkeletonsTest, MessyBundlesEndValid) {
       return size * Vec3(unit(random), unit(random), unit(random));
     };
     SkeletonGraph fused;
-    for (int bundle = 0; bundle < 4; ++bundle) {
+    for (int bundle = 0; bundle < 3; ++bundle) {
       SkeletonGraph messy = Perturbed(Lattice(3, 3, 0.05), Drift(seed, 0.003, 0.01), 0.002, bundle);
-      for (int fragment = 0; fragment < 150; ++fragment) {
+      for (int fragment = 0; fragment < 100; ++fragment) {
         Polyline points = {vector(0.1)};
         for (int i = 0; i < 1 + fragment % 12; ++i) points.push_back(points.back() + vector(0.004));
         messy.AddPolyline(points);
