@@ -187,8 +187,8 @@ class PartAttacher {
     const SkeletonEdge& edge = bundle_.edge(stretch.edge);
     const size_t first = stretch.first > 0 ? stretch.first - 1 : 0;
     const size_t last = std::min(stretch.last + 1, edge.points.size() - 1);
-    return PartOfEdge(edge, CumulativeLength(edge.points), CumulativeLength(edge.points)[first],
-                      CumulativeLength(edge.points)[last]);
+    const std::vector<double> arcs = CumulativeLength(edge.points);
+    return PartOfEdge(edge, arcs, arcs[first], arcs[last]);
   }
 
   // Whether a stretch says nothing new: it stays within the overlap distance and leads nowhere, or
@@ -222,7 +222,7 @@ class PartAttacher {
     curve.nodes = {first, last};
     bent.AddEdge(curve);
     for (int end = 0; end < 2; ++end) {
-      const Vec3 target = places[end] ? places[end]->position : NewNodePosition(bundle_nodes[end]);
+      const Vec3 target = places[end] ? places[end]->position : bundle_.position(bundle_nodes[end]);
       const double moved = (target - bent.position(curve.nodes[end])).norm();
       MoveNodeSmoothly(bent, curve.nodes[end], target, kFade * moved);
     }
@@ -253,7 +253,6 @@ class PartAttacher {
     if (is_new) found->second = partial_.AddNode(bundle_.position(bundle_node));
     return found->second;
   }
-  Vec3 NewNodePosition(NodeId bundle_node) const { return bundle_.position(bundle_node); }
 
   SkeletonGraph& partial_;
   const SkeletonGraph& bundle_;

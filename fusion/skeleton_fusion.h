@@ -24,8 +24,7 @@ struct SkeletonFusionOptions {
   AlignmentOptions alignment;
   SmoothingOptions smoothing;
 };
-/// Visits the options of this step and, with prefixes in their names, nothing of `alignment` and
-/// `smoothing`: those have sections of their own.
+/// Visits all but `alignment` and `smoothing`, which have sections of their own.
 void VisitOptions(SkeletonFusionOptions& options, OptionVisitor& visitor);
 
 /// The options as the paper has them.
