@@ -115,7 +115,7 @@ class Contraction {
 Contraction::Contraction(const std::vector<Vec3>& points, const L1Options& options)
     : points_(points), options_(options), point_index_(points) {
   const double spacing = options.sample_spacing * options.initial_radius;
-  softening_ = 0.1 * spacing;
+  softening_ = 0.1 * spacing;  // samples start on points, where 1 / r has no value
   point_weights_ = InverseDensities(points, point_index_, spacing);
   std::vector<int> neighbours;
   for (const Vec3& p : WellSpreadSubset(points, point_index_, spacing)) {
@@ -129,6 +129,7 @@ Contraction::Contraction(const std::vector<Vec3>& points, const L1Options& optio
   list_origins_.resize(samples_.size());
 }
 
+// Lists of near points hold for as long as their sample stays within this part of the radius.
 constexpr double kSkin = 0.2;
 
 void Contraction::FindPoints(int64_t i, double radius) {
@@ -153,6 +154,8 @@ Vec3 Contraction::LocalMedian(int64_t i, const Kernel& theta) const {
   return total > 0 ? Vec3(sum / total) : samples_[i];
 }
 
+// The weighted mean of the offsets from the other samples, of which the part along the curve
+// counts: across it the median alone decides.
 Contraction::Repulsion Contraction::RepulsionAt(int64_t i, const Kernel& theta,
                                                 const std::vector<int>& neighbours) const {
   Repulsion result;
@@ -211,6 +214,7 @@ void Contraction::Contract(double radius) {
   }
 }
 
+// A sample and its five nearest, over which Huang et al. 2013, 4.2 smooth sigma.
 constexpr int kSmoothedNeighbours = 6;
 
 void Contraction::FixBranches() {
@@ -267,7 +271,9 @@ void VisitOptions(L1Options& options, OptionVisitor& visitor) {
                  "gaps."},
                 options.sample_spacing);
   visitor.Visit({"repulsion", "", 0.0, 0.5,
-                 "Strength mu of the repulsion between samples. Huang et al. 2013, Eq. 7."},
+                 "Strength mu of the repulsion between samples. Huang et al. 2013, Eq. 7. "
+                 "Deviation: only along the dominant direction, which keeps the samples on the "
+                 "curve."},
                 options.repulsion);
   visitor.Visit({"minimum_neighbours", "points", 0, 1000,
                  "A sample with fewer other points within initial_radius is noise. Choice of this "

@@ -51,7 +51,7 @@ PointIndex::PointIndex(const std::vector<Vec3>& points) : impl_(std::make_unique
       std::make_unique<Tree>(boost::counting_iterator<int>(0),
                              boost::counting_iterator<int>(static_cast<int>(points.size())),
                              Tree::Splitter(), Traits(impl_->map));
-  impl_->tree->build();
+  if (!points.empty()) impl_->tree->build();
 }
 
 PointIndex::~PointIndex() = default;
