@@ -103,18 +103,29 @@ double DeviationWithout(const TubeAxis& axis, const std::vector<size_t>& kept, s
   return deviation;
 }
 
-// Drops points at kinks that are as small as noise: bends too tight for a tube.
+// Drops points at kinks that are as small as noise: bends too tight for a tube. Of the two points
+// of a segment only one that turns about as much as the other makes the kink.
 std::vector<size_t> SmoothKinks(const TubeAxis& axis, std::vector<size_t> kept,
                                 const AxisOptions& options) {
   for (size_t k = 0; k + 1 < kept.size();) {
-    const bool kink = NeedsCut(axis, kept, k, options.max_turn);
-    const double first = kink ? DeviationWithout(axis, kept, k) : 0;
-    const double second = kink ? DeviationWithout(axis, kept, k + 1) : 0;
-    if (!kink || std::min(first, second) > options.kink_tolerance) {
+    size_t drop = 0;
+    double deviation = options.kink_tolerance;
+    if (NeedsCut(axis, kept, k, options.max_turn)) {
+      const double turn = std::max(TurnAt(axis, kept, k), TurnAt(axis, kept, k + 1));
+      for (const size_t i : {k, k + 1}) {
+        if (TurnAt(axis, kept, i) < turn / 2) continue;
+        const double d = DeviationWithout(axis, kept, i);
+        if (d <= deviation) {
+          deviation = d;
+          drop = i;
+        }
+      }
+    }
+    if (drop == 0) {
       ++k;
       continue;
     }
-    kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(first <= second ? k : k + 1));
+    kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(drop));
     k = k > 2 ? k - 2 : 0;
   }
   return kept;

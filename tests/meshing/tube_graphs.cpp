@@ -117,8 +117,12 @@ SkeletonGraph MixedRadii(Random& random) {
   SkeletonGraph graph = Star(random);
   for (const EdgeId id : graph.Edges()) {
     const double thin = Uniform(random, 1, 2) * kMm;
-    const double thick = thin * Uniform(random, 1, 4);
-    if (Integer(random, 0, 1) == 0) {
+    // Along a tube the radius changes gently: on a steep cone cross-sections and balls of the same
+    // radius are different tubes.
+    const bool jump = Integer(random, 0, 1) == 0;
+    const double steepest = thin + 0.15 * Length(graph.edge(id).points);
+    const double thick = std::min(thin * Uniform(random, 1, 4), jump ? 1.0 : steepest);
+    if (jump) {
       SetRadius(graph, id, thick, thick);
     } else {
       SetRadius(graph, id, thin, thick);
