@@ -12,18 +12,22 @@
 namespace curvefusion {
 namespace {
 
-using Maker = std::function<std::unique_ptr<DepthSensor>(uint64_t seed)>;
+using Maker = std::function<std::unique_ptr<DepthSensor>(uint64_t seed,
+                                                         const BlockMatchingOptions& matching)>;
 
 Maker StructuredLight(double focal_length_px) {
-  return [=](uint64_t seed) {
+  return [=](uint64_t seed, const BlockMatchingOptions& matching) {
     StructuredLightOptions options;
+    options.matching = matching;
     options.camera.fx = options.camera.fy = focal_length_px;
     return std::make_unique<StructuredLightSensor>(options, seed);
   };
 }
 
 Maker Footprint(const FootprintSensorOptions& options) {
-  return [=](uint64_t seed) { return std::make_unique<FootprintSensor>(options, seed); };
+  return [=](uint64_t seed, const BlockMatchingOptions&) {
+    return std::make_unique<FootprintSensor>(options, seed);
+  };
 }
 
 const std::map<std::string, Maker>& Makers() {
@@ -31,7 +35,7 @@ const std::map<std::string, Maker>& Makers() {
       {"kinect_v1", StructuredLight(580)},
       {"primesense", StructuredLight(570)},
       {"kinect_v2",
-       [](uint64_t seed) {
+       [](uint64_t seed, const BlockMatchingOptions&) {
          return std::make_unique<TimeOfFlightSensor>(TimeOfFlightOptions(), seed);
        }},
       {"sr300", Footprint(RealSenseSr300())},
@@ -49,13 +53,14 @@ std::vector<std::string> SensorNames() {
   return names;
 }
 
-std::unique_ptr<DepthSensor> MakeDepthSensor(const std::string& name, uint64_t seed) {
+std::unique_ptr<DepthSensor> MakeDepthSensor(const std::string& name, uint64_t seed,
+                                             const BlockMatchingOptions& matching) {
   const auto found = Makers().find(name);
   if (found == Makers().end()) {
     throw Error(ErrorKind::kUsage, "no sensor is called '" + name + "'; did you mean '" +
                                        NearestName(name, SensorNames()) + "'?");
   }
-  return found->second(seed);
+  return found->second(seed, matching);
 }
 
 }  // namespace curvefusion

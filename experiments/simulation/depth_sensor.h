@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/simulation/block_matching.h"
 #include "experiments/simulation/scene.h"
 #include "kernel/camera.h"
 #include "kernel/image.h"
@@ -37,7 +38,9 @@ class DepthSensor {
 /// `artec_spider`, `ideal`.
 std::vector<std::string> SensorNames();
 
-/// A sensor by name; `seed` draws its pattern and noise. Throws Error(kUsage) for another name.
-std::unique_ptr<DepthSensor> MakeDepthSensor(const std::string& name, uint64_t seed);
+/// A sensor by name; `seed` draws its pattern and noise, `matching` is for those of structured
+/// light. Throws Error(kUsage) for another name.
+std::unique_ptr<DepthSensor> MakeDepthSensor(const std::string& name, uint64_t seed,
+                                             const BlockMatchingOptions& matching = {});
 
 }  // namespace curvefusion

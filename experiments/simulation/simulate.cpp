@@ -31,10 +31,31 @@ struct ScanPlan {
   std::vector<std::string> frame_names;
 };
 
-void CheckCounts(const SimulationOptions& options) {
+void CheckOptions(const SimulationOptions& options) {
   if (options.frames < 1) {
     throw Error(ErrorKind::kUsage,
                 "a scan needs at least 1 frame, not " + std::to_string(options.frames));
+  }
+  if (options.readout_time * options.motion.frame_rate > 1) {
+    throw Error(ErrorKind::kUsage, "rows cannot be read for " +
+                                       std::to_string(options.readout_time) + " s at " +
+                                       std::to_string(options.motion.frame_rate) +
+                                       " frames a second: lower readout_time or frame_rate");
+  }
+}
+
+// Makes the folders; the lists of an earlier scan go first, as its images are overwritten.
+void PrepareFolder(const std::filesystem::path& folder) {
+  std::error_code failure;
+  for (const char* part : {"depth", "rgb", "truth"}) {
+    std::filesystem::create_directories(folder / part, failure);
+    if (failure) {
+      throw Error(ErrorKind::kResource,
+                  "cannot make the folder " + (folder / part).string() + ": " + failure.message());
+    }
+  }
+  for (const char* list : {"associations.txt", "depth.txt", "rgb.txt", "trajectory.txt"}) {
+    std::filesystem::remove(folder / list, failure);
   }
 }
 
@@ -69,7 +90,7 @@ ScanPlan PlanScan(const SimulationOptions& options) {
   ScanPlan plan;
   plan.scene =
       MakeScene(MakeObject(options.object, options.object_options), options.scene, options.seed);
-  plan.sensor = MakeDepthSensor(options.sensor, options.seed);
+  plan.sensor = MakeDepthSensor(options.sensor, options.seed, options.matching);
   plan.color.camera = ColorCamera(plan.sensor->camera(), options.large_color);
   plan.color_shift_px = RegistrationShift(options);
   plan.true_poses = HandheldPath(TaskOf(plan.scene, *plan.sensor, options.motion), options.frames,
@@ -174,16 +195,15 @@ void VisitOptions(SimulationOptions& options, OptionVisitor& visitor) {
                 options.object_options.spacing);
   VisitOptions(options.scene, visitor);
   VisitOptions(options.motion, visitor);
+  VisitOptions(options.matching, visitor);
 }
 
 void SimulateScan(const SimulationOptions& options, const std::filesystem::path& folder,
                   const Progress& progress) {
-  CheckCounts(options);
+  CheckOptions(options);
   const PoseErrorModel pose_errors = PoseErrorOf(options.pose_source, options.pose_error_scale);
   const ScanPlan plan = PlanScan(options);
-  for (const char* part : {"depth", "rgb", "truth"}) {
-    std::filesystem::create_directories(folder / part);
-  }
+  PrepareFolder(folder);
   std::mutex progress_mutex;
   int done = 0;
   ParallelFor(0, options.frames, 1, [&](int64_t frame) {

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 
+#include "experiments/simulation/block_matching.h"
 #include "experiments/simulation/motion.h"
 #include "experiments/simulation/objects.h"
 #include "experiments/simulation/scene.h"
@@ -25,6 +26,7 @@ struct SimulationOptions {
   ObjectOptions object_options;
   SceneOptions scene;
   MotionOptions motion;
+  BlockMatchingOptions matching;  ///< of kinect_v1 and primesense
 };
 
 void VisitOptions(SimulationOptions& options, OptionVisitor& visitor);
@@ -35,8 +37,8 @@ void VisitOptions(SimulationOptions& options, OptionVisitor& visitor);
 /// truth/trajectory.txt without errors, truth/scene.json. The lists are written last, so that an
 /// interrupted scan is not taken for a whole one. The same options give the same bytes for any
 /// number of threads. Frames are made in parallel; one takes about .4 s of one core. Throws
-/// Error(kUsage) for an unknown name or a count that is not positive, Error(kResource) where a file
-/// cannot be written.
+/// Error(kUsage) for an unknown name, a count that is not positive or a readout longer than a
+/// frame, Error(kResource) where a file cannot be written.
 void SimulateScan(const SimulationOptions& options, const std::filesystem::path& folder,
                   const Progress& progress);
 

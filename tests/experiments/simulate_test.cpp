@@ -88,6 +88,8 @@ TEST(SimulateScan, InterruptedScanIsNoSequence) {
   SimulationOptions options;
   options.sensor = "ideal";
   options.frames = 3;
+  SimulateScan(options, folder.path(), NoProgress);
+  ASSERT_TRUE(fs::exists(folder.path() / "associations.txt"));
   const Progress interrupt = [](std::string_view, int64_t done, int64_t) {
     if (done == 2) throw Error(ErrorKind::kInterrupted, "stop");
   };
@@ -101,8 +103,12 @@ TEST(SimulateScan, RefusesWhatCannotBe) {
   options.frames = 0;
   EXPECT_THROW(SimulateScan(options, "unused", NoProgress), Error);
   options.frames = 1;
+  options.readout_time = 0.04;
+  EXPECT_THROW(SimulateScan(options, "unused", NoProgress), Error);
+  options.readout_time = 0;
   options.object = "teapot";
   EXPECT_THROW(SimulateScan(options, "unused", NoProgress), Error);
+  EXPECT_FALSE(fs::exists("unused"));
 }
 
 }  // namespace
