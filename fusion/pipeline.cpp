@@ -7,6 +7,7 @@
 
 #include "capture/frame_stream.h"
 #include "fusion/axis_correction.h"
+#include "fusion/ray_noise.h"
 
 namespace curvefusion {
 
@@ -115,7 +116,13 @@ RadiusEstimate MeasureRadii(const SkeletonGraph& skeleton, const Sequence& seque
 
 SkeletonGraph Contract(const ObservedPoints& points, const std::string& name, RunContext& run) {
   const StageLog::Timer timer(run.log, "contraction");
-  SkeletonGraph skeleton = ExtractRidgeSkeleton(points, run.options.ridge);
+  const double ratio = RayNoiseRatio(points, run.options.min_linearity);
+  const Mat3 metric = NoiseMetric(points, ratio);
+  SkeletonGraph skeleton =
+      ratio > 1 ? Mapped(ExtractRidgeSkeleton(Mapped(points, metric), run.options.ridge),
+                         metric.inverse())
+                : ExtractRidgeSkeleton(points, run.options.ridge);
+  run.log.Count("contraction", "ray noise ratio", ratio);
   run.observer.OnPoints(name + "_points", points);
   run.observer.OnGraph(name + "_skeleton", skeleton);
   return skeleton;

@@ -34,6 +34,7 @@ struct PipelineOptions {
   AlignmentOptions registration;
   FrameRegistrationOptions frames;
   double axis_depth = 0;
+  double min_linearity = 0.3;
   RidgeOptions ridge;
   L1Options l1;
   SkeletonFusionOptions fusion;

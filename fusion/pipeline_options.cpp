@@ -68,6 +68,11 @@ void VisitOptions(PipelineOptions& options, OptionVisitor& visitor) {
                  "Deviation: points are moved along their viewing rays by so many radii, from the "
                  "side that was seen to the axis."},
                 options.axis_depth);
+  visitor.Visit(
+      {"min_linearity", "", 0, 1,
+       "Deviation: a cloud that looks less curve-like than this from near is contracted in a "
+       "space compressed along the viewing rays, along which depth noise is largest."},
+      options.min_linearity);
   VisitOptions(options.ridge, visitor);
   visitor.BeginSection("l1_contraction");
   VisitOptions(options.l1, visitor);

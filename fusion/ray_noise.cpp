@@ -1,0 +1,96 @@
+#include "fusion/ray_noise.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "kernel/spatial_search.h"
+
+namespace curvefusion {
+
+namespace {
+
+// Places at which a cloud is looked at; more change the median by less than its own use needs.
+constexpr size_t kPlaces = 1000;
+constexpr double kNeighbourhood = 0.010;
+constexpr size_t kMinNeighbours = 8;
+constexpr double kMaxRatio = 16;
+
+double LinearityAt(const std::vector<Vec3>& points, const std::vector<int>& neighbours) {
+  Vec3 mean = Vec3::Zero();
+  for (const int i : neighbours) mean += points[i];
+  mean /= static_cast<double>(neighbours.size());
+  Mat3 covariance = Mat3::Zero();
+  for (const int i : neighbours) {
+    covariance += (points[i] - mean) * (points[i] - mean).transpose();
+  }
+  const Vec3 spread = Eigen::SelfAdjointEigenSolver<Mat3>(covariance).eigenvalues();
+  return spread[2] > 0 ? 1 - spread[1] / spread[2] : 0;
+}
+
+}  // namespace
+
+double Linearity(const ObservedPoints& points) {
+  const PointIndex index(points.positions);
+  std::vector<double> linearity;
+  std::vector<int> neighbours;
+  const size_t stride = std::max<size_t>(1, points.size() / kPlaces);
+  for (size_t i = 0; i < points.size(); i += stride) {
+    index.WithinRadius(points.positions[i], kNeighbourhood, neighbours);
+    if (neighbours.size() < kMinNeighbours) continue;
+    linearity.push_back(LinearityAt(points.positions, neighbours));
+  }
+  if (linearity.empty()) return 1;
+  const auto middle = linearity.begin() + static_cast<std::ptrdiff_t>(linearity.size() / 2);
+  std::nth_element(linearity.begin(), middle, linearity.end());
+  return *middle;
+}
+
+double RayNoiseRatio(const ObservedPoints& points, double enough) {
+  double best_ratio = 1;
+  double best_linearity = Linearity(points);
+  if (best_linearity >= enough) return 1;
+  for (double ratio = 2; ratio <= kMaxRatio; ratio *= 2) {
+    const double linearity = Linearity(Mapped(points, NoiseMetric(points, ratio)));
+    if (linearity <= best_linearity) continue;
+    best_linearity = linearity;
+    best_ratio = ratio;
+  }
+  return best_ratio;
+}
+
+Mat3 NoiseMetric(const ObservedPoints& points, double ratio) {
+  Mat3 rays = Mat3::Zero();
+  for (const Vec3& ray : points.viewing_rays) rays += ray * ray.transpose();
+  if (!points.empty()) rays /= static_cast<double>(points.size());
+  const Mat3 covariance = Mat3::Identity() + (ratio * ratio - 1) * rays;
+  const Eigen::SelfAdjointEigenSolver<Mat3> solver(covariance);
+  const double least = solver.eigenvalues()[0];
+  return solver.eigenvectors() *
+         (least * solver.eigenvalues().cwiseInverse()).cwiseSqrt().asDiagonal() *
+         solver.eigenvectors().transpose();
+}
+
+ObservedPoints Mapped(const ObservedPoints& points, const Mat3& map) {
+  ObservedPoints mapped = points;
+  for (Vec3& p : mapped.positions) p = map * p;
+  for (Vec3& ray : mapped.viewing_rays) ray = (map * ray).normalized();
+  return mapped;
+}
+
+SkeletonGraph Mapped(const SkeletonGraph& graph, const Mat3& map) {
+  SkeletonGraph mapped = graph;
+  for (const NodeId node : graph.Nodes()) mapped.MoveNode(node, map * graph.position(node));
+  for (const EdgeId id : graph.Edges()) {
+    SkeletonEdge edge = graph.edge(id);
+    for (size_t i = 1; i + 1 < edge.points.size(); ++i) edge.points[i] = map * edge.points[i];
+    edge.points.front() = mapped.position(edge.nodes[0]);
+    edge.points.back() = mapped.position(edge.nodes[1]);
+    mapped.SetCurve(id, std::move(edge.points), std::move(edge.radii),
+                    std::move(edge.observations));
+  }
+  return mapped;
+}
+
+}  // namespace curvefusion
