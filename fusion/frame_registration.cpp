@@ -33,7 +33,7 @@ std::optional<RigidTransform> RegisterFrame(const ObservedPoints& frame, const R
   for (size_t i = 0; i < frame.size(); ++i) moved[i] = T * frame.positions[i];
   const AlignmentResult result =
       AlignPointsToPoints(moved, curves.positions, curves.directions, alignment);
-  if (!result.converged || result.inlier_fraction < options.min_inliers) return std::nullopt;
+  if (result.inlier_fraction < options.min_inliers) return std::nullopt;
   return result.T_target_source * T;
 }
 

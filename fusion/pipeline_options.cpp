@@ -37,6 +37,8 @@ PipelineOptions BestOptions() {
   options.segmentation.edges.tolerance_px = 2;
   options.segmentation.ghosts.verified_outline = 0.35;
   options.carry_points = true;
+  options.registration.max_points = 700;
+  options.registration.max_iterations = 12;
   options.axis_depth = 0.8;
   return options;
 }
