@@ -9,6 +9,7 @@
 #include <string>
 
 #include "kernel/error.h"
+#include "tests/temporary_path.h"
 
 namespace curvefusion {
 namespace {
@@ -42,7 +43,7 @@ class ConfigFile : public testing::Test {
     return {.profile = {}, .file = folder_ / "a.toml", .assignments = {}};
   }
 
-  const fs::path folder_ = fs::temp_directory_path() / "curvefusion_config_test";
+  const fs::path folder_ = TemporaryPath("config");
 };
 
 TEST_F(ConfigFile, WhatIsWrittenIsReadBack) {

@@ -12,6 +12,7 @@
 #include "capture/sequence.h"
 #include "kernel/error.h"
 #include "kernel/parallel.h"
+#include "tests/temporary_path.h"
 
 namespace curvefusion {
 namespace {
@@ -23,7 +24,7 @@ const DemoScanOptions kSmall = {.frame_count = 3, .width = 160, .height = 120};
 class DemoScan : public testing::Test {
  protected:
   void TearDown() override { fs::remove_all(folder_); }
-  const fs::path folder_ = fs::temp_directory_path() / "curvefusion_demo_scan_test";
+  const fs::path folder_ = TemporaryPath("demo_scan");
 };
 
 TEST_F(DemoScan, IsASequenceThatOpensWithThePosesItWasMadeFrom) {

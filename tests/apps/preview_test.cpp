@@ -7,6 +7,7 @@
 #include "apps/demo_scan.h"
 #include "apps/frame_overlay.h"
 #include "apps/preview_style.h"
+#include "tests/temporary_path.h"
 
 namespace curvefusion {
 namespace {
@@ -31,7 +32,7 @@ class Preview : public testing::Test {
     sequence_ = OpenSequence(folder_);
   }
   void TearDown() override { fs::remove_all(folder_); }
-  const fs::path folder_ = fs::temp_directory_path() / "curvefusion_preview_test";
+  const fs::path folder_ = TemporaryPath("preview");
   Sequence sequence_;
 };
 

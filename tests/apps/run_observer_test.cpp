@@ -8,6 +8,7 @@
 
 #include "kernel/cloud_io.h"
 #include "kernel/error.h"
+#include "tests/temporary_path.h"
 
 namespace curvefusion {
 namespace {
@@ -18,7 +19,7 @@ class RunObserverTest : public testing::Test {
  protected:
   void TearDown() override { fs::remove_all(folder_); }
 
-  const fs::path folder_ = fs::temp_directory_path() / "curvefusion_run_observer_test";
+  const fs::path folder_ = TemporaryPath("run_observer");
   std::ostringstream stream_;
   ProgressPrinter printer_{stream_, ProgressPrinter::Style::kLines, [] { return 0.; }};
 };

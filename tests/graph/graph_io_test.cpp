@@ -11,6 +11,7 @@
 
 #include "kernel/error.h"
 #include "tests/graph/graph_fixtures.h"
+#include "tests/temporary_path.h"
 #include "tests/test_data.h"
 
 namespace curvefusion {
@@ -141,8 +142,7 @@ class GraphIoFiles : public testing::Test {
  protected:
   void SetUp() override { std::filesystem::create_directories(folder_); }
   void TearDown() override { std::filesystem::remove_all(folder_); }
-  const std::filesystem::path folder_ =
-      std::filesystem::temp_directory_path() / "curvefusion_graph_io_test";
+  const std::filesystem::path folder_ = TemporaryPath("graph_io");
 };
 
 TEST_F(GraphIoFiles, AFileComesBackAndAMissingOneIsNamed) {

@@ -10,6 +10,8 @@
 #include <set>
 #include <string>
 
+#include "tests/temporary_path.h"
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -57,7 +59,7 @@ TEST(IncludeArrows, EveryIncludeRunsDownwards) {
 }
 
 TEST(IncludeArrows, AnIncludeAgainstTheArrowsIsFound) {
-  const fs::path root = fs::temp_directory_path() / "curvefusion_include_arrows_test";
+  const fs::path root = curvefusion::TemporaryPath("include_arrows");
   fs::create_directories(root / "graph");
   std::ofstream(root / "graph" / "bad.cpp")
       << "#include <vector>\n#include \"fusion/pipeline.h\"\n";

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "kernel/error.h"
+#include "tests/temporary_path.h"
 
 namespace curvefusion {
 namespace {
@@ -15,7 +16,7 @@ class AtomicFile : public testing::Test {
  protected:
   void SetUp() override { fs::create_directories(folder_); }
   void TearDown() override { fs::remove_all(folder_); }
-  const fs::path folder_ = fs::temp_directory_path() / "curvefusion_atomic_file_test";
+  const fs::path folder_ = TemporaryPath("atomic_file");
 };
 
 TEST_F(AtomicFile, AppearsOnlyWhenComplete) {
