@@ -15,6 +15,8 @@ namespace curvefusion {
 namespace {
 
 constexpr int kNone = -1;
+constexpr size_t kFront = 0;
+constexpr size_t kBack = 1;
 
 // A junction lies ahead of an end when it is seen within 60 degrees of the end's heading: the mean
 // of a cluster strays from the branches' lines by about as much.
@@ -122,7 +124,10 @@ class BranchJoiner {
   std::vector<Side> Sides() const;
   bool IsOwnTip(const BranchEnd& end, int branch, int vertex) const;
   NodeId NodeAtVertex(int branch, int vertex);
-  Polyline CurveBetweenNodes(int branch) const;
+  Polyline CurveBetweenNodes(int branch);
+  NodeId& NodeAt(int branch, size_t end) {
+    return ends_[2 * static_cast<size_t>(branch) + end].node;
+  }
   void AddEdge(NodeId first, NodeId last, Polyline points);
 
   std::vector<Branch> branches_;
@@ -269,8 +274,8 @@ NodeId BranchJoiner::NodeAtVertex(int branch, int vertex) {
   const Polyline& points = branches_[branch].points;
   const bool is_front = vertex == 0;
   const bool is_back = vertex + 1 == static_cast<int>(points.size());
-  NodeId& node = is_front  ? ends_[2 * branch].node
-                 : is_back ? ends_[2 * branch + 1].node
+  NodeId& node = is_front  ? NodeAt(branch, kFront)
+                 : is_back ? NodeAt(branch, kBack)
                            : stops_[branch].try_emplace(vertex, kNone).first->second;
   if (node == kNone) node = graph_.AddNode(points[vertex]);
   return node;
@@ -291,6 +296,7 @@ std::vector<BranchJoiner::Side> BranchJoiner::Sides() const {
 void BranchJoiner::JoinAtSides() {
   const std::vector<Side> sides = Sides();
   std::vector<Vec3> positions;
+  positions.reserve(sides.size());
   for (const Side& side : sides) positions.push_back(side.position);
   const PointIndex index(positions);
   for (BranchEnd& end : ends_) {
@@ -314,10 +320,10 @@ void BranchJoiner::JoinAtSides() {
 }
 
 // The branch with the positions of its end nodes, where those lie beyond it.
-Polyline BranchJoiner::CurveBetweenNodes(int branch) const {
+Polyline BranchJoiner::CurveBetweenNodes(int branch) {
   Polyline curve = branches_[branch].points;
-  const Vec3& first = graph_.position(ends_[2 * branch].node);
-  const Vec3& last = graph_.position(ends_[2 * branch + 1].node);
+  const Vec3& first = graph_.position(NodeAt(branch, kFront));
+  const Vec3& last = graph_.position(NodeAt(branch, kBack));
   if (first != curve.front()) curve.insert(curve.begin(), first);
   if (last != curve.back()) curve.push_back(last);
   return curve;
@@ -337,9 +343,9 @@ SkeletonGraph BranchJoiner::Build() {
     const int shift = curve[0] == branches_[b].points[0] ? 0 : 1;
     std::map<int, NodeId> stops;
     for (const auto& [vertex, node] : stops_[b]) stops[vertex + shift] = node;
-    stops[static_cast<int>(curve.size()) - 1] = ends_[2 * b + 1].node;
+    stops[static_cast<int>(curve.size()) - 1] = NodeAt(b, kBack);
     int start = 0;
-    NodeId start_node = ends_[2 * b].node;
+    NodeId start_node = NodeAt(b, kFront);
     for (const auto& [vertex, node] : stops) {
       AddEdge(start_node, node, Polyline(curve.begin() + start, curve.begin() + vertex + 1));
       start = vertex;
