@@ -15,6 +15,8 @@ namespace curvefusion {
 
 namespace {
 
+constexpr double kTipFraction = 0.2;
+
 struct FreeEnd {
   NodeId node;
   EdgeId edge;
@@ -39,23 +41,22 @@ struct Join {
   }
 };
 
-// From the middle of the end piece to its end: the last points alone are too noisy.
-FreeEnd MakeFreeEnd(const SkeletonGraph& graph, NodeId node, double fit_length) {
+// The direction leaves out the very tip, which noise bends.
+FreeEnd MakeFreeEnd(const SkeletonGraph& graph, NodeId node, const FreeEndOptions& options) {
   const EdgeId id = graph.IncidentEdges(node)[0];
   Polyline points = graph.edge(id).points;
   if (graph.edge(id).nodes[1] == node) std::reverse(points.begin(), points.end());
   const std::vector<double> arc_length = CumulativeLength(points);
-  const double length = std::min(fit_length, arc_length.back());
+  const double length = std::min(options.fit_length, arc_length.back());
+  const Vec3 tip = PointAt(points, arc_length, kTipFraction * length);
   const Vec3 inner = PointAt(points, arc_length, length);
-  const Vec3 middle = PointAt(points, arc_length, length / 2);
-  const Vec3 outward = (points.front() - inner) + (middle - inner);
-  return {node, id, points.front(), outward.normalized()};
+  return {node, id, points.front(), (tip - inner).normalized()};
 }
 
-std::vector<FreeEnd> FreeEnds(const SkeletonGraph& graph, double fit_length) {
+std::vector<FreeEnd> FreeEnds(const SkeletonGraph& graph, const FreeEndOptions& options) {
   std::vector<FreeEnd> ends;
   for (const NodeId node : graph.Nodes()) {
-    if (graph.Degree(node) == 1) ends.push_back(MakeFreeEnd(graph, node, fit_length));
+    if (graph.Degree(node) == 1) ends.push_back(MakeFreeEnd(graph, node, options));
   }
   return ends;
 }
@@ -101,7 +102,8 @@ double JoinCost(const SkeletonGraph& graph, const FreeEnd& end, const CurvePoint
   if (other != nullptr) cosine = std::min(cosine, -other->outward.dot(gap) / length);
   const double max_gap = other != nullptr ? options.max_facing_gap : options.max_gap;
   const double least = std::cos(other != nullptr ? options.max_facing_angle : options.max_angle);
-  const double reach = max_gap * (cosine - least) / (1 - least);
+  double reach = max_gap * (cosine - least) / (1 - least);
+  if (cosine > 0) reach = std::max(reach, options.touch_distance);
   if (length > reach || LoopLength(graph, end, target) < options.min_loop) return kForbidden;
   return length / reach;
 }
@@ -171,6 +173,9 @@ void VisitOptions(FreeEndOptions& options, OptionVisitor& visitor) {
   visitor.Visit({"max_facing_angle", "rad", 0.01, 1.6,
                  "Deviation: the angle at which two ends do not face each other any more."},
                 options.max_facing_angle);
+  visitor.Visit({"touch_distance", "m", 0, 0.1,
+                 "Deviation: how far an end reaches ahead whatever the angle."},
+                options.touch_distance);
   visitor.Visit({"fit_length", "m", 0.001, 0.5,
                  "Deviation: length of the end piece that gives its direction."},
                 options.fit_length);
@@ -182,7 +187,7 @@ void VisitOptions(FreeEndOptions& options, OptionVisitor& visitor) {
 }
 
 void CloseFreeEnds(SkeletonGraph& graph, const FreeEndOptions& options) {
-  const std::vector<FreeEnd> ends = FreeEnds(graph, options.fit_length);
+  const std::vector<FreeEnd> ends = FreeEnds(graph, options);
   const std::vector<Join> joins = SelectJoins(graph, ends, options);
   std::vector<std::pair<NodeId, NodeId>> bridges;
   std::map<EdgeId, std::map<int, std::vector<NodeId>, std::greater<>>> splits;

@@ -11,6 +11,7 @@ struct FreeEndOptions {
   double max_angle = 1.1;
   double max_facing_gap = 0.028;
   double max_facing_angle = 1.3;
+  double touch_distance = 0.007;
   double fit_length = 0.015;
   double snap_distance = 0.006;
   double min_loop = 0.035;

@@ -16,7 +16,7 @@ struct RidgeProjectionOptions {
   double max_sigma = 0.007;
   double sigma_per_thickness = 1.3;
   double equalization_radius = 0.01;
-  double least_relative_count = 0.2;
+  double least_relative_count = 0.05;
   int iterations = 30;
   double spacing = 0.0015;
   double min_relative_strength = 0.2;
