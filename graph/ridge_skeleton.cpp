@@ -82,8 +82,11 @@ SkeletonGraph ExtractRidgeSkeleton(const ObservedPoints& points, const RidgeOpti
   SkeletonGraph graph = ConnectRidgePoints(ridge, options.network);
   DropSmallComponents(graph, options.fragment_length);
   SmoothEdges(graph, options.smoothing_length, options.step);
-  CloseFreeEnds(graph, options.free_ends);
-  RefineJunctions(graph, options.junctions);
+  // Ends that miss a junction in its blurred place may meet it in its right one.
+  for (int round = 0; round < 2; ++round) {
+    CloseFreeEnds(graph, options.free_ends);
+    RefineJunctions(graph, options.junctions);
+  }
   PruneDeadEnds(graph, options.network.min_spur);
   DropSmallComponents(graph, options.min_component);
   SmoothEdges(graph, options.smoothing_length, options.step);
