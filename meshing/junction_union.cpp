@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <exception>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 namespace curvefusion {
@@ -48,6 +49,32 @@ UnionMesh ToDouble(const ExactMesh& mesh) {
     rounded.triangles.push_back(triangle);
   }
   return rounded;
+}
+
+// The same mesh numbered by coordinates: CGAL numbers in the order of addresses in memory, which
+// differs from run to run.
+UnionMesh InCanonicalOrder(const UnionMesh& mesh) {
+  const auto place = [&mesh](int v) {
+    const Vec3& p = mesh.vertices[v];
+    return std::make_tuple(p.x(), p.y(), p.z());
+  };
+  std::vector<int> order(mesh.vertices.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](int a, int b) { return place(a) < place(b); });
+  UnionMesh sorted;
+  std::vector<int> index(mesh.vertices.size());
+  for (const int v : order) {
+    index[v] = static_cast<int>(sorted.vertices.size());
+    sorted.vertices.push_back(mesh.vertices[v]);
+  }
+  for (std::array<int, 3> triangle : mesh.triangles) {
+    for (int& v : triangle) v = index[v];
+    std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()),
+                triangle.end());
+    sorted.triangles.push_back(triangle);
+  }
+  std::sort(sorted.triangles.begin(), sorted.triangles.end());
+  return sorted;
 }
 
 bool Unite(ExactMesh& a, ExactMesh& b, ExactMesh& united) {
@@ -94,7 +121,7 @@ std::optional<UnionMesh> UniteSolids(const std::vector<TriangleMesh>& solids) {
     round = std::move(next_round);
   }
   if (round.empty()) return UnionMesh{};
-  return ToDouble(round.front());
+  return InCanonicalOrder(ToDouble(round.front()));
 }
 
 }  // namespace curvefusion

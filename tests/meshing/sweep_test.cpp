@@ -11,6 +11,8 @@ namespace curvefusion {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
+// Corner radius of a regular 16-gon of the area of the unit circle.
+const double kCorner = std::sqrt(kPi / 8 / std::sin(kPi / 8));
 
 TubePath StraightPath(double length, double radius, int points) {
   TubePath path;
@@ -49,8 +51,8 @@ TEST(Sweep, FlatThinEndTapers) {
   const WatertightReport report = ExamineMesh(CloseStub(rings, 0, 4));
   EXPECT_EQ(report.Defects(), "");
   const Vec3f on_rim = rings.vertices[static_cast<size_t>(rings.ring_of_point[4]) * 16];
-  // The rim's corners stand out of the circle by 1.3 %, so that the polygon has its area.
-  EXPECT_NEAR(std::hypot(on_rim.y(), on_rim.z()), 0.0027 * 1.01294, 1e-7);
+  // 1e-8 m is float32.
+  EXPECT_NEAR(std::hypot(on_rim.y(), on_rim.z()), 0.0027 * kCorner, 1e-8);
 }
 
 TEST(Sweep, ClosedRingIsATorus) {
@@ -117,8 +119,8 @@ TEST(Sweep, MitredRingsKeepTheTubeThick) {
   for (int k = 0; k < 16; ++k) {
     const Vec3 corner =
         rings.vertices[static_cast<size_t>(rings.ring_of_point[1]) * 16 + k].cast<double>();
-    // Every corner of the mitre lies on the polygonal cylinders of both legs: 1e-7 m is float32.
-    EXPECT_NEAR(std::hypot(corner.y(), corner.z()), 0.003 * 1.01294, 1e-7);
+    // Every corner of the mitre lies on the polygonal cylinders of both legs; 1e-8 m is float32.
+    EXPECT_NEAR(std::hypot(corner.y(), corner.z()), 0.003 * kCorner, 1e-8);
   }
 }
 

@@ -168,7 +168,7 @@ TEST(SurfaceMesh, RoundTripKeepsTheMesh) {
   ASSERT_TRUE(surface);
   const TriangleMesh back = ToTriangleMesh(*surface);
   EXPECT_EQ(back.vertices, cube.vertices);
-  EXPECT_EQ(ExamineMesh(back).volume, 1);
+  EXPECT_DOUBLE_EQ(ExamineMesh(back).volume, 1);
 }
 
 TEST(SurfaceMesh, RefusesWhatIsNotManifold) {
