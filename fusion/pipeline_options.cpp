@@ -17,7 +17,9 @@ void UseWorkableReading(DifferenceSetOptions& options) {
 PipelineOptions PaperOptions() {
   PipelineOptions options;
   UseWorkableReading(options.segmentation.difference);
+  // The paper gives neither the grid nor the density of DBSCAN; these two leave the fewest ghosts.
   options.segmentation.bundle.voxel_size = 0.005;
+  options.segmentation.ghosts.core_points = 12;
   options.segmentation.edges.tolerance_px = 0;
   options.fusion = PaperSkeletonFusionOptions();
   options.radius.strip_model = false;
