@@ -25,8 +25,8 @@ namespace {
 struct ContractArguments {
   std::filesystem::path cloud;
   std::filesystem::path output;
-  std::string method = "ridge";
-  double scale = 1;             // metres per unit of the file
+  std::string method = "auto";
+  double scale = 0;             // metres per unit of the file; 0 = from the cloud's extent
   double neighbourhood_mm = 0;  // 0 = from the cloud
   double radius_mm = 0;         // 0 = unknown
   RunOptions run;
@@ -37,18 +37,43 @@ SkeletonGraph ExtractL1(const ObservedPoints& points, double neighbourhood) {
   return radius > 0 ? ExtractL1Skeleton(points, OptionsForRadius(radius)) : SkeletonGraph();
 }
 
+// A wire object of more than this is no object but a unit other than the metre.
+constexpr double kLargestObject = 10;
+// The ridge kernel is made for wires of 2 to 12 mm, whose suggested neighbourhood is about 15 mm;
+// the L1 axis adapts to clouds that are this many times larger or smaller.
+constexpr double kRidgeNeighbourhood = 0.015;
+constexpr double kRidgeSizeRange = 2.5;
+
+// Metres per unit: millimetres where the cloud would be too large for metres.
+double GuessedScale(const ObservedPoints& points) {
+  Eigen::AlignedBox3d box;
+  for (const Vec3& position : points.positions) box.extend(position);
+  return box.isEmpty() || box.sizes().maxCoeff() <= kLargestObject ? 1 : kMillimetre;
+}
+
+bool HasUsualSize(const ObservedPoints& points) {
+  const double ratio = SuggestedRadius(points) / kRidgeNeighbourhood;
+  return ratio < kRidgeSizeRange && ratio > 1 / kRidgeSizeRange;
+}
+
 // Points of a depth camera lie on the near side of a wire, pi/4 radii before its axis on average.
 SkeletonGraph ExtractAtAxis(const ObservedPoints& points, const ContractArguments& arguments) {
   const double radius = arguments.radius_mm * kMillimetre;
   const ObservedPoints axis_points = ShiftAlongRays(points, std::numbers::pi / 4 * radius);
-  return arguments.method == "l1" ? ExtractL1(axis_points, arguments.neighbourhood_mm * kMillimetre)
-                                  : ExtractRidgeSkeleton(axis_points, {});
+  const bool ridge =
+      arguments.method == "ridge" || (arguments.method == "auto" && HasUsualSize(axis_points));
+  return ridge ? ExtractRidgeSkeleton(axis_points, {})
+               : ExtractL1(axis_points, arguments.neighbourhood_mm * kMillimetre);
 }
 
 int RunContract(const ContractArguments& arguments) {
   const ThreadLimit limit(arguments.run.threads);
   ObservedPoints points = ReadCloud(arguments.cloud);
-  for (Vec3& position : points.positions) position *= arguments.scale;
+  const double scale = arguments.scale > 0 ? arguments.scale : GuessedScale(points);
+  if (scale != 1 && arguments.scale <= 0 && !arguments.run.quiet) {
+    fmt::print("Coordinates are taken as millimetres (--scale 1 if they are metres)\n");
+  }
+  for (Vec3& position : points.positions) position *= scale;
   MakeFolderOf(arguments.output);
   SkeletonGraph graph = ExtractAtAxis(points, arguments);
   ThrowIfInterrupted();
@@ -76,14 +101,17 @@ void AddContractCommand(CLI::App& app, int& exit_code) {
   const auto arguments = std::make_shared<ContractArguments>();
   command->add_option("CLOUD", arguments->cloud, "PLY or XYZ file")->required();
   command->add_option("-o,--output", arguments->output, "The skeleton.json to write")->required();
-  command->add_option("--scale", arguments->scale, "Metres per unit of the file; 0.001 for mm")
+  command
+      ->add_option("--scale", arguments->scale,
+                   "Metres per unit of the file, 0.001 for mm; otherwise metres, or mm where the "
+                   "cloud would be larger than 10 m")
       ->check(CLI::PositiveNumber);
   command
       ->add_option(
           "--method", arguments->method,
-          "ridge (default): for wires measured in metres, also close ones; l1: the paper's "
-          "L1 axis, adapts to any scale")
-      ->check(CLI::IsMember({"ridge", "l1"}));
+          "ridge: density ridges, for wires of 2 to 12 mm, also close ones; l1: the paper\'s L1 "
+          "axis, for any size; auto (default): by the thickness of the cloud")
+      ->check(CLI::IsMember({"auto", "ridge", "l1"}));
   command
       ->add_option("--neighbourhood", arguments->neighbourhood_mm,
                    "First radius of l1 in mm, about three times the wires' thickness; otherwise "
