@@ -1,8 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <random>
-#include <string>
 #include <vector>
 
 #include "graph/skeleton_graph.h"
@@ -10,6 +7,20 @@
 namespace curvefusion {
 
 /// Skeletons for the tests and benchmarks of meshing. Lengths in metres.
+
+/// Gives an edge radii that run evenly from `first` to `last`.
+void SetRadius(SkeletonGraph& graph, EdgeId id, double first, double last);
+
+/// Adds an edge of one radius; the ends of `points` are the nodes' positions.
+EdgeId AddTube(SkeletonGraph& graph, NodeId a, NodeId b, Polyline points, double radius);
+EdgeId AddStraight(SkeletonGraph& graph, NodeId a, NodeId b, double radius);
+
+/// Adds a curve of one radius with nodes of its own.
+EdgeId AddCurve(SkeletonGraph& graph, const Polyline& points, double radius);
+
+/// n + 1 points of an arc in the plane of the unit vectors u and v.
+Polyline Arc(const Vec3& centre, const Vec3& u, const Vec3& v, double radius, double from,
+             double to, int n);
 
 /// Joins curves into a graph: a node wherever an end of a curve lies within `tolerance` of another
 /// curve, or two curves pass each other that closely. A closed curve repeats its first point.
@@ -36,11 +47,5 @@ SkeletonGraph HelixGraph(double helix_radius, double pitch, int turns, double ra
 
 /// A circle in the xy plane.
 SkeletonGraph RingGraph(double ring_radius, double radius);
-
-/// The kinds of hard networks that RandomHardGraph makes.
-const std::vector<std::string>& HardKinds();
-
-/// A random network of a kind that is hard to mesh; the same seed gives the same network.
-SkeletonGraph RandomHardGraph(const std::string& kind, uint64_t seed);
 
 }  // namespace curvefusion
