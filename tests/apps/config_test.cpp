@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -42,7 +43,8 @@ class ConfigFile : public testing::Test {
     return {.profile = {}, .file = folder_ / "a.toml", .assignments = {}};
   }
 
-  const fs::path folder_ = fs::temp_directory_path() / "curvefusion_config_test";
+  const fs::path folder_ =
+      fs::temp_directory_path() / ("curvefusion_config_test_" + std::to_string(getpid()));
 };
 
 TEST_F(ConfigFile, WhatIsWrittenIsReadBack) {

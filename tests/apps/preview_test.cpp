@@ -1,8 +1,10 @@
 #include "apps/preview.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
+#include <string>
 
 #include "apps/demo_scan.h"
 #include "apps/frame_overlay.h"
@@ -31,7 +33,8 @@ class Preview : public testing::Test {
     sequence_ = OpenSequence(folder_);
   }
   void TearDown() override { fs::remove_all(folder_); }
-  const fs::path folder_ = fs::temp_directory_path() / "curvefusion_preview_test";
+  const fs::path folder_ =
+      fs::temp_directory_path() / ("curvefusion_preview_test_" + std::to_string(getpid()));
   Sequence sequence_;
 };
 
