@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -24,11 +25,21 @@ class CommandLine : public testing::Test {
   void SetUp() override { fs::create_directories(folder_); }
   void TearDown() override { fs::remove_all(folder_); }
 
-  // Runs `curvefusion ARGUMENTS` inside folder_; `before` is put in front of the program.
-  Outcome Run(const std::string& arguments, const std::string& before = "") const {
-    const std::string command = "cd '" + folder_.string() + "' && " + before +
-                                " '" CURVEFUSION_PROGRAM "' " + arguments + " >output.txt 2>&1";
-    const int status = std::system(command.c_str());
+  // Runs `curvefusion ARGUMENTS` inside folder_.
+  Outcome Run(const std::string& arguments) const {
+    return RunShell("'" CURVEFUSION_PROGRAM "' " + arguments + " >output.txt 2>&1");
+  }
+
+  // The same, with SIGINT sent as soon as the folder `awaited` is there (or after 20 s).
+  Outcome RunAndInterrupt(const std::string& arguments, const std::string& awaited) const {
+    return RunShell("'" CURVEFUSION_PROGRAM "' " + arguments +
+                    " >output.txt 2>&1 & i=0; while [ ! -d " + awaited +
+                    " ] && [ $i -lt 2000 ]; do i=$((i+1)); sleep 0.01; done; "
+                    "kill -INT $!; wait $!");
+  }
+
+  Outcome RunShell(const std::string& command) const {
+    const int status = std::system(("cd '" + folder_.string() + "' || exit; " + command).c_str());
     std::stringstream output;
     output << std::ifstream(folder_ / "output.txt").rdbuf();
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, output.str()};
@@ -46,7 +57,8 @@ class CommandLine : public testing::Test {
 
   const fs::path folder_ =
       fs::temp_directory_path() / (std::string("curvefusion_command_line_") +
-                                   testing::UnitTest::GetInstance()->current_test_info()->name());
+                                   testing::UnitTest::GetInstance()->current_test_info()->name() +
+                                   "_" + std::to_string(getpid()));
 };
 
 TEST_F(CommandLine, HelpAndVersionAreDone) {
@@ -81,6 +93,31 @@ TEST_F(CommandLine, BadInputIsThree) {
   EXPECT_EQ(Run("contract none.ply -o a.json").exit_code, 3);
 }
 
+TEST_F(CommandLine, NothingThinIsFourAndLeavesNoEarlierResult) {
+  ASSERT_EQ(Run("demo-scan -o scan --frames 3 --quiet").exit_code, 0);
+  fs::create_directories(folder_ / "out");
+  std::ofstream(folder_ / "out/skeleton.json") << "of an earlier run";
+  // The object has less than 10 m of curve.
+  const Outcome outcome = Run("reconstruct scan -o out --set ridge_skeleton.min_component=10");
+  EXPECT_EQ(outcome.exit_code, 4);
+  EXPECT_THAT(outcome.output, HasSubstr("nothing thin"));
+  EXPECT_TRUE(fs::exists(folder_ / "out/report.json"));
+  EXPECT_TRUE(fs::exists(folder_ / "out/config.toml"));
+  EXPECT_EQ(CountFiles("out", "skeleton"), 0);
+}
+
+TEST_F(CommandLine, TheDemoGivesAllFilesAndItsTwelveJunctions) {
+  ASSERT_EQ(Run("demo-scan -o scan --quiet").exit_code, 0);
+  const Outcome outcome = Run("reconstruct scan -o out");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.output, HasSubstr("12 junctions, 0 free ends"));
+  for (const char* name :
+       {"skeleton.json", "mesh.ply", "preview.png", "report.json", "config.toml"}) {
+    EXPECT_EQ(CountFiles("out", name), 1) << name;
+  }
+  EXPECT_EQ(CountFiles("out", ""), 5);  // and nothing half-written beside them
+}
+
 TEST_F(CommandLine, AFolderThatCannotBeWrittenIsFive) {
   ASSERT_EQ(Run("demo-scan -o scan --frames 1 --quiet").exit_code, 0);
   std::ofstream(folder_ / "file") << "not a folder";
@@ -91,8 +128,8 @@ TEST_F(CommandLine, AFolderThatCannotBeWrittenIsFive) {
 
 TEST_F(CommandLine, AnInterruptedRunIs130AndLeavesNoResult) {
   ASSERT_EQ(Run("demo-scan -o scan --frames 25 --quiet").exit_code, 0);
-  // 25 frames take some seconds; decoding them alone takes longer than this.
-  const Outcome outcome = Run("reconstruct scan -o out", "timeout --preserve-status -s INT 0.3");
+  // The folder for stages is made right before the first frame is read.
+  const Outcome outcome = RunAndInterrupt("reconstruct scan -o out --save-stages stages", "stages");
   EXPECT_EQ(outcome.exit_code, 130);
   EXPECT_THAT(outcome.output, HasSubstr("interrupted"));
   EXPECT_EQ(CountFiles("out", "."), 0);

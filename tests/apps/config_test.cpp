@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -9,7 +10,6 @@
 #include <string>
 
 #include "kernel/error.h"
-#include "tests/temporary_path.h"
 
 namespace curvefusion {
 namespace {
@@ -43,7 +43,8 @@ class ConfigFile : public testing::Test {
     return {.profile = {}, .file = folder_ / "a.toml", .assignments = {}};
   }
 
-  const fs::path folder_ = TemporaryPath("config");
+  const fs::path folder_ =
+      fs::temp_directory_path() / ("curvefusion_config_test_" + std::to_string(getpid()));
 };
 
 TEST_F(ConfigFile, WhatIsWrittenIsReadBack) {

@@ -1,18 +1,19 @@
 #include "apps/demo_scan.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <string>
 
 #include "apps/demo_scene.h"
 #include "capture/sequence.h"
 #include "kernel/error.h"
 #include "kernel/parallel.h"
-#include "tests/temporary_path.h"
 
 namespace curvefusion {
 namespace {
@@ -24,7 +25,8 @@ const DemoScanOptions kSmall = {.frame_count = 3, .width = 160, .height = 120};
 class DemoScan : public testing::Test {
  protected:
   void TearDown() override { fs::remove_all(folder_); }
-  const fs::path folder_ = TemporaryPath("demo_scan");
+  const fs::path folder_ =
+      fs::temp_directory_path() / ("curvefusion_demo_scan_test_" + std::to_string(getpid()));
 };
 
 TEST_F(DemoScan, IsASequenceThatOpensWithThePosesItWasMadeFrom) {

@@ -1,13 +1,14 @@
 #include "apps/preview.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
+#include <string>
 
 #include "apps/demo_scan.h"
 #include "apps/frame_overlay.h"
 #include "apps/preview_style.h"
-#include "tests/temporary_path.h"
 
 namespace curvefusion {
 namespace {
@@ -32,7 +33,8 @@ class Preview : public testing::Test {
     sequence_ = OpenSequence(folder_);
   }
   void TearDown() override { fs::remove_all(folder_); }
-  const fs::path folder_ = TemporaryPath("preview");
+  const fs::path folder_ =
+      fs::temp_directory_path() / ("curvefusion_preview_test_" + std::to_string(getpid()));
   Sequence sequence_;
 };
 

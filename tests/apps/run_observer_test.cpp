@@ -1,14 +1,15 @@
 #include "apps/run_observer.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <string>
 
 #include "kernel/cloud_io.h"
 #include "kernel/error.h"
-#include "tests/temporary_path.h"
 
 namespace curvefusion {
 namespace {
@@ -19,7 +20,8 @@ class RunObserverTest : public testing::Test {
  protected:
   void TearDown() override { fs::remove_all(folder_); }
 
-  const fs::path folder_ = TemporaryPath("run_observer");
+  const fs::path folder_ =
+      fs::temp_directory_path() / ("curvefusion_run_observer_test_" + std::to_string(getpid()));
   std::ostringstream stream_;
   ProgressPrinter printer_{stream_, ProgressPrinter::Style::kLines, [] { return 0.; }};
 };
