@@ -285,17 +285,4 @@ CurveSamples SampleCurves(const SkeletonGraph& graph, double step) {
   return samples;
 }
 
-SkeletonGraph Transformed(const SkeletonGraph& graph, const RigidTransform& T) {
-  SkeletonGraph moved = graph;
-  for (const NodeId node : graph.Nodes()) moved.MoveNode(node, T * graph.position(node));
-  for (const EdgeId id : graph.Edges()) {
-    SkeletonEdge edge = graph.edge(id);
-    for (size_t i = 1; i + 1 < edge.points.size(); ++i) edge.points[i] = T * edge.points[i];
-    edge.points.front() = moved.position(edge.nodes[0]);
-    edge.points.back() = moved.position(edge.nodes[1]);
-    moved.SetCurve(id, std::move(edge.points), std::move(edge.radii), std::move(edge.observations));
-  }
-  return moved;
-}
-
 }  // namespace curvefusion

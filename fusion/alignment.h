@@ -58,7 +58,4 @@ struct CurveSamples {
 };
 CurveSamples SampleCurves(const SkeletonGraph& graph, double step);
 
-/// The graph after a rigid motion.
-SkeletonGraph Transformed(const SkeletonGraph& graph, const RigidTransform& T);
-
 }  // namespace curvefusion

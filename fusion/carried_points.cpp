@@ -25,10 +25,7 @@ AlignmentResult CarriedPoints::AddBundle(const ObservedPoints& bundle,
       result.T_target_source = RigidTransform::Identity();
     }
   }
-  for (size_t i = 0; i < bundle.size(); ++i) {
-    points_.Add(result.T_target_source * bundle.positions[i],
-                result.T_target_source.linear() * bundle.viewing_rays[i], bundle.counts[i]);
-  }
+  Append(points_, Transformed(bundle, result.T_target_source));
   points_ = ResampleOnGrid(points_, options_.voxel_size);
   return result;
 }

@@ -14,12 +14,7 @@ namespace {
 ObservedPoints Merged(const std::vector<ObservedPoints>& frames,
                       const std::vector<RigidTransform>& T, double voxel_size) {
   ObservedPoints merged;
-  for (size_t i = 0; i < frames.size(); ++i) {
-    for (size_t j = 0; j < frames[i].size(); ++j) {
-      merged.Add(T[i] * frames[i].positions[j], T[i].linear() * frames[i].viewing_rays[j],
-                 frames[i].counts[j]);
-    }
-  }
+  for (size_t i = 0; i < frames.size(); ++i) Append(merged, Transformed(frames[i], T[i]));
   return ResampleOnGrid(merged, voxel_size);
 }
 
@@ -29,10 +24,8 @@ std::optional<RigidTransform> RegisterFrame(const ObservedPoints& frame, const R
                                             const AlignmentOptions& alignment,
                                             const FrameRegistrationOptions& options) {
   if (static_cast<int>(frame.size()) < options.min_points) return std::nullopt;
-  std::vector<Vec3> moved(frame.size());
-  for (size_t i = 0; i < frame.size(); ++i) moved[i] = T * frame.positions[i];
-  const AlignmentResult result =
-      AlignPointsToPoints(moved, curves.positions, curves.directions, alignment);
+  const AlignmentResult result = AlignPointsToPoints(
+      Transformed(frame, T).positions, curves.positions, curves.directions, alignment);
   if (result.inlier_fraction < options.min_inliers) return std::nullopt;
   return result.T_target_source * T;
 }

@@ -20,13 +20,6 @@ struct RunContext {
   StageLog log;
 };
 
-ObservedPoints Moved(const ObservedPoints& points, const RigidTransform& T) {
-  ObservedPoints moved = points;
-  for (Vec3& p : moved.positions) p = T * p;
-  for (Vec3& ray : moved.viewing_rays) ray = T.linear() * ray;
-  return moved;
-}
-
 // "Removing large surfaces" needs a model of them: all frames in one volume.
 TsdfVolume FuseVolume(const Sequence& sequence, RunContext& run) {
   const StageLog::Timer timer(run.log, "volume");
@@ -54,12 +47,13 @@ struct SegmentedScan {
 
 void AddBundle(const SegmentedBundle& bundle, SegmentedScan& scan, PipelineObserver& observer) {
   const std::string name = fmt::format("bundle_{:03}", scan.bundles.size());
-  observer.OnPoints(name + "_difference_set", Moved(bundle.difference_set, bundle.T_world_bundle));
+  observer.OnPoints(name + "_difference_set",
+                    Transformed(bundle.difference_set, bundle.T_world_bundle));
   for (const ObservedPoints& frame : bundle.frames) {
-    scan.frames.push_back(Moved(frame, bundle.T_world_bundle));
+    scan.frames.push_back(Transformed(frame, bundle.T_world_bundle));
     scan.bundle_of_frame.push_back(static_cast<int>(scan.bundles.size()));
   }
-  scan.bundles.push_back(Moved(bundle.points, bundle.T_world_bundle));
+  scan.bundles.push_back(Transformed(bundle.points, bundle.T_world_bundle));
   observer.OnPoints(name + "_points", scan.bundles.back());
 }
 
@@ -117,10 +111,10 @@ RadiusEstimate MeasureRadii(const SkeletonGraph& skeleton, const Sequence& seque
 SkeletonGraph Contract(const ObservedPoints& points, const std::string& name, RunContext& run) {
   const StageLog::Timer timer(run.log, "contraction");
   const double ratio = RayNoiseRatio(points, run.options.min_linearity);
-  const Mat3 metric = NoiseMetric(points, ratio);
+  const AffineTransform metric = NoiseMetric(points, ratio);
   SkeletonGraph skeleton =
-      ratio > 1 ? Mapped(ExtractRidgeSkeleton(Mapped(points, metric), run.options.ridge),
-                         metric.inverse())
+      ratio > 1 ? Transformed(ExtractRidgeSkeleton(Transformed(points, metric), run.options.ridge),
+                              metric.inverse())
                 : ExtractRidgeSkeleton(points, run.options.ridge);
   run.log.Count("contraction", "ray noise ratio", ratio);
   run.observer.OnPoints(name + "_points", points);
@@ -156,9 +150,9 @@ RegisteredFrames RegisterFramesToCurves(const SegmentedScan& scan,
   const StageLog::Timer timer(run.log, "registration");
   std::vector<ObservedPoints> on_axis;
   for (size_t i = 0; i < scan.frames.size(); ++i) {
-    on_axis.push_back(Moved(
-        MoveToAxis(Moved(scan.frames[i], T_registered_frame[i]), first, run.options.axis_depth),
-        T_registered_frame[i].inverse()));
+    on_axis.push_back(Transformed(MoveToAxis(Transformed(scan.frames[i], T_registered_frame[i]),
+                                             first, run.options.axis_depth),
+                                  T_registered_frame[i].inverse()));
   }
   RegisteredFrames registered =
       RegisterFrames(on_axis, T_registered_frame, run.options.ridge.projection,
@@ -183,16 +177,6 @@ void ContractCarriedPoints(const SegmentedScan& scan, RunContext& run, Reconstru
   result.skeleton = Contract(result.points, "registered_frames", run);
 }
 
-ObservedPoints AllPoints(const std::vector<ObservedPoints>& bundles) {
-  ObservedPoints all;
-  for (const ObservedPoints& bundle : bundles) {
-    for (size_t i = 0; i < bundle.size(); ++i) {
-      all.Add(bundle.positions[i], bundle.viewing_rays[i], bundle.counts[i]);
-    }
-  }
-  return all;
-}
-
 }  // namespace
 
 Reconstruction Reconstruct(const Sequence& sequence, const PipelineOptions& options,
@@ -206,7 +190,7 @@ Reconstruction Reconstruct(const Sequence& sequence, const PipelineOptions& opti
   if (options.carry_points) {
     ContractCarriedPoints(scan, run, result);
   } else {
-    result.points = AllPoints(scan.bundles);
+    for (const ObservedPoints& bundle : scan.bundles) Append(result.points, bundle);
     result.skeleton = FuseBundleSkeletons(scan, run);
   }
   const RadiusEstimate radii = MeasureRadii(result.skeleton, result.sequence, run);

@@ -2,7 +2,6 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <utility>
 #include <vector>
 
 #include "kernel/spatial_search.h"
@@ -52,7 +51,7 @@ double RayNoiseRatio(const ObservedPoints& points, double enough) {
   double best_linearity = Linearity(points);
   if (best_linearity >= enough) return 1;
   for (double ratio = 2; ratio <= kMaxRatio; ratio *= 2) {
-    const double linearity = Linearity(Mapped(points, NoiseMetric(points, ratio)));
+    const double linearity = Linearity(Transformed(points, NoiseMetric(points, ratio)));
     if (linearity <= best_linearity) continue;
     best_linearity = linearity;
     best_ratio = ratio;
@@ -60,37 +59,18 @@ double RayNoiseRatio(const ObservedPoints& points, double enough) {
   return best_ratio;
 }
 
-Mat3 NoiseMetric(const ObservedPoints& points, double ratio) {
+AffineTransform NoiseMetric(const ObservedPoints& points, double ratio) {
   Mat3 rays = Mat3::Zero();
   for (const Vec3& ray : points.viewing_rays) rays += ray * ray.transpose();
   if (!points.empty()) rays /= static_cast<double>(points.size());
   const Mat3 covariance = Mat3::Identity() + (ratio * ratio - 1) * rays;
   const Eigen::SelfAdjointEigenSolver<Mat3> solver(covariance);
   const double least = solver.eigenvalues()[0];
-  return solver.eigenvectors() *
-         (least * solver.eigenvalues().cwiseInverse()).cwiseSqrt().asDiagonal() *
-         solver.eigenvectors().transpose();
-}
-
-ObservedPoints Mapped(const ObservedPoints& points, const Mat3& map) {
-  ObservedPoints mapped = points;
-  for (Vec3& p : mapped.positions) p = map * p;
-  for (Vec3& ray : mapped.viewing_rays) ray = (map * ray).normalized();
-  return mapped;
-}
-
-SkeletonGraph Mapped(const SkeletonGraph& graph, const Mat3& map) {
-  SkeletonGraph mapped = graph;
-  for (const NodeId node : graph.Nodes()) mapped.MoveNode(node, map * graph.position(node));
-  for (const EdgeId id : graph.Edges()) {
-    SkeletonEdge edge = graph.edge(id);
-    for (size_t i = 1; i + 1 < edge.points.size(); ++i) edge.points[i] = map * edge.points[i];
-    edge.points.front() = mapped.position(edge.nodes[0]);
-    edge.points.back() = mapped.position(edge.nodes[1]);
-    mapped.SetCurve(id, std::move(edge.points), std::move(edge.radii),
-                    std::move(edge.observations));
-  }
-  return mapped;
+  AffineTransform metric = AffineTransform::Identity();
+  metric.linear() = solver.eigenvectors() *
+                    (least * solver.eigenvalues().cwiseInverse()).cwiseSqrt().asDiagonal() *
+                    solver.eigenvectors().transpose();
+  return metric;
 }
 
 }  // namespace curvefusion

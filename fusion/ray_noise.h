@@ -1,6 +1,5 @@
 #pragma once
 
-#include "graph/skeleton_graph.h"
 #include "kernel/geometry.h"
 #include "kernel/observed_points.h"
 
@@ -18,12 +17,6 @@ double RayNoiseRatio(const ObservedPoints& points, double enough);
 
 /// The linear map that makes the mean noise of the points the same in all directions when it is
 /// `ratio` times larger along their viewing rays. Directions without extra noise keep their scale.
-Mat3 NoiseMetric(const ObservedPoints& points, double ratio);
-
-/// Points after a linear map; rays are mapped as directions.
-ObservedPoints Mapped(const ObservedPoints& points, const Mat3& map);
-
-/// A graph after a linear map.
-SkeletonGraph Mapped(const SkeletonGraph& graph, const Mat3& map);
+AffineTransform NoiseMetric(const ObservedPoints& points, double ratio);
 
 }  // namespace curvefusion

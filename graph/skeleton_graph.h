@@ -106,4 +106,7 @@ class SkeletonGraph {
   int edge_count_ = 0;
 };
 
+/// The graph after a motion or another affine map; radii stay.
+SkeletonGraph Transformed(const SkeletonGraph& graph, const AffineTransform& T);
+
 }  // namespace curvefusion

@@ -14,6 +14,9 @@ using Mat3 = Eigen::Matrix3d;
 /// A rigid motion. Names say which way it maps: `p_world = T_world_camera * p_camera`.
 using RigidTransform = Eigen::Isometry3d;
 
+/// A linear map and a translation. A RigidTransform converts to it.
+using AffineTransform = Eigen::Affine3d;
+
 /// Every length without a unit suffix is in metres; this converts what people read and write.
 inline constexpr double kMillimetre = 1e-3;
 

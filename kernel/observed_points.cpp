@@ -6,6 +6,20 @@
 
 namespace curvefusion {
 
+ObservedPoints Transformed(const ObservedPoints& points, const AffineTransform& T) {
+  ObservedPoints transformed = points;
+  for (Vec3& p : transformed.positions) p = T * p;
+  for (Vec3& ray : transformed.viewing_rays) ray = (T.linear() * ray).normalized();
+  return transformed;
+}
+
+void Append(ObservedPoints& points, const ObservedPoints& more) {
+  points.positions.insert(points.positions.end(), more.positions.begin(), more.positions.end());
+  points.viewing_rays.insert(points.viewing_rays.end(), more.viewing_rays.begin(),
+                             more.viewing_rays.end());
+  points.counts.insert(points.counts.end(), more.counts.begin(), more.counts.end());
+}
+
 void RequireFinitePositions(const ObservedPoints& points) {
   for (size_t i = 0; i < points.size(); ++i) {
     const Vec3& p = points.positions[i];

@@ -27,6 +27,12 @@ struct ObservedPoints {
   }
 };
 
+/// The points after a motion or another affine map; rays are mapped as directions.
+ObservedPoints Transformed(const ObservedPoints& points, const AffineTransform& T);
+
+/// Adds `more` behind `points`.
+void Append(ObservedPoints& points, const ObservedPoints& more);
+
 /// Throws Error(kBadInput) naming the first point whose position is not finite.
 void RequireFinitePositions(const ObservedPoints& points);
 
