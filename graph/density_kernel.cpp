@@ -1,7 +1,5 @@
 #include "graph/density_kernel.h"
 
-#include <algorithm>
-
 namespace curvefusion {
 
 void DensityField::Neighbours::Clear() {
@@ -9,52 +7,44 @@ void DensityField::Neighbours::Clear() {
   used_lanes_ = 4;
 }
 
-void DensityField::Neighbours::Add(const Vec3f& offset, const Vec3f& ray, float weight) {
+void DensityField::Neighbours::Add(const Vec3f& offset, float weight) {
   if (used_lanes_ == 4) {
     const Lanes zero = Lanes::Zero();
-    packets_.push_back({zero, zero, zero, zero, zero, zero, zero});
+    packets_.push_back({zero, zero, zero, zero});
     used_lanes_ = 0;
   }
   Packet& packet = packets_.back();
   packet.x[used_lanes_] = offset.x();
   packet.y[used_lanes_] = offset.y();
   packet.z[used_lanes_] = offset.z();
-  packet.ray_x[used_lanes_] = ray.x();
-  packet.ray_y[used_lanes_] = ray.y();
-  packet.ray_z[used_lanes_] = ray.z();
   packet.weight[used_lanes_] = weight;
   ++used_lanes_;
 }
 
-DensityField::DensityField(const ObservedPoints& points, double sigma, double ray_sigma,
-                           double slack)
+DensityField::DensityField(const ObservedPoints& points, double sigma, double slack)
     : sigma_(sigma),
-      ray_sigma_(ray_sigma),
-      reach_(kKernelSupport * std::max(sigma, ray_sigma) + slack),
-      points_(points),
+      reach_(kKernelSupport * sigma + slack),
+      weights_(points.counts),
       grid_(points.positions, reach_) {}
 
 void DensityField::Gather(const Vec3& p, Neighbours& neighbours) const {
   neighbours.Clear();
   neighbours.origin_ = p;
-  grid_.ForEachWithin(p, reach_, [&](int i, const Vec3& q) {
-    neighbours.Add((q - p).cast<float>(), points_.viewing_rays[i].cast<float>(), points_.counts[i]);
-  });
+  grid_.ForEachWithin(
+      p, reach_, [&](int i, const Vec3& q) { neighbours.Add((q - p).cast<float>(), weights_[i]); });
 }
 
 KernelMoments DensityField::Moments(const Neighbours& neighbours, const Vec3& p) const {
   using Lanes = Neighbours::Lanes;
   const Vec3f at = (p - neighbours.origin_).cast<float>();
   const float scale = static_cast<float>(1 / (8 * sigma_ * sigma_));
-  const float along = static_cast<float>(1 - (sigma_ * sigma_) / (ray_sigma_ * ray_sigma_));
   Lanes sum = Lanes::Zero(), x = sum, y = sum, z = sum;
   Lanes xx = sum, yy = sum, zz = sum, xy = sum, xz = sum, yz = sum;
   for (const Neighbours::Packet& packet : neighbours.packets_) {
     const Lanes dx = packet.x - at.x();
     const Lanes dy = packet.y - at.y();
     const Lanes dz = packet.z - at.z();
-    const Lanes on_ray = packet.ray_x * dx + packet.ray_y * dy + packet.ray_z * dz;
-    const Lanes squared = dx * dx + dy * dy + dz * dz - along * on_ray * on_ray;
+    const Lanes squared = dx * dx + dy * dy + dz * dz;
     const Lanes t = (1.0F - scale * squared).max(0.0F);
     const Lanes weight = packet.weight * (t * t) * (t * t);
     const Lanes wx = weight * dx;

@@ -24,25 +24,24 @@ struct KernelMoments {
   Mat3 covariance = Mat3::Zero();
 };
 
-/// Points whose density is sought, with the width of their kernel: `sigma` across the viewing ray,
-/// `ray_sigma` along it.
+/// Points whose density is sought, with the width of their kernel. The points' counts weigh them.
 class DensityField {
  public:
-  /// The points must be finite; their counts are the weights. Queries may lie up to `slack` from
-  /// where their neighbours were gathered.
-  DensityField(const ObservedPoints& points, double sigma, double ray_sigma, double slack);
+  /// The points must be finite. Queries may lie up to `slack` from where their neighbours were
+  /// gathered.
+  DensityField(const ObservedPoints& points, double sigma, double slack);
 
   /// The points around a place, packed four by four.
   class Neighbours {
    public:
     void Clear();
-    void Add(const Vec3f& offset, const Vec3f& ray, float weight);
+    void Add(const Vec3f& offset, float weight);
 
    private:
     friend class DensityField;
     using Lanes = Eigen::Array4f;
     struct Packet {
-      Lanes x, y, z, ray_x, ray_y, ray_z, weight;
+      Lanes x, y, z, weight;
     };
     std::vector<Packet> packets_;
     int used_lanes_ = 4;
@@ -59,9 +58,8 @@ class DensityField {
 
  private:
   double sigma_;
-  double ray_sigma_;
   double reach_;
-  ObservedPoints points_;
+  std::vector<float> weights_;
   PointGrid grid_;
 };
 

@@ -20,6 +20,8 @@ constexpr double kConvergedStep = 0.01 * kMillimetre;
 constexpr int kGrain = 32;
 // Kernel widths grow by this factor from one level to the next.
 constexpr double kLevelRatio = 1.4142135623730951;
+// A density is smooth enough for points and seeds this far apart, in kernel widths.
+constexpr double kCellPerSigma = 0.7;
 // After so many steps most seeds have come together and need not all be followed to the end.
 constexpr int kGatheringIterations = 3;
 
@@ -29,12 +31,6 @@ struct RidgeSeed {
   double strength = 0;
   double elongation = 0;  ///< variance along the direction over that of a uniform curve
   int level = 0;
-};
-
-// One kernel width with the points it is applied to: wide kernels need fewer points.
-struct Level {
-  double spacing;
-  DensityField field;
 };
 
 ObservedPoints UsablePoints(const ObservedPoints& points) {
@@ -89,33 +85,33 @@ void EqualizeCounts(ObservedPoints& points, double radius, double least_relative
   }
 }
 
-std::vector<Level> MakeLevels(const ObservedPoints& points, const RidgeProjectionOptions& options) {
-  std::vector<Level> levels;
-  double factor = 1;
-  for (; options.kernel_sigma * factor < options.max_sigma * 1.01; factor *= kLevelRatio) {
-    const double sigma = options.kernel_sigma * factor;
-    const ObservedPoints level_points = factor > 1 ? ResampleOnGrid(points, 0.7 * sigma) : points;
-    levels.push_back({options.spacing * factor,
-                      DensityField(level_points, sigma, sigma * options.ray_stretch, sigma)});
+// The density at growing kernel widths; wide kernels need fewer points.
+std::vector<DensityField> MakeLevels(const ObservedPoints& points,
+                                     const RidgeProjectionOptions& options) {
+  std::vector<DensityField> levels{
+      DensityField(points, options.kernel_sigma, options.kernel_sigma)};
+  double sigma = kLevelRatio * options.kernel_sigma;
+  for (; sigma < 1.01 * options.max_sigma; sigma *= kLevelRatio) {
+    levels.emplace_back(ResampleOnGrid(points, kCellPerSigma * sigma), sigma, sigma);
   }
   return levels;
 }
 
-// Seeds at the points, of the level that suits the thickness there; fewer on thick wires.
-std::vector<RidgeSeed> MakeSeeds(const ObservedPoints& points, const std::vector<Level>& levels,
+// Seeds all over the cloud, each of the level that suits the thickness there.
+std::vector<RidgeSeed> MakeSeeds(const ObservedPoints& points,
+                                 const std::vector<DensityField>& levels,
                                  const RidgeProjectionOptions& options) {
+  const std::vector<Vec3> starts =
+      ResampleOnGrid(points, kCellPerSigma * options.kernel_sigma).positions;
   RidgeScaleOptions scale;
   scale.sigma = options.kernel_sigma;
+  const std::vector<double> thickness = LocalThickness(points, starts, scale);
   std::vector<RidgeSeed> seeds;
-  for (size_t level = 0; level < levels.size(); ++level) {
-    const std::vector<Vec3> starts = ResampleOnGrid(points, levels[level].spacing).positions;
-    const std::vector<double> thickness = LocalThickness(points, starts, scale);
-    for (size_t i = 0; i < starts.size(); ++i) {
-      const double wanted = options.sigma_per_thickness * thickness[i];
-      const bool wide_enough = level + 1 == levels.size() || wanted <= levels[level].field.sigma();
-      const bool too_wide = level > 0 && wanted <= levels[level - 1].field.sigma();
-      if (wide_enough && !too_wide) seeds.push_back({starts[i], {}, 0, 0, static_cast<int>(level)});
-    }
+  for (size_t i = 0; i < starts.size(); ++i) {
+    const double wanted = options.sigma_per_thickness * thickness[i];
+    size_t level = 0;
+    while (level + 1 < levels.size() && levels[level].sigma() < wanted) ++level;
+    seeds.push_back({starts[i], Vec3::Zero(), 0, 0, static_cast<int>(level)});
   }
   return seeds;
 }
@@ -139,11 +135,12 @@ void ProjectSeed(const DensityField& field, int iterations, RidgeSeed& seed,
   }
 }
 
-void ProjectSeeds(const std::vector<Level>& levels, int iterations, std::vector<RidgeSeed>& seeds) {
+void ProjectSeeds(const std::vector<DensityField>& levels, int iterations,
+                  std::vector<RidgeSeed>& seeds) {
   ParallelChunks(0, static_cast<int64_t>(seeds.size()), kGrain, [&](int64_t first, int64_t last) {
     DensityField::Neighbours neighbours;
     for (int64_t i = first; i < last; ++i) {
-      ProjectSeed(levels[seeds[i].level].field, iterations, seeds[i], neighbours);
+      ProjectSeed(levels[seeds[i].level], iterations, seeds[i], neighbours);
     }
   });
 }
@@ -209,10 +206,6 @@ void VisitOptions(RidgeProjectionOptions& options, OptionVisitor& visitor) {
                  "Deviation: width of the density kernel on thin wires; 25 mm as in CurveFusion "
                  "3.2 loses wires, 2 mm makes false junctions."},
                 options.kernel_sigma);
-  visitor.Visit({"ray_stretch", "", 1, 20,
-                 "Deviation: how much longer the kernel is along the viewing ray, for sensors "
-                 "whose depth noise is far larger than the wires."},
-                options.ray_stretch);
   visitor.Visit({"max_sigma", "m", 0.0005, 0.05,
                  "Deviation: width of the kernel on thick wires, which a thin kernel splits into "
                  "strands."},
@@ -264,7 +257,7 @@ ObservedPoints ShiftAlongRays(const ObservedPoints& points, const std::vector<do
 RidgePoints ProjectToRidges(const ObservedPoints& points, const RidgeProjectionOptions& options) {
   ObservedPoints usable = UsablePoints(points);
   EqualizeCounts(usable, options.equalization_radius, options.least_relative_count);
-  const std::vector<Level> levels = MakeLevels(usable, options);
+  const std::vector<DensityField> levels = MakeLevels(usable, options);
   std::vector<RidgeSeed> seeds = MakeSeeds(usable, levels, options);
   ProjectSeeds(levels, kGatheringIterations, seeds);
   seeds = ThinOut(seeds, options.spacing / 2);

@@ -12,7 +12,6 @@ namespace curvefusion {
 /// the L1 axis with a kernel of 15 to 25 mm, which merges wires nearer than that.
 struct RidgeProjectionOptions {
   double kernel_sigma = 0.0035;
-  double ray_stretch = 1;
   double max_sigma = 0.007;
   double sigma_per_thickness = 1.3;
   double equalization_radius = 0.01;
@@ -44,10 +43,9 @@ ObservedPoints ShiftAlongRays(const ObservedPoints& points, double distance);
 ObservedPoints ShiftAlongRays(const ObservedPoints& points, const std::vector<double>& distances);
 
 /// Subspace-constrained mean shift (Ozertem and Erdogmus 2011): moves points across the local
-/// principal direction only, until they lie on a ridge of the density, and thins them out. The
-/// kernel of a point is longer along its viewing ray, where depth noise is larger. Points that are
-/// not finite are ignored. The result does not depend on the number of threads. Costs
-/// O(n k) for k points within three kernel widths.
+/// principal direction only, until they lie on a ridge of the density, and thins them out. Kernels
+/// are wider where the wire is thick. Points that are not finite are ignored. The result does not
+/// depend on the number of threads. Costs O(n k) for k points within three kernel widths.
 RidgePoints ProjectToRidges(const ObservedPoints& points, const RidgeProjectionOptions& options);
 
 }  // namespace curvefusion

@@ -23,7 +23,7 @@ double SpreadBehindKernel(double variance, double kernel_variance) {
 
 std::vector<double> SpreadsAt(const ObservedPoints& points, const std::vector<Vec3>& places,
                               double sigma) {
-  const DensityField field(points, sigma, sigma, 0);
+  const DensityField field(points, sigma, 0);
   std::vector<double> spreads(places.size());
   ParallelChunks(0, static_cast<int64_t>(places.size()), kGrain, [&](int64_t first, int64_t last) {
     DensityField::Neighbours neighbours;
