@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -46,7 +47,8 @@ class CommandLine : public testing::Test {
 
   const fs::path folder_ =
       fs::temp_directory_path() / (std::string("curvefusion_command_line_") +
-                                   testing::UnitTest::GetInstance()->current_test_info()->name());
+                                   testing::UnitTest::GetInstance()->current_test_info()->name() +
+                                   "_" + std::to_string(getpid()));
 };
 
 TEST_F(CommandLine, HelpAndVersionAreDone) {
@@ -79,6 +81,31 @@ TEST_F(CommandLine, BadInputIsThree) {
   EXPECT_EQ(Run("graph bad.json").exit_code, 3);
   EXPECT_EQ(Run("mesh bad.json -o a.ply").exit_code, 3);
   EXPECT_EQ(Run("contract none.ply -o a.json").exit_code, 3);
+}
+
+TEST_F(CommandLine, NothingThinIsFourAndLeavesNoEarlierResult) {
+  ASSERT_EQ(Run("demo-scan -o scan --frames 3 --quiet").exit_code, 0);
+  fs::create_directories(folder_ / "out");
+  std::ofstream(folder_ / "out/skeleton.json") << "of an earlier run";
+  // The object has less than 10 m of curve.
+  const Outcome outcome = Run("reconstruct scan -o out --set ridge_skeleton.min_component=10");
+  EXPECT_EQ(outcome.exit_code, 4);
+  EXPECT_THAT(outcome.output, HasSubstr("nothing thin"));
+  EXPECT_TRUE(fs::exists(folder_ / "out/report.json"));
+  EXPECT_TRUE(fs::exists(folder_ / "out/config.toml"));
+  EXPECT_EQ(CountFiles("out", "skeleton"), 0);
+}
+
+TEST_F(CommandLine, TheDemoGivesAllFilesAndItsTwelveJunctions) {
+  ASSERT_EQ(Run("demo-scan -o scan --quiet").exit_code, 0);
+  const Outcome outcome = Run("reconstruct scan -o out");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.output, HasSubstr("12 junctions, 0 free ends"));
+  for (const char* name :
+       {"skeleton.json", "mesh.ply", "preview.png", "report.json", "config.toml"}) {
+    EXPECT_EQ(CountFiles("out", name), 1) << name;
+  }
+  EXPECT_EQ(CountFiles("out", ""), 5);  // and nothing half-written beside them
 }
 
 TEST_F(CommandLine, AFolderThatCannotBeWrittenIsFive) {
