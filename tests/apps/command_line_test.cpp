@@ -25,11 +25,21 @@ class CommandLine : public testing::Test {
   void SetUp() override { fs::create_directories(folder_); }
   void TearDown() override { fs::remove_all(folder_); }
 
-  // Runs `curvefusion ARGUMENTS` inside folder_; `before` is put in front of the program.
-  Outcome Run(const std::string& arguments, const std::string& before = "") const {
-    const std::string command = "cd '" + folder_.string() + "' && " + before +
-                                " '" CURVEFUSION_PROGRAM "' " + arguments + " >output.txt 2>&1";
-    const int status = std::system(command.c_str());
+  // Runs `curvefusion ARGUMENTS` inside folder_.
+  Outcome Run(const std::string& arguments) const {
+    return RunShell("'" CURVEFUSION_PROGRAM "' " + arguments + " >output.txt 2>&1");
+  }
+
+  // The same, with SIGINT sent as soon as the folder `awaited` is there (or after 20 s).
+  Outcome RunAndInterrupt(const std::string& arguments, const std::string& awaited) const {
+    return RunShell("'" CURVEFUSION_PROGRAM "' " + arguments +
+                    " >output.txt 2>&1 & i=0; while [ ! -d " + awaited +
+                    " ] && [ $i -lt 2000 ]; do i=$((i+1)); sleep 0.01; done; "
+                    "kill -INT $!; wait $!");
+  }
+
+  Outcome RunShell(const std::string& command) const {
+    const int status = std::system(("cd '" + folder_.string() + "' || exit; " + command).c_str());
     std::stringstream output;
     output << std::ifstream(folder_ / "output.txt").rdbuf();
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, output.str()};
@@ -118,8 +128,8 @@ TEST_F(CommandLine, AFolderThatCannotBeWrittenIsFive) {
 
 TEST_F(CommandLine, AnInterruptedRunIs130AndLeavesNoResult) {
   ASSERT_EQ(Run("demo-scan -o scan --frames 25 --quiet").exit_code, 0);
-  // 25 frames take some seconds; decoding them alone takes longer than this.
-  const Outcome outcome = Run("reconstruct scan -o out", "timeout --preserve-status -s INT 0.3");
+  // The folder for stages is made right before the first frame is read.
+  const Outcome outcome = RunAndInterrupt("reconstruct scan -o out --save-stages stages", "stages");
   EXPECT_EQ(outcome.exit_code, 130);
   EXPECT_THAT(outcome.output, HasSubstr("interrupted"));
   EXPECT_EQ(CountFiles("out", "."), 0);
