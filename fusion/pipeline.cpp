@@ -99,7 +99,6 @@ SkeletonGraph FuseBundleSkeletons(const SegmentedScan& scan, RunContext& run) {
 RadiusEstimate MeasureRadii(const SkeletonGraph& skeleton, const Sequence& sequence,
                             RunContext& run) {
   const StageLog::Timer timer(run.log, "radius");
-  run.observer.OnProgress("radius", 0, 1);
   std::vector<int> frames(sequence.frames.size());
   std::iota(frames.begin(), frames.end(), 0);
   RadiusEstimate estimate = EstimateRadius(skeleton, sequence, frames, run.options.radius);
@@ -117,6 +116,7 @@ SkeletonGraph Contract(const ObservedPoints& points, const std::string& name, Ru
                               metric.inverse())
                 : ExtractRidgeSkeleton(points, run.options.ridge);
   run.log.Count("contraction", "ray noise ratio", ratio);
+  run.observer.OnProgress("contraction", 1, 1);
   run.observer.OnPoints(name + "_points", points);
   run.observer.OnGraph(name + "_skeleton", skeleton);
   return skeleton;
@@ -133,7 +133,7 @@ std::pair<ObservedPoints, std::vector<RigidTransform>> RegisterBundles(const Seg
     T_registered_bundle.push_back(
         carried.AddBundle(bundle, run.options.ridge.projection, run.options.registration)
             .T_target_source);
-    run.observer.OnProgress("registration", static_cast<int64_t>(T_registered_bundle.size()),
+    run.observer.OnProgress("bundle registration", static_cast<int64_t>(T_registered_bundle.size()),
                             static_cast<int64_t>(scan.bundles.size()));
   }
   std::vector<RigidTransform> T_registered_frame;
@@ -157,23 +157,34 @@ RegisteredFrames RegisterFramesToCurves(const SegmentedScan& scan,
   RegisteredFrames registered =
       RegisterFrames(on_axis, T_registered_frame, run.options.ridge.projection,
                      run.options.registration, run.options.frames);
+  run.observer.OnProgress("frame registration", 1, 1);
   run.log.Count("registration", "registered frames", registered.registered);
   run.log.Count("registration", "points", static_cast<double>(registered.points.size()));
   return registered;
 }
 
+void CorrectPoses(const std::vector<RigidTransform>& T_registered_world, Sequence& sequence) {
+  for (size_t i = 0; i < sequence.frames.size(); ++i) {
+    RigidTransform& T_world_camera = sequence.frames[i].T_world_camera;
+    T_world_camera = T_registered_world[i] * T_world_camera;
+  }
+}
+
 // Best profile: bundles, then single frames, are registered to the curves they see; their points
-// are carried along and contracted once.
+// are carried along and contracted once. Where noise blurs the curves, single frames would be
+// registered to noise: they keep the poses of their bundles.
 void ContractCarriedPoints(const SegmentedScan& scan, RunContext& run, Reconstruction& result) {
   const auto [points, T_registered_frame] = RegisterBundles(scan, run);
   SkeletonGraph first = Contract(points, "registered_bundles", run);
   AssignRadii(MeasureRadii(first, result.sequence, run), run.options.radius, first);
-  RegisteredFrames registered = RegisterFramesToCurves(scan, T_registered_frame, first, run);
-  for (size_t i = 0; i < result.sequence.frames.size(); ++i) {
-    RigidTransform& T_world_camera = result.sequence.frames[i].T_world_camera;
-    T_world_camera = registered.T_registered_world[i] * T_world_camera;
+  if (RayNoiseRatio(points, run.options.min_linearity) > 1) {
+    CorrectPoses(T_registered_frame, result.sequence);
+    result.points = MoveToAxis(points, first, run.options.axis_depth);
+  } else {
+    RegisteredFrames registered = RegisterFramesToCurves(scan, T_registered_frame, first, run);
+    CorrectPoses(registered.T_registered_world, result.sequence);
+    result.points = std::move(registered.points);
   }
-  result.points = std::move(registered.points);
   result.skeleton = Contract(result.points, "registered_frames", run);
 }
 

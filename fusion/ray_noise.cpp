@@ -14,7 +14,7 @@ namespace {
 constexpr size_t kPlaces = 1000;
 constexpr double kNeighbourhood = 0.010;
 constexpr size_t kMinNeighbours = 8;
-constexpr double kMaxRatio = 16;
+constexpr double kMaxRatio = 8;
 
 double LinearityAt(const std::vector<Vec3>& points, const std::vector<int>& neighbours) {
   Vec3 mean = Vec3::Zero();

@@ -45,14 +45,14 @@ void WriteText(const fs::path& path, const std::string& text) {
 
 // An earlier result must not be taken for this run's, which has none.
 void RemoveEarlierResult(const fs::path& folder) {
-  for (const char* name : {"skeleton.json", "mesh.ply", "preview.png"}) fs::remove(folder / name);
+  for (const char* name : {"skeleton.json", "mesh.ply", "preview.png", "report.json"}) fs::remove(folder / name);
 }
 
 void WriteSkeletonAndPicture(const RunRecord& record, const fs::path& folder) {
   const Reconstruction& reconstruction = record.reconstruction;
   WriteSkeleton(folder / "skeleton.json", reconstruction.skeleton);
   WritePreview(folder / "preview.png",
-               DrawPreview(reconstruction.skeleton, reconstruction.points, record.sequence,
+               DrawPreview(reconstruction.skeleton, reconstruction.points, reconstruction.sequence,
                            FiguresLine(MeasureGraph(reconstruction.skeleton))));
 }
 
@@ -68,6 +68,12 @@ MeshRecord WriteTubes(const RunRecord& record, const fs::path& folder) {
     throw Error(error.kind(), fmt::format("{}; {} is complete", error.what(),
                                           (folder / "skeleton.json").string()));
   }
+}
+
+void WriteReport(RunRecord& record, Clock::time_point start, const fs::path& folder) {
+  record.seconds = SecondsSince(start);
+  record.peak_memory = PeakMemory();
+  WriteText(folder / "report.json", ReportJson(record));
 }
 
 int RunReconstruct(const ReconstructArguments& arguments) {
@@ -88,11 +94,14 @@ int RunReconstruct(const ReconstructArguments& arguments) {
   const bool found = !reconstruction.skeleton.empty();
   if (found) {
     WriteSkeletonAndPicture(record, arguments.output);
-    record.mesh = WriteTubes(record, arguments.output);
+    try {
+      record.mesh = WriteTubes(record, arguments.output);
+    } catch (const Error&) {
+      WriteReport(record, start, arguments.output);
+      throw;
+    }
   }
-  record.seconds = SecondsSince(start);
-  record.peak_memory = PeakMemory();
-  WriteText(arguments.output / "report.json", ReportJson(record));
+  WriteReport(record, start, arguments.output);
   if (!arguments.run.quiet) fmt::print("{}", Summary(record, arguments.output));
   return found ? 0 : kNothingThin;
 }
