@@ -76,19 +76,28 @@ SegmentedScan SegmentBundles(const Sequence& sequence, const TsdfVolume& volume,
   return scan;
 }
 
+// CurveFusion 3.2.
+SkeletonGraph ExtractBundleSkeleton(const ObservedPoints& points, const std::string& name,
+                                    RunContext& run) {
+  const StageLog::Timer timer(run.log, "contraction");
+  const ContractedSamples samples = ContractToMedian(points, run.options.l1);
+  SkeletonGraph skeleton = TraceBranches(samples, run.options.l1.tracing);
+  ObservedPoints contracted;
+  for (const Vec3& p : samples.positions) contracted.Add(p, Vec3::Zero(), 1);
+  run.observer.OnPoints(name + "_contracted", contracted);
+  run.observer.OnGraph(name + "_skeleton", skeleton);
+  return skeleton;
+}
+
 // Paper profile: a skeleton for every bundle, fused one after the other, CurveFusion 3.2 and 3.3.
 SkeletonGraph FuseBundleSkeletons(const SegmentedScan& scan, RunContext& run) {
   SkeletonGraph partial;
   for (size_t i = 0; i < scan.bundles.size(); ++i) {
-    SkeletonGraph bundle;
-    {
-      const StageLog::Timer timer(run.log, "contraction");
-      bundle = ExtractL1Skeleton(scan.bundles[i], run.options.l1);
-    }
+    const std::string name = fmt::format("bundle_{:03}", i);
+    const SkeletonGraph bundle = ExtractBundleSkeleton(scan.bundles[i], name, run);
     const StageLog::Timer timer(run.log, "fusion");
-    run.observer.OnGraph(fmt::format("bundle_{:03}_skeleton", i), bundle);
     partial = FuseSkeletons(partial, bundle, std::max(1, static_cast<int>(i)), run.options.fusion);
-    run.observer.OnGraph(fmt::format("bundle_{:03}_fused", i), partial);
+    run.observer.OnGraph(name + "_fused", partial);
     run.observer.OnProgress("skeletons", static_cast<int64_t>(i + 1),
                             static_cast<int64_t>(scan.bundles.size()));
   }
