@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <utility>
 
 namespace curvefusion {
 
@@ -218,6 +220,32 @@ int BandsEnd(const TubeRings& rings, int segment) {
              : rings.ring_count;
 }
 
+std::vector<std::array<int, 3>> SideTriangles(const TubeRings& rings, int first_segment,
+                                              int last_segment) {
+  std::vector<std::array<int, 3>> triangles;
+  for (int segment = first_segment; segment < last_segment; ++segment) {
+    const auto side = SegmentTriangles(rings, segment % SegmentCount(rings));
+    triangles.insert(triangles.end(), side.begin(), side.end());
+  }
+  return triangles;
+}
+
+TriangleMesh WithUsedVertices(const TubeRings& rings, std::vector<std::array<int, 3>> triangles) {
+  TriangleMesh mesh;
+  // A map, not a table: the stub of a long tube uses few of its vertices.
+  std::map<int, int> compact;
+  for (std::array<int, 3>& triangle : triangles) {
+    for (int& vertex : triangle) {
+      const auto [entry, is_new] =
+          compact.try_emplace(vertex, static_cast<int>(mesh.vertices.size()));
+      if (is_new) mesh.vertices.push_back(rings.vertices[vertex]);
+      vertex = entry->second;
+    }
+  }
+  mesh.triangles = std::move(triangles);
+  return mesh;
+}
+
 }  // namespace
 
 std::vector<Vec3> RotationMinimisingNormals(const TubePath& path) {
@@ -273,13 +301,13 @@ std::vector<std::array<int, 3>> SegmentTriangles(const TubeRings& rings, int seg
   return triangles;
 }
 
+TriangleMesh SideOfStub(const TubeRings& rings, int first_segment, int last_segment) {
+  return WithUsedVertices(rings, SideTriangles(rings, first_segment, last_segment));
+}
+
 TriangleMesh CloseStub(const TubeRings& rings, int first_segment, int last_segment) {
   const int count = SegmentCount(rings);
-  std::vector<std::array<int, 3>> triangles;
-  for (int segment = first_segment; segment < last_segment; ++segment) {
-    const auto side = SegmentTriangles(rings, segment % count);
-    triangles.insert(triangles.end(), side.begin(), side.end());
-  }
+  std::vector<std::array<int, 3>> triangles = SideTriangles(rings, first_segment, last_segment);
   const bool whole_ring = rings.closed && last_segment - first_segment == count;
   const auto ring_at = [&](int point) {
     return rings.ring_of_point[point % (count + !rings.closed)];
@@ -290,19 +318,7 @@ TriangleMesh CloseStub(const TubeRings& rings, int first_segment, int last_segme
   if (!whole_ring && (rings.closed || last_segment < count)) {
     AddDisc(rings, ring_at(last_segment), false, triangles);
   }
-  TriangleMesh stub;
-  std::vector<int> compact(rings.vertices.size(), -1);
-  for (std::array<int, 3>& triangle : triangles) {
-    for (int& vertex : triangle) {
-      if (compact[vertex] < 0) {
-        compact[vertex] = static_cast<int>(stub.vertices.size());
-        stub.vertices.push_back(rings.vertices[vertex]);
-      }
-      vertex = compact[vertex];
-    }
-  }
-  stub.triangles = std::move(triangles);
-  return stub;
+  return WithUsedVertices(rings, std::move(triangles));
 }
 
 }  // namespace curvefusion

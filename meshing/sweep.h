@@ -31,6 +31,10 @@ std::vector<Vec3> RotationMinimisingNormals(const TubePath& path);
 /// a short taper. `phase` turns all rings about the axis (radians).
 TubeRings SweepRings(const TubePath& path, int sides, double phase);
 
+/// The open mesh of the segments first..last-1 of a tube, with the tube's own ends where they
+/// belong to it; the segments of a closed tube are counted on over its start.
+TriangleMesh SideOfStub(const TubeRings& rings, int first_segment, int last_segment);
+
 /// The closed mesh of the segments first..last-1 of a tube (counted on over the start of a closed
 /// one): at the tube's own ends its caps, where
 /// it is cut through a flat disc that uses only the vertices of the ring.

@@ -103,29 +103,33 @@ double DeviationWithout(const TubeAxis& axis, const std::vector<size_t>& kept, s
   return deviation;
 }
 
-// Drops points at kinks that are as small as noise: bends too tight for a tube. Of the two points
-// of a segment only one that turns about as much as the other makes the kink.
+std::vector<size_t> Without(std::vector<size_t> kept, size_t k) {
+  kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(k));
+  return kept;
+}
+
+// Drops points at kinks that are as small as noise, where that lets a tube be swept: a bend that is
+// tight at every scale keeps its shape and is cut.
 std::vector<size_t> SmoothKinks(const TubeAxis& axis, std::vector<size_t> kept,
                                 const AxisOptions& options) {
   for (size_t k = 0; k + 1 < kept.size();) {
-    size_t drop = 0;
+    std::vector<size_t> smoothed;
     double deviation = options.kink_tolerance;
     if (NeedsCut(axis, kept, k, options.max_turn)) {
-      const double turn = std::max(TurnAt(axis, kept, k), TurnAt(axis, kept, k + 1));
       for (const size_t i : {k, k + 1}) {
-        if (TurnAt(axis, kept, i) < turn / 2) continue;
         const double d = DeviationWithout(axis, kept, i);
-        if (d <= deviation) {
-          deviation = d;
-          drop = i;
-        }
+        if (d > deviation) continue;
+        std::vector<size_t> candidate = Without(kept, i);
+        if (NeedsCut(axis, candidate, i - 1, options.max_turn)) continue;
+        deviation = d;
+        smoothed = std::move(candidate);
       }
     }
-    if (drop == 0) {
+    if (smoothed.empty()) {
       ++k;
       continue;
     }
-    kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(drop));
+    kept = std::move(smoothed);
     k = k > 2 ? k - 2 : 0;
   }
   return kept;

@@ -16,6 +16,7 @@ namespace curvefusion {
 namespace {
 
 constexpr double kMaxTurn = std::numbers::pi / 4;  // at a mitred ring
+constexpr double kGentle = 2;  // strips are so many times longer than what would fold
 
 // Rings of different tubes are turned against each other, so that their facets do not lie in one
 // plane where the tubes meet.
@@ -53,6 +54,25 @@ std::optional<int> CutAgainstSelfIntersection(const TubePath& path, const TubeRi
   return best;
 }
 
+// Whether all turns of a path are so gentle that no strip comes near folding. Such a tube is sound,
+// as no part of it comes near another (CutSelfContacts).
+bool IsGentle(const TubePath& path) {
+  const Polyline& p = path.axis.points;
+  const size_t n = p.size();
+  double turn_before = path.closed ? TurnAngle(p[0] - p[n - 1], p[1] - p[0]) : 0;
+  for (size_t i = 0; i < static_cast<size_t>(path.segment_count()); ++i) {
+    const size_t next = (i + 1) % n;
+    const bool turns = path.closed || next + 1 < n;
+    const double turn = turns ? TurnAngle(p[next] - p[i], p[(next + 1) % n] - p[next]) : 0;
+    const double radius = std::max(path.axis.radii[i], path.axis.radii[next]);
+    if (StripFolds((p[next] - p[i]).norm() / kGentle, radius, std::max(turn_before, turn), turn)) {
+      return false;
+    }
+    turn_before = turn;
+  }
+  return true;
+}
+
 // Sweeps all paths; those that intersect themselves are cut until none does.
 void SweepSoundly(int sides, uint64_t seed, TubeLayout& layout) {
   for (bool all_sound = false; !all_sound;) {
@@ -61,7 +81,7 @@ void SweepSoundly(int sides, uint64_t seed, TubeLayout& layout) {
     ParallelFor(0, static_cast<int64_t>(layout.paths.size()), 1, [&](int64_t i) {
       const TubePath& path = layout.paths[i];
       layout.rings[i] = SweepRings(path, sides, PhaseOf(static_cast<uint64_t>(i), sides, seed));
-      cuts[i] = CutAgainstSelfIntersection(path, layout.rings[i]);
+      if (!IsGentle(path)) cuts[i] = CutAgainstSelfIntersection(path, layout.rings[i]);
     });
     all_sound = std::none_of(cuts.begin(), cuts.end(), [](const auto& cut) { return cut; });
     if (all_sound) continue;

@@ -56,16 +56,6 @@ void AppendMesh(const TriangleMesh& part, TriangleMesh& whole) {
   }
 }
 
-TriangleMesh SweptStretch(const TubeLayout& layout, const TubeStretch& stretch) {
-  const TubeRings& rings = layout.rings[stretch.path];
-  TriangleMesh mesh{rings.vertices, {}};
-  for (int segment = stretch.first; segment < stretch.last; ++segment) {
-    const auto side = SegmentTriangles(rings, segment % layout.paths[stretch.path].segment_count());
-    mesh.triangles.insert(mesh.triangles.end(), side.begin(), side.end());
-  }
-  return mesh;
-}
-
 Vec3 MiddleOf(const Junction& junction) {
   Eigen::AlignedBox3f box;
   for (const TriangleMesh& stub : junction.stubs) {
@@ -112,7 +102,9 @@ Assembly Assemble(const TubeLayout& layout, const TubeOptions& options) {
   Assembly assembly;
   for (int64_t i = 0; i < count; ++i) {
     if (layout.groups[i].size() == 1) {
-      AppendMesh(SweptStretch(layout, layout.groups[i][0]), assembly.mesh);
+      const TubeStretch& stretch = layout.groups[i][0];
+      AppendMesh(SideOfStub(layout.rings[stretch.path], stretch.first, stretch.last),
+                 assembly.mesh);
     } else {
       AppendJunction(junctions[i], parts[i], assembly);
     }

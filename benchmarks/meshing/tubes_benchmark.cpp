@@ -13,7 +13,7 @@ void Measure(benchmark::State& state, const SkeletonGraph& graph, int threads) {
   for (auto _ : state) tubes = BuildTubes(graph, {});
   state.counters["unions"] = tubes.unions;
   state.counters["faces"] = static_cast<double>(tubes.report.faces);
-  state.counters["cpu_s_per_union"] = benchmark::Counter(
+  state.counters["s_per_union"] = benchmark::Counter(
       static_cast<double>(tubes.unions) * static_cast<double>(state.iterations()),
       benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
