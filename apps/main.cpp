@@ -46,6 +46,8 @@ int Parse(int argc, char** argv) {
   AddGraphCommand(app, exit_code);
   AddConfigCommand(app, exit_code);
   AddDemoScanCommand(app, exit_code);
+  AddSimulateCommand(app, exit_code);
+  AddEvaluateCommand(app, exit_code);
   CheckCommandName(app, argc, argv);
   try {
     app.parse(argc, argv);

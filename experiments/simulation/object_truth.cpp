@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "kernel/atomic_file.h"
+#include "kernel/error.h"
 #include "kernel/spatial_search.h"
 
 namespace curvefusion {
@@ -193,6 +195,23 @@ SkeletonGraph TruthSkeleton(const WireObject& object) {
   graph.DissolveDegree2Nodes();
   graph.RemoveIsolatedNodes();
   return graph;
+}
+
+std::vector<WireCurve> WiresOf(const SkeletonGraph& skeleton, const std::string& source) {
+  if (skeleton.empty()) {
+    throw Error(ErrorKind::kBadInput, source + ": has no curve that could be simulated");
+  }
+  std::vector<WireCurve> wires;
+  for (const EdgeId id : skeleton.Edges()) {
+    const SkeletonEdge& edge = skeleton.edge(id);
+    if (edge.radii.empty()) {
+      throw Error(ErrorKind::kBadInput,
+                  source + ": edge " + std::to_string(id) + " has no radius; a wire needs one");
+    }
+    const double sum = std::accumulate(edge.radii.begin(), edge.radii.end(), 0.0);
+    wires.push_back({edge.points, 2 * sum / static_cast<double>(edge.radii.size())});
+  }
+  return wires;
 }
 
 void WriteCurves(const std::filesystem::path& path, const WireObject& object) {

@@ -12,8 +12,9 @@ std::vector<std::string> ObjectNames() {
 }
 
 WireObject MakeObject(const std::string& name, const ObjectOptions& options) {
-  WireObject object{name, {}};
-  if (!MakePaperObject(name, object.curves) && !MakeStudyObject(name, options, object.curves)) {
+  WireObject object{name, options.curves};
+  if (object.curves.empty() && !MakePaperObject(name, object.curves) &&
+      !MakeStudyObject(name, options, object.curves)) {
     throw Error(ErrorKind::kUsage, "no object is called '" + name + "'; did you mean '" +
                                        NearestName(name, ObjectNames()) + "'?");
   }

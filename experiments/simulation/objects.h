@@ -26,6 +26,8 @@ struct WireObject {
 struct ObjectOptions {
   double wire_diameter = 0;  ///< metres; 0 keeps the object's own diameters
   double spacing = 0.020;    ///< metres between the axes of `parallel_wires`
+  std::vector<WireCurve>
+      curves;  ///< an object of the caller's, under any name; empty = a known one
 };
 
 /// Every name MakeObject knows: the paper's eight first, in the order of its Table 1.
@@ -35,7 +37,7 @@ std::vector<std::string> ObjectNames();
 /// `chair`, `wine`: sizes guessed from its figures, diameters from its Table 1), and objects of the
 /// studies: `triangles` (1, 2, 3 and 4 mm), `parallel_wires`, `breadholder`, `valence6` (the
 /// junction of the paper's limitations), `mesh_panel`, `cubeframe`, `empty` (no wire at all).
-/// Throws Error(kUsage) for another name.
+/// Throws Error(kUsage) for another name, unless the options bring the curves.
 WireObject MakeObject(const std::string& name, const ObjectOptions& options = {});
 
 /// The paper's eight; false where `name` is none of them.

@@ -13,7 +13,7 @@ namespace curvefusion {
 
 /// A scan to simulate.
 struct SimulationOptions {
-  std::string object = "cubeframe";      ///< one of ObjectNames()
+  std::string object = "cubeframe";      ///< one of ObjectNames(), or of object_options.curves
   std::string sensor = "kinect_v1";      ///< one of SensorNames()
   std::string pose_source = "orbslam2";  ///< one of PoseSourceNames()
   uint64_t seed = 1;

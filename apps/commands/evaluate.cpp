@@ -1,0 +1,78 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "apps/commands/command.h"
+#include "apps/evaluation_table.h"
+#include "apps/interrupt.h"
+#include "apps/output_folder.h"
+#include "experiments/metrics/evaluation_files.h"
+#include "experiments/metrics/truth.h"
+#include "graph/graph_io.h"
+#include "kernel/parallel.h"
+#include "meshing/mesh_io.h"
+
+namespace curvefusion {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct EvaluateArguments {
+  fs::path result;
+  fs::path truth;
+  fs::path mesh;
+  fs::path json;
+  fs::path csv;
+  RunOptions run;
+};
+
+int RunEvaluate(const EvaluateArguments& arguments) {
+  const ThreadLimit limit(arguments.run.threads);
+  const bool is_folder = fs::is_directory(arguments.result);
+  const SkeletonGraph result =
+      ReadSkeleton(is_folder ? arguments.result / "skeleton.json" : arguments.result);
+  const SkeletonGraph truth = ReadTruth(arguments.truth);
+  std::optional<TriangleMesh> mesh;
+  if (!arguments.mesh.empty()) mesh = ReadMesh(arguments.mesh);
+  MakeFolderOf(arguments.json);
+  MakeFolderOf(arguments.csv);
+  const Evaluation evaluation = Evaluate(result, mesh ? &*mesh : nullptr, truth);
+  ThrowIfInterrupted();
+  const EvaluationLabels labels{arguments.result.string(), arguments.truth.string()};
+  if (!arguments.json.empty()) WriteEvaluation(arguments.json, labels, evaluation);
+  if (!arguments.csv.empty()) AppendEvaluation(arguments.csv, labels, evaluation);
+  if (!arguments.run.quiet) fmt::print("{}", EvaluationTable(evaluation));
+  return 0;
+}
+
+}  // namespace
+
+void AddEvaluateCommand(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("evaluate", "Compare a result with a known truth");
+  const auto arguments = std::make_shared<EvaluateArguments>();
+  command->add_option("OUT", arguments->result, "A result folder or a skeleton.json")->required();
+  command
+      ->add_option("--truth", arguments->truth,
+                   "The truth/ folder of a simulated scan, a skeleton.json with radii, or a "
+                   "curves.json")
+      ->required();
+  command->add_option("--mesh", arguments->mesh,
+                      "A mesh in metres (PLY, OBJ, STL) to compare with the true tubes' surface");
+  command->add_option("--json", arguments->json, "Write all figures as JSON");
+  command->add_option("--csv", arguments->csv,
+                      "Add all figures as a row to a CSV file, which is made where it is missing");
+  AddRunOptions(*command, arguments->run);
+  command->footer(
+      "Raw figures compare the result as it lies; aligned ones after one rigid motion, found by\n"
+      "iterative closest points. P and R are the shares of the result that is true and of the\n"
+      "truth that was found, F is their harmonic mean; - means there is nothing to take them of.\n"
+      "Example:\n  curvefusion evaluate result --truth scan/truth\n"
+      "  curvefusion evaluate result --truth scan/truth --mesh result/mesh.ply --csv all.csv");
+  command->callback([arguments, &exit_code] { exit_code = RunEvaluate(*arguments); });
+}
+
+}  // namespace curvefusion

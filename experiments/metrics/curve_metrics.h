@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "experiments/metrics/precision_recall.h"
+#include "graph/skeleton_graph.h"
+#include "kernel/geometry.h"
+
+namespace curvefusion {
+
+/// Points about 1 mm apart along all curves of a skeleton, and where each was taken.
+struct SkeletonSamples {
+  std::vector<Vec3> positions;
+  std::vector<EdgeId> edges;
+  std::vector<double> arc_lengths;  ///< metres from the edge's first point
+  std::vector<double> radii;        ///< metres; 0 where the edge has none
+
+  size_t size() const { return positions.size(); }
+};
+SkeletonSamples SampleSkeleton(const SkeletonGraph& graph, double step = 1 * kMillimetre);
+
+/// From each point the distance to the nearest of `others` (not empty), in parallel.
+std::vector<double> DistancesTo(const std::vector<Vec3>& points, const std::vector<Vec3>& others);
+
+/// At which distances a curve counts as found.
+inline constexpr std::array<double, 4> kDistanceThresholds = {1 * kMillimetre, 2 * kMillimetre,
+                                                              5 * kMillimetre, 10 * kMillimetre};
+
+/// How near a result's curves are to the true ones and these to them.
+struct DistanceScores {
+  std::array<PrecisionRecall, kDistanceThresholds.size()> within;  ///< of kDistanceThresholds
+  std::optional<double> mean;           ///< mean of both directions' means, metres
+  std::optional<double> percentile_95;  ///< the greater one of both directions', metres
+};
+
+/// Compares samples of the result with samples of the truth. Either may be empty.
+DistanceScores CompareCurves(const SkeletonSamples& result, const SkeletonSamples& truth);
+
+/// The rigid motion that takes a result onto the truth, by iterative closest points: 60 times, the
+/// pairs nearer than the 80th percentile of all distances (or 2 mm, where that is more) are fitted.
+/// It is not robust against false curves beyond that fifth, and starts from where the result is.
+/// Identity for fewer than 11 points. O(n log m) per iteration.
+RigidTransform AlignToTruth(const std::vector<Vec3>& result, const std::vector<Vec3>& truth);
+
+}  // namespace curvefusion

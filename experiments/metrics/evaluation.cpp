@@ -1,0 +1,44 @@
+#include "experiments/metrics/evaluation.h"
+
+#include "fusion/alignment.h"
+
+namespace curvefusion {
+namespace {
+
+PlacedScores Compare(const SkeletonGraph& result, const SkeletonGraph& truth) {
+  const SkeletonSamples result_samples = SampleSkeleton(result);
+  const SkeletonSamples truth_samples = SampleSkeleton(truth);
+  PlacedScores scores;
+  scores.curves = CompareCurves(result_samples, truth_samples);
+  scores.junctions_10mm = MatchJunctions(result, truth, 10 * kMillimetre);
+  scores.junctions_5mm = MatchJunctions(result, truth, 5 * kMillimetre);
+  scores.paths = ComparePaths(result, truth);
+  scores.diameters = CompareDiameters(result_samples, truth_samples);
+  return scores;
+}
+
+void CompareMesh(const TriangleMesh& mesh, const SkeletonGraph& truth, Evaluation& evaluation) {
+  evaluation.raw.surface = CompareSurface(PartAroundTruth(mesh, truth).mesh, truth);
+  const MeshPart part = PartAroundTruth(Transformed(mesh, evaluation.T_truth_result), truth);
+  evaluation.aligned.surface = CompareSurface(part.mesh, truth);
+  evaluation.mesh = ExamineMesh(part.mesh);
+  evaluation.mesh_area_outside = part.area_outside;
+}
+
+}  // namespace
+
+Evaluation Evaluate(const SkeletonGraph& result, const TriangleMesh* mesh,
+                    const SkeletonGraph& truth) {
+  Evaluation evaluation;
+  evaluation.T_truth_result =
+      AlignToTruth(SampleSkeleton(result).positions, SampleSkeleton(truth).positions);
+  evaluation.raw = Compare(result, truth);
+  evaluation.aligned = Compare(Transformed(result, evaluation.T_truth_result), truth);
+  evaluation.topology = CompareTopology(result, truth);
+  evaluation.length = result.TotalLength();
+  evaluation.true_length = truth.TotalLength();
+  if (mesh != nullptr) CompareMesh(*mesh, truth, evaluation);
+  return evaluation;
+}
+
+}  // namespace curvefusion

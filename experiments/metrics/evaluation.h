@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "experiments/metrics/curve_metrics.h"
+#include "experiments/metrics/diameter_metrics.h"
+#include "experiments/metrics/junction_metrics.h"
+#include "experiments/metrics/mesh_metrics.h"
+#include "experiments/metrics/topology_metrics.h"
+
+namespace curvefusion {
+
+/// Every figure that depends on where the result lies.
+struct PlacedScores {
+  DistanceScores curves;
+  JunctionScores junctions_10mm;
+  JunctionScores junctions_5mm;
+  AplsScores paths;
+  DiameterScores diameters;
+  std::optional<SurfaceScores> surface;  ///< where a mesh was given
+};
+
+/// A result compared with the truth as it lies, and after one rigid alignment of its curves.
+struct Evaluation {
+  PlacedScores raw;
+  PlacedScores aligned;
+  RigidTransform T_truth_result = RigidTransform::Identity();  ///< the alignment
+  TopologyScores topology;
+  double length = 0;                     ///< metres of curve in the result
+  double true_length = 0;                ///< and in truth
+  std::optional<WatertightReport> mesh;  ///< of the part around the truth
+  double mesh_area_outside = 0;          ///< m^2 of the rest, which nothing else looks at
+};
+
+/// Compares a skeleton, and the mesh beside it unless that is null, with a truth that has radii.
+Evaluation Evaluate(const SkeletonGraph& result, const TriangleMesh* mesh,
+                    const SkeletonGraph& truth);
+
+}  // namespace curvefusion

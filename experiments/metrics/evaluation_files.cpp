@@ -1,0 +1,183 @@
+#include "experiments/metrics/evaluation_files.h"
+
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "kernel/atomic_file.h"
+#include "kernel/error.h"
+
+namespace curvefusion {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json Value(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+
+Json Millimetres(const std::optional<double>& metres) {
+  return metres ? Json(*metres / kMillimetre) : Json(nullptr);
+}
+
+Json WithinJson(const std::array<PrecisionRecall, kDistanceThresholds.size()>& within) {
+  static constexpr const char* kKeys[] = {"1mm", "2mm", "5mm", "10mm"};
+  static_assert(std::size(kKeys) == kDistanceThresholds.size());
+  Json json;
+  for (size_t i = 0; i < within.size(); ++i) {
+    json[kKeys[i]] = {{"precision", Value(within[i].precision)},
+                      {"recall", Value(within[i].recall)},
+                      {"f", Value(within[i].F())}};
+  }
+  return json;
+}
+
+Json CurvesJson(const DistanceScores& scores) {
+  Json json = WithinJson(scores.within);
+  json["mean_mm"] = Millimetres(scores.mean);
+  json["percentile_95_mm"] = Millimetres(scores.percentile_95);
+  return json;
+}
+
+Json JunctionsJson(const JunctionScores& scores) {
+  return {{"truth", scores.truth},
+          {"found", scores.found},
+          {"matched", scores.matched},
+          {"valence_right", scores.valence_right},
+          {"precision", Value(scores.Score().precision)},
+          {"recall", Value(scores.Score().recall)},
+          {"valence_share", Value(scores.ValenceShare())}};
+}
+
+Json PathsJson(const AplsScores& scores) {
+  return {{"truth_to_result", Value(scores.truth_to_result)},
+          {"result_to_truth", Value(scores.result_to_truth)},
+          {"both", Value(scores.Apls())}};
+}
+
+Json DiametersJson(const DiameterScores& scores) {
+  Json edges = Json::array();
+  for (const EdgeDiameter& edge : scores.edges) {
+    edges.push_back({{"edge", edge.edge},
+                     {"length_mm", edge.length / kMillimetre},
+                     {"diameter_mm", edge.diameter / kMillimetre},
+                     {"true_diameter_mm", edge.true_diameter / kMillimetre}});
+  }
+  return {{"mean_error_mm", Millimetres(scores.mean_error)},
+          {"relative_error", Value(scores.relative_error)},
+          {"compared_share", scores.compared_share},
+          {"per_edge", edges}};
+}
+
+Json SurfaceJson(const SurfaceScores& scores) {
+  Json json = WithinJson(scores.within);
+  json["mean_to_truth_mm"] = Millimetres(scores.mean_to_truth);
+  json["mean_to_mesh_mm"] = Millimetres(scores.mean_to_mesh);
+  return json;
+}
+
+Json PlacedJson(const PlacedScores& scores) {
+  return {{"curves", CurvesJson(scores.curves)},
+          {"junctions_10mm", JunctionsJson(scores.junctions_10mm)},
+          {"junctions_5mm", JunctionsJson(scores.junctions_5mm)},
+          {"apls", PathsJson(scores.paths)},
+          {"diameter", DiametersJson(scores.diameters)},
+          {"surface", SurfaceJson(scores.surface.value_or(SurfaceScores{}))}};
+}
+
+Json MeshJson(const Evaluation& evaluation) {
+  const WatertightReport mesh = evaluation.mesh.value_or(WatertightReport{});
+  Json json = {{"faces", mesh.faces},
+               {"components", mesh.components},
+               {"boundary_edges", mesh.boundary_edges},
+               {"non_manifold_edges", mesh.non_manifold_edges},
+               {"self_intersections", mesh.self_intersections},
+               {"watertight", mesh.IsWatertight() ? 1 : 0},
+               {"volume", mesh.volume},
+               {"area", mesh.area},
+               {"area_outside", evaluation.mesh_area_outside}};
+  if (!evaluation.mesh) {
+    for (Json& value : json) value = nullptr;
+  }
+  return json;
+}
+
+Json AlignmentJson(const RigidTransform& T_truth_result) {
+  const Eigen::AngleAxisd rotation(T_truth_result.rotation());
+  return {{"translation_mm", T_truth_result.translation().norm() / kMillimetre},
+          {"rotation", rotation.angle()}};
+}
+
+Json EvaluationJson(const EvaluationLabels& labels, const Evaluation& evaluation) {
+  const TopologyScores& topology = evaluation.topology;
+  return {{"result", labels.result},
+          {"truth", labels.truth},
+          {"length", evaluation.length},
+          {"true_length", evaluation.true_length},
+          {"components", topology.components},
+          {"true_components", topology.true_components},
+          {"cycles", topology.cycles},
+          {"true_cycles", topology.true_cycles},
+          {"alignment", AlignmentJson(evaluation.T_truth_result)},
+          {"raw", PlacedJson(evaluation.raw)},
+          {"aligned", PlacedJson(evaluation.aligned)},
+          {"mesh", MeshJson(evaluation)}};
+}
+
+struct CsvRow {
+  std::string header;
+  std::string values;
+};
+
+std::string CsvText(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
+  return quoted + "\"";
+}
+
+void AppendCells(const Json& json, const std::string& name, CsvRow& row) {
+  if (json.is_array()) return;
+  if (json.is_object()) {
+    for (const auto& [key, value] : json.items()) {
+      AppendCells(value, name.empty() ? key : name + "." + key, row);
+    }
+    return;
+  }
+  const std::string separator = row.header.empty() ? "" : ",";
+  row.header += separator + name;
+  row.values += separator;
+  if (json.is_string()) {
+    row.values += CsvText(json.get<std::string>());
+  } else if (!json.is_null()) {
+    row.values += json.dump();
+  }
+}
+
+std::string ReadIfThere(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+}  // namespace
+
+void WriteEvaluation(const std::filesystem::path& path, const EvaluationLabels& labels,
+                     const Evaluation& evaluation) {
+  const std::string text = EvaluationJson(labels, evaluation).dump(1);
+  WriteStreamAtomically(path, [&](std::ostream& stream) { stream << text << "\n"; });
+}
+
+void AppendEvaluation(const std::filesystem::path& path, const EvaluationLabels& labels,
+                      const Evaluation& evaluation) {
+  CsvRow row;
+  AppendCells(EvaluationJson(labels, evaluation), "", row);
+  std::string text = ReadIfThere(path);
+  if (text.empty()) text = row.header + "\n";
+  if (text.substr(0, text.find('\n')) != row.header) {
+    throw Error(ErrorKind::kBadInput, path.string() + ": has other columns than an evaluation; " +
+                                          "name a new file or one that evaluate has written");
+  }
+  if (text.back() != '\n') text += '\n';
+  text += row.values + "\n";
+  WriteStreamAtomically(path, [&](std::ostream& stream) { stream << text; });
+}
+
+}  // namespace curvefusion

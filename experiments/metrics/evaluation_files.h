@@ -1,0 +1,27 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "experiments/metrics/evaluation.h"
+
+namespace curvefusion {
+
+/// What an evaluation is of, to tell rows apart.
+struct EvaluationLabels {
+  std::string result;
+  std::string truth;
+};
+
+/// All figures as JSON: lengths in mm where the key ends in `_mm`, otherwise in metres; null where
+/// there is nothing to take a share or a mean of.
+void WriteEvaluation(const std::filesystem::path& path, const EvaluationLabels& labels,
+                     const Evaluation& evaluation);
+
+/// Adds all figures but those of single edges as a row to a CSV file, which is made with a header
+/// where it is missing; the columns are the keys of the JSON joined by dots. Throws
+/// Error(kBadInput) where the file has other columns, Error(kResource) where it cannot be written.
+void AppendEvaluation(const std::filesystem::path& path, const EvaluationLabels& labels,
+                      const Evaluation& evaluation);
+
+}  // namespace curvefusion

@@ -1,0 +1,84 @@
+#include "experiments/metrics/truth.h"
+
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "experiments/simulation/object_truth.h"
+#include "graph/graph_io.h"
+#include "kernel/error.h"
+
+namespace curvefusion {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path TruthFile(const fs::path& path) {
+  if (!fs::is_directory(path)) return path;
+  for (const char* name : {"skeleton.json", "curves.json"}) {
+    if (fs::exists(path / name)) return path / name;
+  }
+  throw Error(ErrorKind::kBadInput,
+              path.string() + ": holds neither skeleton.json nor curves.json; give the truth/ " +
+                  "folder of a simulated scan");
+}
+
+std::string ReadText(const fs::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) throw Error(ErrorKind::kBadInput, path.string() + ": cannot be read");
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+// Throws nlohmann's exceptions for what is not there or of another type.
+WireCurve CurveOf(const nlohmann::json& json) {
+  WireCurve curve;
+  curve.diameter = json.at("diameter").get<double>();
+  for (const nlohmann::json& point : json.at("points")) {
+    curve.points.emplace_back(point.at(0).get<double>(), point.at(1).get<double>(),
+                              point.at(2).get<double>());
+  }
+  const bool closed = json.at("closed").get<bool>();
+  if (closed && !curve.points.empty() && curve.points.front() != curve.points.back()) {
+    curve.points.push_back(curve.points.front());
+  }
+  return curve;
+}
+
+SkeletonGraph TruthFromCurves(const std::string& text, const std::string& source) {
+  WireObject object{source, {}};
+  try {
+    for (const nlohmann::json& json : nlohmann::json::parse(text)) {
+      object.curves.push_back(CurveOf(json));
+    }
+  } catch (const nlohmann::json::exception& error) {
+    throw Error(ErrorKind::kBadInput, source + ": is no list of curves: " + error.what());
+  }
+  for (size_t i = 0; i < object.curves.size(); ++i) {
+    const WireCurve& curve = object.curves[i];
+    if (curve.diameter > 0 && Length(curve.points) > 0) continue;
+    throw Error(ErrorKind::kBadInput,
+                source + ": curve " + std::to_string(i) + " has no length or no diameter");
+  }
+  return TruthSkeleton(object);
+}
+
+}  // namespace
+
+SkeletonGraph ReadTruth(const fs::path& path) {
+  const fs::path file = TruthFile(path);
+  const std::string text = ReadText(file);
+  const size_t first = text.find_first_not_of(" \t\r\n");
+  if (first != std::string::npos && text[first] == '[') {
+    return TruthFromCurves(text, file.string());
+  }
+  SkeletonGraph truth = SkeletonFromJson(text, file.string());
+  for (const EdgeId edge : truth.Edges()) {
+    if (!truth.edge(edge).radii.empty()) continue;
+    throw Error(ErrorKind::kBadInput, file.string() + ": edge " + std::to_string(edge) +
+                                          " has no radius; a truth needs them all");
+  }
+  return truth;
+}
+
+}  // namespace curvefusion

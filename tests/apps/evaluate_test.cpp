@@ -1,0 +1,110 @@
+// Runs `curvefusion evaluate` and `curvefusion simulate` as a user does.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+
+#include "tests/temporary_path.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+struct Outcome {
+  int exit_code = 0;
+  std::string output;  // both streams
+};
+
+class Evaluate : public testing::Test {
+ protected:
+  void SetUp() override { fs::create_directories(folder_); }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string Text(const std::string& name) const {
+    std::stringstream text;
+    text << std::ifstream(folder_ / name).rdbuf();
+    return text.str();
+  }
+
+  Outcome Run(const std::string& arguments) const {
+    const std::string command = "cd '" + folder_.string() + "' && '" CURVEFUSION_PROGRAM "' " +
+                                arguments + " >output.txt 2>&1";
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, Text("output.txt")};
+  }
+
+  const fs::path folder_ = curvefusion::TemporaryPath(
+      std::string("evaluate_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+};
+
+TEST_F(Evaluate, ASimulatedTruthIsPerfect) {
+  ASSERT_EQ(Run("simulate cat -o scan --sensor ideal --frames 1 --quiet").exit_code, 0);
+  ASSERT_EQ(Run("mesh scan/truth/skeleton.json -o tubes.ply --quiet").exit_code, 0);
+  const Outcome outcome =
+      Run("evaluate scan/truth --truth scan/truth --mesh tubes.ply --json a.json --csv all.csv");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("aligned"));
+  EXPECT_THAT(outcome.output, HasSubstr("22 of 22 (22)"));
+  const nlohmann::json json = nlohmann::json::parse(Text("a.json"));
+  EXPECT_EQ(json["aligned"]["curves"]["1mm"]["f"], 1.0);
+  EXPECT_EQ(json["aligned"]["surface"]["1mm"]["f"], 1.0);
+  EXPECT_EQ(json["mesh"]["boundary_edges"], 0);
+  EXPECT_EQ(Run("evaluate scan/truth/skeleton.json --truth scan/truth/curves.json --csv all.csv "
+                "--quiet")
+                .output,
+            "");
+  const std::string csv = Text("all.csv");
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 3);
+}
+
+TEST_F(Evaluate, ExitCodes) {
+  EXPECT_EQ(Run("evaluate").exit_code, 2);
+  EXPECT_EQ(Run("evaluate out").exit_code, 2);
+  EXPECT_EQ(Run("evaluate --help").exit_code, 0);
+  ASSERT_EQ(Run("simulate cat -o scan --sensor ideal --frames 1 --quiet").exit_code, 0);
+  const Outcome bad_truth = Run("evaluate scan/truth --truth nowhere --json a.json");
+  EXPECT_EQ(bad_truth.exit_code, 3);
+  EXPECT_THAT(bad_truth.output, HasSubstr("nowhere"));
+  EXPECT_FALSE(fs::exists(folder_ / "a.json"));
+  EXPECT_EQ(Run("evaluate scan/truth --truth scan").exit_code, 3);
+  EXPECT_EQ(Run("evaluate nowhere --truth scan/truth").exit_code, 3);
+  EXPECT_EQ(Run("evaluate scan/truth --truth scan/truth --mesh nowhere.ply").exit_code, 3);
+}
+
+TEST_F(Evaluate, SimulateRefusesWhatCannotBe) {
+  EXPECT_EQ(Run("simulate --help").exit_code, 0);
+  EXPECT_EQ(Run("simulate cat").exit_code, 2);
+  EXPECT_EQ(Run("simulate cat -o scan --sensor lidar").exit_code, 2);
+  EXPECT_EQ(Run("simulate cat -o scan --frames 0").exit_code, 2);
+  const Outcome unknown = Run("simulate cag -o scan");
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_THAT(unknown.output, HasSubstr("did you mean 'cage'"));
+  EXPECT_EQ(Run("simulate nowhere.json -o scan").exit_code, 3);
+  EXPECT_FALSE(fs::exists(folder_ / "scan"));
+}
+
+TEST_F(Evaluate, SimulatesASkeletonOfTheUsers) {
+  std::ofstream(folder_ / "mine.json")
+      << R"({"format":"curvefusion-skeleton","version":1,"units":"m","nodes":[)"
+      << R"({"position":[0,0,0]},{"position":[0.2,0,0]},{"position":[0,0,0.2]},)"
+      << R"({"position":[-0.2,0,0]}],"edges":[)"
+      << R"({"nodes":[0,1],"points":[[0,0,0],[0.2,0,0]],"radius":0.002},)"
+      << R"({"nodes":[0,2],"points":[[0,0,0],[0,0,0.2]],"radius":0.003},)"
+      << R"({"nodes":[0,3],"points":[[0,0,0],[-0.2,0,0]],"radius":0.002}]})";
+  const Outcome outcome =
+      Run("simulate mine.json -o scan --sensor ideal --poses true --frames 1 --distance 0.8");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  const nlohmann::json truth = nlohmann::json::parse(Text("scan/truth/skeleton.json"));
+  EXPECT_EQ(truth["nodes"].size(), 4u);
+  EXPECT_EQ(truth["edges"].size(), 3u);
+}
+
+}  // namespace

@@ -1,0 +1,150 @@
+#include "experiments/metrics/evaluation.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "experiments/metrics/evaluation_files.h"
+#include "experiments/metrics/truth.h"
+#include "experiments/simulation/object_truth.h"
+#include "fusion/alignment.h"
+#include "graph/graph_io.h"
+#include "kernel/error.h"
+#include "kernel/parallel.h"
+#include "tests/temporary_path.h"
+
+namespace curvefusion {
+namespace {
+
+namespace fs = std::filesystem;
+
+class EvaluationFiles : public testing::Test {
+ protected:
+  void SetUp() override { fs::create_directories(folder_); }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string Text(const std::string& name) const {
+    std::stringstream text;
+    text << std::ifstream(folder_ / name).rdbuf();
+    return text.str();
+  }
+
+  const fs::path folder_ = TemporaryPath(
+      std::string("evaluation_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+};
+
+TEST(Evaluate, IdentityIsPerfect) {
+  const SkeletonGraph truth = TruthSkeleton(MakeObject("cubeframe"));
+  const Evaluation evaluation = Evaluate(truth, nullptr, truth);
+  for (const PlacedScores* scores : {&evaluation.raw, &evaluation.aligned}) {
+    for (const PrecisionRecall& score : scores->curves.within) EXPECT_EQ(score.F(), 1.0);
+    EXPECT_EQ(scores->junctions_5mm.matched, 13);
+    EXPECT_EQ(scores->junctions_5mm.valence_right, 13);
+    EXPECT_NEAR(*scores->paths.Apls(), 1, 1e-6);           // rounding of lengths
+    EXPECT_NEAR(*scores->diameters.mean_error, 0, 1e-12);  // the same samples, rounded alike
+  }
+  EXPECT_EQ(evaluation.topology.cycles, evaluation.topology.true_cycles);
+}
+
+TEST(Evaluate, AMissingEdgeLowersRecallAndCycles) {
+  const SkeletonGraph truth = TruthSkeleton(MakeObject("cage"));
+  SkeletonGraph result = truth;
+  result.RemoveEdge(result.Edges()[3]);
+  const Evaluation evaluation = Evaluate(result, nullptr, truth);
+  EXPECT_EQ(evaluation.aligned.curves.within[2].precision, 1.0);
+  EXPECT_LT(*evaluation.aligned.curves.within[2].recall, 1.0);
+  EXPECT_EQ(evaluation.topology.cycles, 40);
+  EXPECT_LT(*evaluation.aligned.paths.truth_to_result, 1.0);
+}
+
+TEST(Evaluate, AlignmentRemovesAShiftThatTheRawFiguresShow) {
+  const SkeletonGraph truth = TruthSkeleton(MakeObject("cage"));
+  RigidTransform shift = RigidTransform::Identity();
+  shift.translation() = Vec3(0.002, 0.002, 0.002);
+  const SkeletonGraph result = Transformed(truth, shift);
+  const Evaluation evaluation = Evaluate(result, nullptr, truth);
+  EXPECT_LT(*evaluation.raw.curves.within[0].F(), 0.1);
+  EXPECT_EQ(evaluation.aligned.curves.within[0].F(), 1.0);
+  // Pairs with samples 1 mm apart: below half a step.
+  EXPECT_NEAR(evaluation.T_truth_result.translation().norm(), shift.translation().norm(), 0.0005);
+}
+
+TEST(Evaluate, TheSameForAnyNumberOfThreads) {
+  const SkeletonGraph truth = TruthSkeleton(MakeObject("deco"));
+  RigidTransform shift = RigidTransform::Identity();
+  shift.translation() = Vec3(0.002, 0.001, -0.001);
+  const SkeletonGraph result = Transformed(truth, shift);
+  const auto apls_and_motion = [&](int threads) {
+    const ThreadLimit limit(threads);
+    const Evaluation evaluation = Evaluate(result, nullptr, truth);
+    return std::pair(*evaluation.raw.paths.Apls(), evaluation.T_truth_result.matrix().sum());
+  };
+  EXPECT_EQ(apls_and_motion(1), apls_and_motion(3));
+}
+
+TEST(Evaluate, EmptyResults) {
+  const SkeletonGraph truth = TruthSkeleton(MakeObject("cat"));
+  const Evaluation evaluation = Evaluate({}, nullptr, truth);
+  EXPECT_EQ(evaluation.aligned.curves.within[3].F(), 0.0);
+  EXPECT_EQ(evaluation.aligned.junctions_10mm.matched, 0);
+  EXPECT_EQ(Evaluate(truth, nullptr, {}).aligned.curves.within[3].F(), 0.0);
+  EXPECT_EQ(Evaluate({}, nullptr, {}).aligned.curves.within[3].F(), std::nullopt);
+}
+
+TEST_F(EvaluationFiles, TruthReadsAlikeFromSkeletonAndCurves) {
+  const WireObject object = MakeObject("cage");
+  WriteSkeleton(folder_ / "skeleton.json", TruthSkeleton(object));
+  WriteCurves(folder_ / "curves.json", object);
+  const SkeletonGraph from_folder = ReadTruth(folder_);
+  const SkeletonGraph from_curves = ReadTruth(folder_ / "curves.json");
+  EXPECT_EQ(SkeletonToJson(from_folder), SkeletonToJson(from_curves));
+  fs::remove(folder_ / "skeleton.json");
+  EXPECT_EQ(ReadTruth(folder_).CycleRank(), 41);
+}
+
+TEST_F(EvaluationFiles, RefusesWhatIsNoTruth) {
+  EXPECT_THROW(ReadTruth(folder_), Error);
+  EXPECT_THROW(ReadTruth(folder_ / "missing.json"), Error);
+  const auto refuses = [&](const std::string& text) {
+    std::ofstream(folder_ / "curves.json") << text;
+    EXPECT_THROW(ReadTruth(folder_), Error) << text;
+  };
+  refuses("[{\"diameter\": 1}]");
+  refuses("[");
+  refuses("[{\"diameter\": 0.004, \"closed\": false, \"points\": [[0, 0, 0]]}]");
+  refuses("[{\"diameter\": -1, \"closed\": false, \"points\": [[0, 0, 0], [1, 0, 0]]}]");
+  SkeletonGraph bare;
+  bare.AddPolyline({{0, 0, 0}, {1, 0, 0}});
+  WriteSkeleton(folder_ / "skeleton.json", bare);
+  EXPECT_THROW(ReadTruth(folder_), Error);
+}
+
+TEST_F(EvaluationFiles, CsvGrowsByRowsOfTheSameColumns) {
+  const SkeletonGraph truth = TruthSkeleton(MakeObject("cat"));
+  const Evaluation evaluation = Evaluate(truth, nullptr, truth);
+  AppendEvaluation(folder_ / "all.csv", {"a", "t"}, evaluation);
+  AppendEvaluation(folder_ / "all.csv", {"b, \"c\"", "t"}, evaluation);
+  std::ifstream stream(folder_ / "all.csv");
+  std::string header, first, second, rest;
+  std::getline(stream, header);
+  std::getline(stream, first);
+  std::getline(stream, second);
+  EXPECT_FALSE(std::getline(stream, rest));
+  EXPECT_EQ(std::count(header.begin(), header.end(), ','),
+            std::count(first.begin(), first.end(), ','));
+  EXPECT_NE(header.find("aligned.curves.5mm.f"), std::string::npos);
+  EXPECT_EQ(first.rfind("a,t,", 0), 0u);
+  EXPECT_EQ(second.rfind("\"b, \"\"c\"\"\",t,", 0), 0u);
+}
+
+TEST_F(EvaluationFiles, CsvWithOtherColumnsIsLeftAlone) {
+  std::ofstream(folder_ / "other.csv") << "x,y\n1,2\n";
+  EXPECT_THROW(AppendEvaluation(folder_ / "other.csv", {"a", "t"}, {}), Error);
+  EXPECT_EQ(Text("other.csv"), "x,y\n1,2\n");
+}
+
+}  // namespace
+}  // namespace curvefusion
