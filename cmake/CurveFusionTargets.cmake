@@ -8,6 +8,7 @@ add_library(curvefusion_warnings INTERFACE)
 target_compile_options(curvefusion_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual
   $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>  # false alarms inside Eigen under gcc 12
+  -Wno-missing-field-initializers  # designated initialisers leave the rest at its defaults
   $<$<BOOL:${CURVEFUSION_WARNINGS_AS_ERRORS}>:-Werror>)
 
 # curvefusion_add_library(NAME SOURCES... ) makes the folder's library and its alias curvefusion::NAME.
