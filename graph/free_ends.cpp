@@ -15,8 +15,6 @@ namespace curvefusion {
 
 namespace {
 
-constexpr double kTipFraction = 0.2;
-
 struct FreeEnd {
   NodeId node;
   EdgeId edge;
@@ -41,16 +39,20 @@ struct Join {
   }
 };
 
-// The direction leaves out the very tip, which noise bends.
+// The points of the only edge at a node, from the node on.
+Polyline PointsFrom(const SkeletonGraph& graph, NodeId node) {
+  const SkeletonEdge& edge = graph.edge(graph.IncidentEdges(node)[0]);
+  Polyline points = edge.points;
+  if (edge.nodes[0] != node) std::reverse(points.begin(), points.end());
+  return points;
+}
+
 FreeEnd MakeFreeEnd(const SkeletonGraph& graph, NodeId node, const FreeEndOptions& options) {
-  const EdgeId id = graph.IncidentEdges(node)[0];
-  Polyline points = graph.edge(id).points;
-  if (graph.edge(id).nodes[1] == node) std::reverse(points.begin(), points.end());
+  const Polyline points = PointsFrom(graph, node);
   const std::vector<double> arc_length = CumulativeLength(points);
-  const double length = std::min(options.fit_length, arc_length.back());
-  const Vec3 tip = PointAt(points, arc_length, kTipFraction * length);
-  const Vec3 inner = PointAt(points, arc_length, length);
-  return {node, id, points.front(), (tip - inner).normalized()};
+  const Vec3 inner = PointAt(points, arc_length, options.fit_length);
+  return {node, graph.IncidentEdges(node)[0], points.front(),
+          (points.front() - inner).normalized()};
 }
 
 std::vector<FreeEnd> FreeEnds(const SkeletonGraph& graph, const FreeEndOptions& options) {
@@ -158,6 +160,19 @@ std::vector<Join> SelectJoins(const SkeletonGraph& graph, const std::vector<Free
   return selected;
 }
 
+// The curve with its first `tip` replaced by the straight continuation of the next `length`.
+Polyline WithStraightTip(const Polyline& points, double tip, double length) {
+  const std::vector<double> arc_length = CumulativeLength(points);
+  const Vec3 root = PointAt(points, arc_length, tip);
+  const Vec3 outward = (root - PointAt(points, arc_length, tip + length)).normalized();
+  const double overhang = std::max(0.0, outward.dot(points.front() - root));
+  Polyline straight{root + overhang * outward};
+  for (size_t i = 1; i < points.size(); ++i) {
+    if (arc_length[i] > tip) straight.push_back(points[i]);
+  }
+  return straight;
+}
+
 }  // namespace
 
 void VisitOptions(FreeEndOptions& options, OptionVisitor& visitor) {
@@ -179,11 +194,27 @@ void VisitOptions(FreeEndOptions& options, OptionVisitor& visitor) {
   visitor.Visit({"fit_length", "m", 0.001, 0.5,
                  "Deviation: length of the end piece that gives its direction."},
                 options.fit_length);
+  visitor.Visit(
+      {"tip_length", "m", 0, 0.1, "Deviation: so much of a free end is noise and straightened."},
+      options.tip_length);
   visitor.Visit({"snap_distance", "m", 0, 0.1,
                  "Deviation: a bridge that meets a curve this near to its end ends there."},
                 options.snap_distance);
   visitor.Visit({"min_loop", "m", 0, 1, "Deviation: bridges do not close shorter loops."},
                 options.min_loop);
+}
+
+void StraightenTips(SkeletonGraph& graph, const FreeEndOptions& options) {
+  for (const NodeId node : graph.Nodes()) {
+    if (graph.Degree(node) != 1) continue;
+    Polyline points = PointsFrom(graph, node);
+    if (Length(points) < options.tip_length + options.fit_length) continue;
+    points = WithStraightTip(points, options.tip_length, options.fit_length);
+    const EdgeId edge = graph.IncidentEdges(node)[0];
+    graph.MoveNode(node, points.front());
+    if (graph.edge(edge).nodes[0] != node) std::reverse(points.begin(), points.end());
+    graph.SetCurve(edge, std::move(points));
+  }
 }
 
 void CloseFreeEnds(SkeletonGraph& graph, const FreeEndOptions& options) {

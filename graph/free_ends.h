@@ -13,10 +13,15 @@ struct FreeEndOptions {
   double max_facing_angle = 1.3;
   double touch_distance = 0.007;
   double fit_length = 0.015;
+  double tip_length = 0.004;
   double snap_distance = 0.006;
   double min_loop = 0.035;
 };
 void VisitOptions(FreeEndOptions& options, OptionVisitor& visitor);
+
+/// Replaces the last `tip_length` of each free end by the straight continuation of the `fit_length`
+/// before it: at the very end of a wire its ridge turns sideways. Shorter edges stay.
+void StraightenTips(SkeletonGraph& graph, const FreeEndOptions& options);
 
 /// Joins free ends with other free ends that face them, and with curves they run into. The
 /// direction of an end is that of its last `fit_length`; straight ahead it may reach as far as the

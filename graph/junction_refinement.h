@@ -12,7 +12,7 @@ struct JunctionRefinementOptions {
   double fit_length = 0.018;
   double reach = 0.025;
   double merge_distance = 0.014;
-  double max_residual = 0.0025;
+  double max_residual = 0.0035;
 };
 void VisitOptions(JunctionRefinementOptions& options, OptionVisitor& visitor);
 

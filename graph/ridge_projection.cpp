@@ -116,31 +116,35 @@ std::vector<RidgeSeed> MakeSeeds(const ObservedPoints& points,
   return seeds;
 }
 
-void ProjectSeed(const DensityField& field, int iterations, RidgeSeed& seed,
+// Where the moments are taken about decides at the end of a wire, where the mean lies inward: about
+// the seed the principal direction keeps along the wire, but seeds must be near the ridge already.
+enum class MomentsAbout { kMean, kSeed };
+
+void ProjectSeed(const DensityField& field, MomentsAbout about, int iterations, RidgeSeed& seed,
                  DensityField::Neighbours& neighbours) {
+  const double usual_variance = kKernelVariance * field.sigma() * field.sigma();
   field.Gather(seed.position, neighbours);
   for (int iteration = 0; iteration < iterations; ++iteration) {
     const KernelMoments moments = field.Moments(neighbours, seed.position);
     seed.strength = moments.weight;
     if (moments.weight <= 0) return;
+    const Mat3 about_seed = moments.covariance + moments.mean * moments.mean.transpose();
     Eigen::SelfAdjointEigenSolver<Mat3> solver;
-    solver.computeDirect(moments.covariance);
+    solver.computeDirect(about == MomentsAbout::kSeed ? about_seed : moments.covariance);
     seed.direction = solver.eigenvectors().col(2);
-    const double along = seed.direction.dot(moments.mean);
-    seed.elongation = (solver.eigenvalues()[2] + along * along) /
-                      (kKernelVariance * field.sigma() * field.sigma());
-    const Vec3 step = moments.mean - along * seed.direction;
+    seed.elongation = seed.direction.dot(about_seed * seed.direction) / usual_variance;
+    const Vec3 step = moments.mean - seed.direction.dot(moments.mean) * seed.direction;
     seed.position += step;
     if (step.norm() < kConvergedStep) return;
   }
 }
 
-void ProjectSeeds(const std::vector<DensityField>& levels, int iterations,
+void ProjectSeeds(const std::vector<DensityField>& levels, MomentsAbout about, int iterations,
                   std::vector<RidgeSeed>& seeds) {
   ParallelChunks(0, static_cast<int64_t>(seeds.size()), kGrain, [&](int64_t first, int64_t last) {
     DensityField::Neighbours neighbours;
     for (int64_t i = first; i < last; ++i) {
-      ProjectSeed(levels[seeds[i].level], iterations, seeds[i], neighbours);
+      ProjectSeed(levels[seeds[i].level], about, iterations, seeds[i], neighbours);
     }
   });
 }
@@ -259,9 +263,9 @@ RidgePoints ProjectToRidges(const ObservedPoints& points, const RidgeProjectionO
   EqualizeCounts(usable, options.equalization_radius, options.least_relative_count);
   const std::vector<DensityField> levels = MakeLevels(usable, options);
   std::vector<RidgeSeed> seeds = MakeSeeds(usable, levels, options);
-  ProjectSeeds(levels, kGatheringIterations, seeds);
+  ProjectSeeds(levels, MomentsAbout::kMean, kGatheringIterations, seeds);
   seeds = ThinOut(seeds, options.spacing / 2);
-  ProjectSeeds(levels, options.iterations, seeds);
+  ProjectSeeds(levels, MomentsAbout::kSeed, options.iterations, seeds);
   seeds = ThinOut(seeds, options.spacing);
   RidgePoints ridge;
   for (const RidgeSeed& seed : TrueRidgeSeeds(seeds, options)) {

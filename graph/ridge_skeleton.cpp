@@ -82,6 +82,7 @@ SkeletonGraph ExtractRidgeSkeleton(const ObservedPoints& points, const RidgeOpti
   SkeletonGraph graph = ConnectRidgePoints(ridge, options.network);
   DropSmallComponents(graph, options.fragment_length);
   SmoothEdges(graph, options.smoothing_length, options.step);
+  StraightenTips(graph, options.free_ends);
   // Ends that miss a junction in its blurred place may meet it in its right one.
   for (int round = 0; round < 2; ++round) {
     CloseFreeEnds(graph, options.free_ends);

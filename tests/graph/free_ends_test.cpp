@@ -1,0 +1,87 @@
+#include "graph/free_ends.h"
+
+#include <gtest/gtest.h>
+
+#include "graph/validate.h"
+#include "tests/graph/graph_fixtures.h"
+
+namespace curvefusion {
+namespace {
+
+TEST(CloseFreeEnds, BridgesAGapInAWire) {
+  SkeletonGraph graph;
+  graph.AddPolyline(StraightLine({0, 0, 0}, {0.05, 0, 0}));
+  graph.AddPolyline(StraightLine({0.1, 0, 0}, {0.058, 0, 0}));
+  CloseFreeEnds(graph, {});
+  ASSERT_EQ(graph.edge_count(), 1);
+  EXPECT_NEAR(graph.TotalLength(), 0.1, 1e-12);
+  EXPECT_NO_THROW(Validate(graph, 1e-6, "closed graph"));
+}
+
+TEST(CloseFreeEnds, ClosesARingWithAGap) {
+  SkeletonGraph graph;
+  Polyline ring = Ring(0.03, 188);  // 1 mm steps
+  ring.resize(ring.size() - 9);
+  graph.AddPolyline(ring);
+  CloseFreeEnds(graph, {});
+  ASSERT_EQ(graph.edge_count(), 1);
+  EXPECT_EQ(graph.CycleRank(), 1);
+  EXPECT_EQ(CountDegree(graph, 1), 0);
+}
+
+TEST(CloseFreeEnds, JoinsAnEndToTheCurveAhead) {
+  SkeletonGraph graph;
+  graph.AddPolyline(StraightLine({-0.05, 0, 0}, {0.05, 0, 0}));
+  graph.AddPolyline(StraightLine({0.01, 0.06, 0}, {0.01, 0.009, 0}));
+  CloseFreeEnds(graph, {});
+  EXPECT_EQ(graph.edge_count(), 3);
+  EXPECT_EQ(CountDegree(graph, 3), 1);
+  EXPECT_EQ(graph.ComponentCount(), 1);
+  for (const NodeId node : graph.Nodes()) {
+    if (graph.Degree(node) != 3) continue;
+    // The vertex ahead, of one each mm.
+    EXPECT_LT((graph.position(node) - Vec3(0.01, 0, 0)).norm(), 1e-3);
+  }
+}
+
+TEST(CloseFreeEnds, JoinsSeveralEndsToOneCurve) {
+  SkeletonGraph graph;
+  graph.AddPolyline(StraightLine({-0.1, 0, 0}, {0.1, 0, 0}));
+  for (const double x : {-0.06, -0.02, 0.03, 0.07}) {
+    graph.AddPolyline(StraightLine({x, 0.06, 0}, {x, 0.008, 0}));
+  }
+  CloseFreeEnds(graph, {});
+  EXPECT_EQ(CountDegree(graph, 3), 4);
+  EXPECT_EQ(graph.ComponentCount(), 1);
+  EXPECT_NO_THROW(Validate(graph, 1e-6, "closed graph"));
+}
+
+TEST(CloseFreeEnds, LeavesEndsThatFaceNothing) {
+  SkeletonGraph graph;
+  graph.AddPolyline(StraightLine({0, 0, 0}, {0.1, 0, 0}));
+  graph.AddPolyline(StraightLine({0, 0.015, 0}, {0.1, 0.015, 0}));  // a parallel wire
+  graph.AddPolyline(StraightLine({0.15, 0, 0}, {0.2, 0, 0}));       // 50 mm ahead
+  CloseFreeEnds(graph, {});
+  EXPECT_EQ(graph.edge_count(), 3);
+  EXPECT_EQ(graph.ComponentCount(), 3);
+}
+
+TEST(CloseFreeEnds, MakesNoLoopShorterThanTheLeast) {
+  SkeletonGraph graph;  // a hook of 8 mm that bends over its own wire
+  const NodeId root = graph.AddNode({0, 0, 0});
+  Connect(graph, root, graph.AddNode({0.1, 0, 0}), StraightLine({0, 0, 0}, {0.1, 0, 0}));
+  Connect(graph, root, graph.AddNode({-0.1, 0, 0}), StraightLine({0, 0, 0}, {-0.1, 0, 0}));
+  const Polyline hook{{0, 0, 0}, {0.002, 0.004, 0}, {0.004, 0.0045, 0}, {0.005, 0.003, 0}};
+  Connect(graph, root, graph.AddNode(hook.back()), hook);
+  CloseFreeEnds(graph, {});
+  EXPECT_EQ(graph.CycleRank(), 0);
+}
+
+TEST(CloseFreeEnds, EmptyStaysEmpty) {
+  SkeletonGraph graph;
+  CloseFreeEnds(graph, {});
+  EXPECT_TRUE(graph.empty());
+}
+
+}  // namespace
+}  // namespace curvefusion

@@ -1,0 +1,70 @@
+#include "graph/point_grid.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <vector>
+
+namespace curvefusion {
+namespace {
+
+std::vector<Vec3> RandomPoints(int count) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> inside(-0.05, 0.05);
+  std::vector<Vec3> points;
+  for (int i = 0; i < count; ++i) {
+    points.emplace_back(inside(random), inside(random), inside(random));
+  }
+  return points;
+}
+
+std::vector<int> Found(const PointGrid& grid, const Vec3& p, double radius) {
+  std::vector<int> found;
+  grid.ForEachWithin(p, radius, [&](int index, const Vec3&) { found.push_back(index); });
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+std::vector<int> FoundByBruteForce(const std::vector<Vec3>& points, const Vec3& p, double radius) {
+  std::vector<int> found;
+  for (int i = 0; i < static_cast<int>(points.size()); ++i) {
+    if ((points[i] - p).squaredNorm() <= radius * radius) found.push_back(i);
+  }
+  return found;
+}
+
+TEST(PointGrid, FindsWhatBruteForceFinds) {
+  const std::vector<Vec3> points = RandomPoints(500);
+  const PointGrid grid(points, 0.011);
+  int found = 0;
+  for (const double radius : {0.002, 0.007, 0.011}) {
+    for (const Vec3& p : RandomPoints(200)) {
+      const std::vector<int> expected = FoundByBruteForce(points, p, radius);
+      EXPECT_EQ(Found(grid, p, radius), expected);
+      found += static_cast<int>(expected.size());
+    }
+  }
+  EXPECT_GT(found, 1000);  // the comparison is not of empty sets
+}
+
+TEST(PointGrid, VisitsPositionsWithTheirIndices) {
+  const std::vector<Vec3> points = RandomPoints(50);
+  PointGrid(points, 0.2).ForEachWithin(Vec3::Zero(), 0.2, [&](int index, const Vec3& p) {
+    EXPECT_EQ(p, points[index]);
+  });
+}
+
+TEST(PointGrid, FarOutliersStayNeighboursOfTheirNeighbours) {
+  const std::vector<Vec3> points{{1e12, 0, 0}, {1e12, 0.001, 0}, {-1e12, 0, 0}, {0, 0, 0}};
+  const PointGrid grid(points, 0.01);
+  EXPECT_EQ(Found(grid, points[0], 0.01), (std::vector<int>{0, 1}));
+  EXPECT_EQ(Found(grid, points[2], 0.01), (std::vector<int>{2}));
+}
+
+TEST(PointGrid, EmptyFindsNothing) {
+  EXPECT_TRUE(Found(PointGrid({}, 0.01), Vec3::Zero(), 0.01).empty());
+}
+
+}  // namespace
+}  // namespace curvefusion
