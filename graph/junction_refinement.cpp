@@ -228,7 +228,7 @@ bool MergeOnePair(SkeletonGraph& graph, const JunctionRefinementOptions& options
     const NodeId a = graph.edge(id).nodes[0];
     const NodeId b = graph.edge(id).nodes[1];
     const JunctionFit fit = FitJunction(graph, {a, b}, options);
-    if (length > options.inner_radius && fit.max_residual > options.max_residual) continue;
+    if (length > options.min_distance && fit.max_residual > options.max_residual) continue;
     RemoveEdgesBetween(graph, a, b, options.merge_distance);
     graph.MergeNodes(a, b);
     graph.MoveNode(a, fit.position);
@@ -263,6 +263,10 @@ void VisitOptions(JunctionRefinementOptions& options, OptionVisitor& visitor) {
   visitor.Visit(
       {"merge_distance", "m", 0, 0.5, "Deviation: junctions joined by a shorter edge may be one."},
       options.merge_distance);
+  visitor.Visit({"min_distance", "m", 0, 0.5,
+                 "Deviation: junctions joined by an edge shorter than this are one: the kernel "
+                 "cannot tell them apart."},
+                options.min_distance);
   visitor.Visit({"max_residual", "m", 0, 0.1,
                  "Deviation: greatest distance of a branch's line from a merged junction."},
                 options.max_residual);
