@@ -221,10 +221,12 @@ void RemoveEdgesBetween(SkeletonGraph& graph, NodeId a, NodeId b, double max_len
   }
 }
 
-// Merges one pair of junctions that lie in one blurred zone or whose branches meet at one point;
-// false where there is none.
-bool MergeOnePair(SkeletonGraph& graph, const JunctionRefinementOptions& options) {
+// Merges pairs of junctions that lie in one blurred zone or whose branches meet at one point, the
+// nearest first; false where there are none.
+bool MergePairs(SkeletonGraph& graph, const JunctionRefinementOptions& options) {
+  bool merged = false;
   for (const auto& [length, id] : ShortJunctionEdges(graph, options.merge_distance)) {
+    if (!graph.HasEdge(id)) continue;
     const NodeId a = graph.edge(id).nodes[0];
     const NodeId b = graph.edge(id).nodes[1];
     const JunctionFit fit = FitJunction(graph, {a, b}, options);
@@ -232,9 +234,9 @@ bool MergeOnePair(SkeletonGraph& graph, const JunctionRefinementOptions& options
     RemoveEdgesBetween(graph, a, b, options.merge_distance);
     graph.MergeNodes(a, b);
     graph.MoveNode(a, fit.position);
-    return true;
+    merged = true;
   }
-  return false;
+  return merged;
 }
 
 void PlaceJunctions(SkeletonGraph& graph, const JunctionRefinementOptions& options) {
@@ -275,7 +277,7 @@ void VisitOptions(JunctionRefinementOptions& options, OptionVisitor& visitor) {
 void RefineJunctions(SkeletonGraph& graph, const JunctionRefinementOptions& options) {
   // Once placed, junctions may turn out to lie side by side.
   for (int round = 0; round < kRounds; ++round) {
-    while (MergeOnePair(graph, options)) {
+    while (MergePairs(graph, options)) {
     }
     PlaceJunctions(graph, options);
   }
