@@ -238,6 +238,7 @@ void CloseFreeEnds(SkeletonGraph& graph, const FreeEndOptions& options) {
     }
   }
   for (const auto& [from, to] : bridges) {
+    if (graph.position(from) == graph.position(to)) continue;
     graph.AddEdge({{from, to}, {graph.position(from), graph.position(to)}, {}, {}});
   }
   graph.DissolveDegree2Nodes();

@@ -221,20 +221,22 @@ void RemoveEdgesBetween(SkeletonGraph& graph, NodeId a, NodeId b, double max_len
   }
 }
 
-// Merges one pair of junctions that lie in one blurred zone or whose branches meet at one point;
-// false where there is none.
-bool MergeOnePair(SkeletonGraph& graph, const JunctionRefinementOptions& options) {
+// Merges pairs of junctions that lie in one blurred zone or whose branches meet at one point, the
+// nearest first; false where there are none.
+bool MergePairs(SkeletonGraph& graph, const JunctionRefinementOptions& options) {
+  bool merged = false;
   for (const auto& [length, id] : ShortJunctionEdges(graph, options.merge_distance)) {
+    if (!graph.HasEdge(id)) continue;
     const NodeId a = graph.edge(id).nodes[0];
     const NodeId b = graph.edge(id).nodes[1];
     const JunctionFit fit = FitJunction(graph, {a, b}, options);
-    if (length > options.inner_radius && fit.max_residual > options.max_residual) continue;
+    if (length > options.min_distance && fit.max_residual > options.max_residual) continue;
     RemoveEdgesBetween(graph, a, b, options.merge_distance);
     graph.MergeNodes(a, b);
     graph.MoveNode(a, fit.position);
-    return true;
+    merged = true;
   }
-  return false;
+  return merged;
 }
 
 void PlaceJunctions(SkeletonGraph& graph, const JunctionRefinementOptions& options) {
@@ -263,6 +265,10 @@ void VisitOptions(JunctionRefinementOptions& options, OptionVisitor& visitor) {
   visitor.Visit(
       {"merge_distance", "m", 0, 0.5, "Deviation: junctions joined by a shorter edge may be one."},
       options.merge_distance);
+  visitor.Visit({"min_distance", "m", 0, 0.5,
+                 "Deviation: junctions joined by an edge shorter than this are one: the kernel "
+                 "cannot tell them apart."},
+                options.min_distance);
   visitor.Visit({"max_residual", "m", 0, 0.1,
                  "Deviation: greatest distance of a branch's line from a merged junction."},
                 options.max_residual);
@@ -271,7 +277,7 @@ void VisitOptions(JunctionRefinementOptions& options, OptionVisitor& visitor) {
 void RefineJunctions(SkeletonGraph& graph, const JunctionRefinementOptions& options) {
   // Once placed, junctions may turn out to lie side by side.
   for (int round = 0; round < kRounds; ++round) {
-    while (MergeOnePair(graph, options)) {
+    while (MergePairs(graph, options)) {
     }
     PlaceJunctions(graph, options);
   }

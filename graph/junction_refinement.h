@@ -12,6 +12,7 @@ struct JunctionRefinementOptions {
   double fit_length = 0.018;
   double reach = 0.025;
   double merge_distance = 0.014;
+  double min_distance = 0.0085;
   double max_residual = 0.0035;
 };
 void VisitOptions(JunctionRefinementOptions& options, OptionVisitor& visitor);
@@ -19,8 +20,9 @@ void VisitOptions(JunctionRefinementOptions& options, OptionVisitor& visitor);
 /// Moves every node with three or more branches to where lines fitted to the branches beyond the
 /// blurred zone (between the two radii) meet in the least-squares sense, and straightens the
 /// branches inside the inner radius. Junctions joined by an edge shorter than `merge_distance`
-/// become one where the lines of all their branches meet within `max_residual`: a crossing of
-/// three wires stays one junction of valence 6.
+/// become one where the lines of all their branches meet within `max_residual`, and in any case
+/// where it is shorter than `min_distance`: a crossing of three wires stays one junction of valence
+/// 6.
 void RefineJunctions(SkeletonGraph& graph, const JunctionRefinementOptions& options);
 
 }  // namespace curvefusion
