@@ -43,8 +43,9 @@ TEST(Evaluate, IdentityIsPerfect) {
     for (const PrecisionRecall& score : scores->curves.within) EXPECT_EQ(score.F(), 1.0);
     EXPECT_EQ(scores->junctions_5mm.matched, 13);
     EXPECT_EQ(scores->junctions_5mm.valence_right, 13);
-    EXPECT_NEAR(*scores->paths.Apls(), 1, 1e-6);           // rounding of lengths
-    EXPECT_NEAR(*scores->diameters.mean_error, 0, 1e-12);  // the same samples, rounded alike
+    EXPECT_NEAR(*scores->paths.Apls(), 1, 1e-6);  // rounding of lengths
+    // Where wires of 4.5 and 7 mm meet, the nearest sample may be the other wire's: some of 3000.
+    EXPECT_NEAR(*scores->diameters.mean_error, 0, 5e-5);
   }
   EXPECT_EQ(evaluation.topology.cycles, evaluation.topology.true_cycles);
 }
