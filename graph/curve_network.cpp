@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "graph/merge.h"
 #include "graph/point_grid.h"
 
 namespace curvefusion {
@@ -143,25 +144,6 @@ SkeletonGraph TraceChains(const LinkGraph& links, const RidgePoints& ridge) {
   return graph;
 }
 
-// The dead ends of the graph that hang at a junction, as (length, edge), shortest first.
-std::vector<std::pair<double, EdgeId>> Spurs(const SkeletonGraph& graph, double min_length) {
-  std::vector<std::pair<double, EdgeId>> spurs;
-  for (const EdgeId id : graph.Edges()) {
-    const SkeletonEdge& edge = graph.edge(id);
-    const int low = std::min(graph.Degree(edge.nodes[0]), graph.Degree(edge.nodes[1]));
-    const int high = std::max(graph.Degree(edge.nodes[0]), graph.Degree(edge.nodes[1]));
-    const double length = Length(edge.points);
-    if (low == 1 && high >= 3 && length < min_length) spurs.emplace_back(length, id);
-  }
-  std::sort(spurs.begin(), spurs.end());
-  return spurs;
-}
-
-bool StillSpur(const SkeletonGraph& graph, EdgeId id) {
-  const SkeletonEdge& edge = graph.edge(id);
-  return std::max(graph.Degree(edge.nodes[0]), graph.Degree(edge.nodes[1])) >= 3;
-}
-
 }  // namespace
 
 void VisitOptions(CurveNetworkOptions& options, OptionVisitor& visitor) {
@@ -185,18 +167,8 @@ SkeletonGraph ConnectRidgePoints(const RidgePoints& ridge, const CurveNetworkOpt
     if (!links.HasWay(link.a, link.b, options.min_loop)) links.Add(link);
   }
   SkeletonGraph graph = TraceChains(links, ridge);
-  PruneDeadEnds(graph, options.min_spur);
+  PruneSpurs(graph, options.min_spur);
   return graph;
-}
-
-void PruneDeadEnds(SkeletonGraph& graph, double min_length) {
-  for (auto spurs = Spurs(graph, min_length); !spurs.empty(); spurs = Spurs(graph, min_length)) {
-    for (const auto& [length, id] : spurs) {
-      if (StillSpur(graph, id)) graph.RemoveEdge(id);
-    }
-    graph.RemoveIsolatedNodes();
-    graph.DissolveDegree2Nodes();
-  }
 }
 
 void DropSmallComponents(SkeletonGraph& graph, double min_length) {

@@ -23,10 +23,6 @@ void VisitOptions(CurveNetworkOptions& options, OptionVisitor& visitor);
 /// chain is one edge from a node to itself. Costs O(n k) for k points within `min_loop`.
 SkeletonGraph ConnectRidgePoints(const RidgePoints& ridge, const CurveNetworkOptions& options);
 
-/// Removes dead ends shorter than `min_length`, the shortest first, and joins the two edges that
-/// are left at a node. Whole components are kept.
-void PruneDeadEnds(SkeletonGraph& graph, double min_length);
-
 /// Removes components whose edges are together shorter than `min_length`.
 void DropSmallComponents(SkeletonGraph& graph, double min_length);
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "graph/merge.h"
+
 namespace curvefusion {
 
 namespace {
@@ -88,7 +90,7 @@ SkeletonGraph ExtractRidgeSkeleton(const ObservedPoints& points, const RidgeOpti
     CloseFreeEnds(graph, options.free_ends);
     RefineJunctions(graph, options.junctions);
   }
-  PruneDeadEnds(graph, options.network.min_spur);
+  PruneSpurs(graph, options.network.min_spur);
   DropSmallComponents(graph, options.min_component);
   SmoothEdges(graph, options.smoothing_length, options.step);
   return graph;

@@ -109,37 +109,6 @@ TEST(ConnectRidgePoints, DegenerateInput) {
   EXPECT_TRUE(ConnectRidgePoints(coincident, {}).empty());
 }
 
-TEST(PruneDeadEnds, RemovesShortOnesAndJoinsTheRest) {
-  SkeletonGraph graph;
-  const NodeId middle = graph.AddNode({0, 0, 0});
-  for (const Vec3& tip : {Vec3(0.05, 0, 0), Vec3(-0.05, 0, 0), Vec3(0, 0.01, 0)}) {
-    Connect(graph, middle, graph.AddNode(tip), StraightLine({0, 0, 0}, tip));
-  }
-  PruneDeadEnds(graph, 0.012);
-  ASSERT_EQ(graph.edge_count(), 1);
-  EXPECT_NEAR(graph.TotalLength(), 0.1, 1e-12);
-  EXPECT_EQ(graph.node_count(), 2);
-}
-
-TEST(PruneDeadEnds, OfTwoThatForkTheLongerGoesOn) {
-  SkeletonGraph graph;
-  const NodeId fork = graph.AddNode({0, 0, 0});
-  for (const Vec3& tip : {Vec3(0.05, 0, 0), Vec3(-0.008, 0.002, 0), Vec3(-0.004, -0.002, 0)}) {
-    Connect(graph, fork, graph.AddNode(tip), StraightLine({0, 0, 0}, tip));
-  }
-  PruneDeadEnds(graph, 0.012);
-  ASSERT_EQ(graph.edge_count(), 1);
-  EXPECT_NEAR(graph.TotalLength(), 0.05 + std::hypot(0.008, 0.002), 1e-12);
-}
-
-TEST(PruneDeadEnds, KeepsLoneCurvesAndClosedOnes) {
-  SkeletonGraph graph;
-  graph.AddPolyline(StraightLine({0, 0, 0}, {0.005, 0, 0}));
-  graph.AddPolyline(Ring(0.03, 100));
-  PruneDeadEnds(graph, 0.012);
-  EXPECT_EQ(graph.edge_count(), 2);
-}
-
 TEST(DropSmallComponents, CountsTheWholeComponent) {
   SkeletonGraph graph = YShape(0.01);  // 30 mm in three edges
   graph.AddPolyline(StraightLine({1, 0, 0}, {1.02, 0, 0}));

@@ -135,6 +135,37 @@ TEST(PruneSpurs, OnlyDanglingBranchesAtJunctionsGo) {
   EXPECT_EQ(CountDegree(graph, 3), 1);
 }
 
+TEST(PruneSpurs, RemovesShortOnesAndJoinsTheRest) {
+  SkeletonGraph graph;
+  const NodeId middle = graph.AddNode({0, 0, 0});
+  for (const Vec3& tip : {Vec3(0.05, 0, 0), Vec3(-0.05, 0, 0), Vec3(0, 0.01, 0)}) {
+    Connect(graph, middle, graph.AddNode(tip), StraightLine({0, 0, 0}, tip));
+  }
+  PruneSpurs(graph, 0.012);
+  ASSERT_EQ(graph.edge_count(), 1);
+  EXPECT_NEAR(graph.TotalLength(), 0.1, 1e-12);
+  EXPECT_EQ(graph.node_count(), 2);
+}
+
+TEST(PruneSpurs, OfTwoThatForkTheLongerGoesOn) {
+  SkeletonGraph graph;
+  const NodeId fork = graph.AddNode({0, 0, 0});
+  for (const Vec3& tip : {Vec3(0.05, 0, 0), Vec3(-0.008, 0.002, 0), Vec3(-0.004, -0.002, 0)}) {
+    Connect(graph, fork, graph.AddNode(tip), StraightLine({0, 0, 0}, tip));
+  }
+  PruneSpurs(graph, 0.012);
+  ASSERT_EQ(graph.edge_count(), 1);
+  EXPECT_NEAR(graph.TotalLength(), 0.05 + std::hypot(0.008, 0.002), 1e-12);
+}
+
+TEST(PruneSpurs, KeepsLoneCurvesAndClosedOnes) {
+  SkeletonGraph graph;
+  graph.AddPolyline(StraightLine({0, 0, 0}, {0.005, 0, 0}));
+  graph.AddPolyline(Ring(0.03, 100));
+  PruneSpurs(graph, 0.012);
+  EXPECT_EQ(graph.edge_count(), 2);
+}
+
 TEST(RemoveSmallLoops, OnlySmallOnesGo) {
   SkeletonGraph graph;
   graph.AddPolyline(Ring(0.001, 20));
