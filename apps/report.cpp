@@ -1,7 +1,6 @@
 #include "apps/report.h"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <cmath>
@@ -27,7 +26,10 @@ Json StagesJson(const std::vector<StageReport>& stages) {
   for (const StageReport& stage : stages) {
     Json counts = Json::object();
     for (const auto& [name, value] : stage.counts) counts[name] = NumberJson(value);
-    result.push_back({{"name", stage.name}, {"seconds", stage.seconds}, {"counts", counts}});
+    result.push_back({{"name", stage.name},
+                      {"seconds", stage.seconds},
+                      {"peak_memory_bytes", stage.peak_memory},
+                      {"counts", counts}});
   }
   return result;
 }
@@ -133,12 +135,6 @@ std::string ReportJson(const RunRecord& record) {
       {"mesh", record.mesh ? MeshJson(*record.mesh) : Json(nullptr)},
       {"warnings", AllWarnings(record)}};
   return report.dump(2) + "\n";
-}
-
-int64_t PeakMemory() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return int64_t{usage.ru_maxrss} * 1024;  // Linux counts it in KiB
 }
 
 std::string FiguresLine(const GraphFigures& figures) {

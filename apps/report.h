@@ -34,9 +34,6 @@ struct RunRecord {
 /// figures of the skeleton and the mesh. Lengths in metres, diameters in millimetres.
 std::string ReportJson(const RunRecord& record);
 
-/// The greatest amount of memory this process has held so far, in bytes.
-int64_t PeakMemory();
-
 /// "16 curves, 2.86 m, diameter 5.0 mm, 12 junctions, 0 free ends".
 std::string FiguresLine(const GraphFigures& figures);
 

@@ -8,7 +8,7 @@ StageReport& StageLog::Stage(const std::string& name) {
   const auto found = std::find_if(stages_.begin(), stages_.end(),
                                   [&](const StageReport& stage) { return stage.name == name; });
   if (found != stages_.end()) return *found;
-  stages_.push_back({name, 0, {}});
+  stages_.push_back({.name = name});
   return stages_.back();
 }
 

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "kernel/peak_memory.h"
 
 namespace curvefusion {
 
@@ -11,6 +14,7 @@ namespace curvefusion {
 struct StageReport {
   std::string name;
   double seconds = 0;
+  int64_t peak_memory = 0;                             ///< of the process until its end, bytes
   std::vector<std::pair<std::string, double>> counts;  ///< e.g. {"points", 48210}
 };
 
@@ -22,8 +26,10 @@ class StageLog {
    public:
     Timer(StageLog& log, std::string stage) : log_(log), stage_(std::move(stage)) {}
     ~Timer() {
-      log_.Stage(stage_).seconds +=
+      StageReport& stage = log_.Stage(stage_);
+      stage.seconds +=
           std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+      stage.peak_memory = PeakMemory();
     }
     Timer(const Timer&) = delete;
     Timer& operator=(const Timer&) = delete;

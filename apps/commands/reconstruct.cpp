@@ -18,6 +18,7 @@
 #include "kernel/atomic_file.h"
 #include "kernel/error.h"
 #include "kernel/parallel.h"
+#include "kernel/peak_memory.h"
 #include "meshing/mesh_io.h"
 
 namespace curvefusion {
@@ -45,7 +46,8 @@ void WriteText(const fs::path& path, const std::string& text) {
 
 // An earlier result must not be taken for this run's, which has none.
 void RemoveEarlierResult(const fs::path& folder) {
-  for (const char* name : {"skeleton.json", "mesh.ply", "preview.png", "report.json"}) fs::remove(folder / name);
+  for (const char* name : {"skeleton.json", "mesh.ply", "preview.png", "report.json"})
+    fs::remove(folder / name);
 }
 
 void WriteSkeletonAndPicture(const RunRecord& record, const fs::path& folder) {
