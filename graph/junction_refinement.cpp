@@ -227,8 +227,8 @@ bool MergePairs(SkeletonGraph& graph, const JunctionRefinementOptions& options) 
   bool merged = false;
   for (const auto& [length, id] : ShortJunctionEdges(graph, options.merge_distance)) {
     if (!graph.HasEdge(id)) continue;
-    const NodeId a = graph.edge(id).nodes[0];
-    const NodeId b = graph.edge(id).nodes[1];
+    const auto [a, b] = graph.edge(id).nodes;
+    if (a == b) continue;  // an earlier merge has closed it to a loop
     const JunctionFit fit = FitJunction(graph, {a, b}, options);
     if (length > options.min_distance && fit.max_residual > options.max_residual) continue;
     RemoveEdgesBetween(graph, a, b, options.merge_distance);
