@@ -64,12 +64,9 @@ int RunSimulate(SimulateArguments arguments) {
 
 void AddSensorOptions(CLI::App& command, SimulateArguments& arguments) {
   SimulationOptions& scan = arguments.scan;
-  command
-      .add_option("--sensor", scan.sensor, "The depth camera: " + CLI::detail::join(SensorNames()))
+  command.add_option("--sensor", scan.sensor, "The depth camera")
       ->check(CLI::IsMember(SensorNames()));
-  command
-      .add_option("--poses", scan.pose_source,
-                  "Where poses come from, with its errors: " + CLI::detail::join(PoseSourceNames()))
+  command.add_option("--poses", scan.pose_source, "Where poses come from, with its errors")
       ->check(CLI::IsMember(PoseSourceNames()));
   command.add_option("--pose-error", scan.pose_error_scale, "Factor on these errors")
       ->check(CLI::Range(0.0, 10.0));
@@ -123,9 +120,9 @@ void AddSimulateCommand(CLI::App& app, int& exit_code) {
       "simulate", "Simulate a handheld scan of a known object, with its truth beside it");
   const auto arguments = std::make_shared<SimulateArguments>();
   command
-      ->add_option(
-          "SCENE", arguments->scene,
-          "An object: " + CLI::detail::join(ObjectNames()) + "; or a skeleton.json with radii")
+      ->add_option("SCENE", arguments->scene,
+                   "An object: " + CLI::detail::join(ObjectNames(), ", ") +
+                       "; or a skeleton.json with radii")
       ->required();
   command->add_option("-o,--output", arguments->output, "Folder for the sequence")->required();
   AddSensorOptions(*command, *arguments);

@@ -24,10 +24,9 @@ struct WireObject {
 
 /// How an object may differ from its description.
 struct ObjectOptions {
-  double wire_diameter = 0;  ///< metres; 0 keeps the object's own diameters
-  double spacing = 0.020;    ///< metres between the axes of `parallel_wires`
-  std::vector<WireCurve>
-      curves;  ///< an object of the caller's, under any name; empty = a known one
+  double wire_diameter = 0;            ///< metres; 0 keeps the object's own diameters
+  double spacing = 0.020;              ///< metres between the axes of `parallel_wires`
+  std::vector<WireCurve> curves = {};  ///< the caller's own object, under any name
 };
 
 /// Every name MakeObject knows: the paper's eight first, in the order of its Table 1.
