@@ -1,7 +1,9 @@
 #include "graph/curve_network.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <queue>
 #include <tuple>
@@ -169,6 +171,25 @@ SkeletonGraph ConnectRidgePoints(const RidgePoints& ridge, const CurveNetworkOpt
   SkeletonGraph graph = TraceChains(links, ridge);
   PruneSpurs(graph, options.min_spur);
   return graph;
+}
+
+void DropShortLoops(SkeletonGraph& graph, double min_length) {
+  std::map<std::array<NodeId, 2>, EdgeId> shortest;
+  for (const EdgeId id : graph.Edges()) {
+    const auto [a, b] = graph.edge(id).nodes;
+    const double length = Length(graph.edge(id).points);
+    if (a == b) {
+      if (length < min_length && graph.Degree(a) >= 3) graph.RemoveEdge(id);
+      continue;
+    }
+    const auto [other, is_first] = shortest.try_emplace({std::min(a, b), std::max(a, b)}, id);
+    if (is_first) continue;
+    const double other_length = Length(graph.edge(other->second).points);
+    const EdgeId longer = length < other_length ? other->second : id;
+    other->second = length < other_length ? id : other->second;
+    if (length + other_length < min_length) graph.RemoveEdge(longer);
+  }
+  graph.DissolveDegree2Nodes();
 }
 
 void DropSmallComponents(SkeletonGraph& graph, double min_length) {

@@ -23,6 +23,10 @@ void VisitOptions(CurveNetworkOptions& options, OptionVisitor& visitor);
 /// chain is one edge from a node to itself. Costs O(n k) for k points within `min_loop`.
 SkeletonGraph ConnectRidgePoints(const RidgePoints& ridge, const CurveNetworkOptions& options);
 
+/// Removes loops shorter than `min_length` that hang at a junction, and of two edges between the
+/// same nodes that enclose so short a loop the longer one. Closed curves without a junction stay.
+void DropShortLoops(SkeletonGraph& graph, double min_length);
+
 /// Removes components whose edges are together shorter than `min_length`.
 void DropSmallComponents(SkeletonGraph& graph, double min_length);
 

@@ -89,6 +89,7 @@ SkeletonGraph ExtractRidgeSkeleton(const ObservedPoints& points, const RidgeOpti
   for (int round = 0; round < 2; ++round) {
     CloseFreeEnds(graph, options.free_ends);
     RefineJunctions(graph, options.junctions);
+    DropShortLoops(graph, options.network.min_loop);
   }
   PruneSpurs(graph, options.network.min_spur);
   DropSmallComponents(graph, options.min_component);
