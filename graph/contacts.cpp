@@ -11,6 +11,7 @@
 #include <tuple>
 #include <utility>
 
+#include "kernel/disjoint_sets.h"
 #include "kernel/exact.h"
 
 namespace curvefusion {
@@ -142,23 +143,6 @@ std::vector<PiecePair> ClosePairs(const PieceTable& table, double threshold) {
   std::sort(pairs.begin(), pairs.end());
   return pairs;
 }
-
-class DisjointSets {
- public:
-  explicit DisjointSets(size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
-  int Root(int i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void Unite(int i, int j) {
-    const int a = Root(i);
-    const int b = Root(j);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<int> parent_;
-};
 
 // Calls visit(g', h') for the up to eight pairs around (g, h) on the same edges.
 template <class Visit>

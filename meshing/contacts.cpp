@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "kernel/disjoint_sets.h"
 #include "meshing/box_pairs.h"
 
 namespace curvefusion {
@@ -132,22 +133,6 @@ std::vector<TubePath> CutOpenPath(TubePath path, const std::vector<int>& cuts) {
   return pieces;
 }
 
-class SegmentGroups {
- public:
-  explicit SegmentGroups(size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
-  int Root(int i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void Join(int a, int b) {
-    const auto [low, high] = std::minmax({Root(a), Root(b)});
-    parent_[high] = low;
-  }
-
- private:
-  std::vector<int> parent_;
-};
-
 // Marks the rings at the ends of segment s that are too near to t for a cut.
 void MarkCrowdedRings(const std::vector<TubePath>& paths, const Segment& s, const Segment& t,
                       std::vector<std::vector<char>>& crowded) {
@@ -164,14 +149,14 @@ void MarkCrowdedRings(const std::vector<TubePath>& paths, const Segment& s, cons
 std::vector<int> GroupOfSegments(const std::vector<TubePath>& paths,
                                  const std::vector<Segment>& segments) {
   const std::vector<std::vector<double>> turn_sums = TurnSums(paths);
-  SegmentGroups groups(segments.size());
+  DisjointSets groups(segments.size());
   std::vector<std::vector<char>> crowded;
   for (const TubePath& path : paths) crowded.emplace_back(path.axis.points.size(), 0);
   for (const auto& [i, j] : NearPairs(segments)) {
     const Segment& s = segments[i];
     const Segment& t = segments[j];
     if (FollowEachOther(paths, turn_sums, s, t)) continue;
-    if (SegmentDistance(s, t) < ClearDistance(s.radius(), t.radius())) groups.Join(i, j);
+    if (SegmentDistance(s, t) < ClearDistance(s.radius(), t.radius())) groups.Unite(i, j);
     MarkCrowdedRings(paths, s, t, crowded);
     MarkCrowdedRings(paths, t, s, crowded);
   }
@@ -182,7 +167,7 @@ std::vector<int> GroupOfSegments(const std::vector<TubePath>& paths,
     if (!crowded[s.path][s.index] || (s.index == 0 && !paths[s.path].closed)) continue;
     const int before =
         s.index == 0 ? first_of_path + paths[s.path].segment_count() - 1 : static_cast<int>(i) - 1;
-    groups.Join(before, static_cast<int>(i));
+    groups.Unite(before, static_cast<int>(i));
   }
   std::vector<int> group(segments.size());
   for (size_t i = 0; i < segments.size(); ++i) group[i] = groups.Root(static_cast<int>(i));

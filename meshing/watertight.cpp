@@ -10,6 +10,7 @@
 #include <tuple>
 #include <vector>
 
+#include "kernel/disjoint_sets.h"
 #include "kernel/error.h"
 #include "meshing/self_intersections.h"
 
@@ -40,22 +41,6 @@ std::vector<HalfEdge> SortedHalfEdges(const TriangleMesh& mesh) {
   return half_edges;
 }
 
-class DisjointSets {
- public:
-  explicit DisjointSets(size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
-  int Root(int i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void Join(int a, int b) {
-    const auto [low, high] = std::minmax({Root(a), Root(b)});
-    parent_[high] = low;
-  }
-
- private:
-  std::vector<int> parent_;
-};
-
 // Corner 3 f + k stands for vertex k of triangle f; corners of one vertex that lie in one fan end
 // up in one set.
 class Fans {
@@ -63,8 +48,8 @@ class Fans {
   explicit Fans(const TriangleMesh& mesh) : mesh_(mesh), corners_(3 * mesh.triangles.size()) {}
 
   void JoinAcrossEdge(const HalfEdge& a, const HalfEdge& b) {
-    corners_.Join(Corner(a.face, a.low), Corner(b.face, a.low));
-    corners_.Join(Corner(a.face, a.high), Corner(b.face, a.high));
+    corners_.Unite(Corner(a.face, a.low), Corner(b.face, a.low));
+    corners_.Unite(Corner(a.face, a.high), Corner(b.face, a.high));
   }
 
   // Their number; `first` becomes one of them.
@@ -106,7 +91,7 @@ int64_t ExamineEdges(const TriangleMesh& mesh, WatertightReport& report,
   for (size_t i = 0, end = 0; i < half_edges.size(); i = end, ++edges) {
     while (end < half_edges.size() && half_edges[end].low == half_edges[i].low &&
            half_edges[end].high == half_edges[i].high) {
-      faces.Join(half_edges[i].face, half_edges[end].face);
+      faces.Unite(half_edges[i].face, half_edges[end].face);
       ++end;
     }
     const bool paired = end - i == 2;
