@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "apps/preview_style.h"
+#include "experiments/pictures/picture_style.h"
 
 namespace curvefusion {
 

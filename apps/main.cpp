@@ -48,6 +48,7 @@ int Parse(int argc, char** argv) {
   AddDemoScanCommand(app, exit_code);
   AddSimulateCommand(app, exit_code);
   AddEvaluateCommand(app, exit_code);
+  AddExperimentCommand(app, exit_code);
   CheckCommandName(app, argc, argv);
   try {
     app.parse(argc, argv);

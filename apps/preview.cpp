@@ -8,8 +8,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include "apps/frame_overlay.h"
-#include "apps/orthographic_view.h"
-#include "apps/preview_style.h"
+#include "experiments/pictures/orthographic_view.h"
+#include "experiments/pictures/picture_style.h"
 #include "kernel/atomic_file.h"
 #include "kernel/error.h"
 

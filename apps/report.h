@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/config.h"
+#include "experiments/config.h"
 #include "apps/graph_figures.h"
 #include "capture/sequence.h"
 #include "fusion/pipeline.h"

@@ -1,4 +1,4 @@
-#include "apps/config.h"
+#include "experiments/config.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/config.h"
+#include "experiments/config.h"
 
 namespace CLI {
 class App;

@@ -4,6 +4,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "experiments/csv_cell.h"
 #include "kernel/atomic_file.h"
 #include "kernel/error.h"
 
@@ -127,28 +128,27 @@ struct CsvRow {
   std::string values;
 };
 
-std::string CsvText(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + "\"";
-}
-
-void AppendCells(const Json& json, const std::string& name, CsvRow& row) {
+// Calls visit(name, value) for every value but those in arrays; names are keys joined by dots.
+template <class Visit>
+void VisitValues(const Json& json, const std::string& name, const Visit& visit) {
   if (json.is_array()) return;
-  if (json.is_object()) {
-    for (const auto& [key, value] : json.items()) {
-      AppendCells(value, name.empty() ? key : name + "." + key, row);
-    }
+  if (!json.is_object()) {
+    visit(name, json);
     return;
   }
+  for (const auto& [key, value] : json.items()) {
+    VisitValues(value, name.empty() ? key : name + "." + key, visit);
+  }
+}
+
+void AppendCell(const std::string& name, const Json& value, CsvRow& row) {
   const std::string separator = row.header.empty() ? "" : ",";
   row.header += separator + name;
   row.values += separator;
-  if (json.is_string()) {
-    row.values += CsvText(json.get<std::string>());
-  } else if (!json.is_null()) {
-    row.values += json.dump();
+  if (value.is_string()) {
+    row.values += CsvCell(value.get<std::string>());
+  } else if (!value.is_null()) {
+    row.values += value.dump();
   }
 }
 
@@ -168,7 +168,8 @@ void WriteEvaluation(const std::filesystem::path& path, const EvaluationLabels& 
 void AppendEvaluation(const std::filesystem::path& path, const EvaluationLabels& labels,
                       const Evaluation& evaluation) {
   CsvRow row;
-  AppendCells(EvaluationJson(labels, evaluation), "", row);
+  VisitValues(EvaluationJson(labels, evaluation), "",
+              [&](const std::string& name, const Json& value) { AppendCell(name, value, row); });
   std::string text = ReadIfThere(path);
   if (text.empty()) text = row.header + "\n";
   if (text.substr(0, text.find('\n')) != row.header) {
@@ -178,6 +179,14 @@ void AppendEvaluation(const std::filesystem::path& path, const EvaluationLabels&
   if (text.back() != '\n') text += '\n';
   text += row.values + "\n";
   WriteStreamAtomically(path, [&](std::ostream& stream) { stream << text; });
+}
+
+std::map<std::string, double> EvaluationFigures(const Evaluation& evaluation) {
+  std::map<std::string, double> figures;
+  VisitValues(EvaluationJson({}, evaluation), "", [&](const std::string& name, const Json& value) {
+    if (value.is_number()) figures[name] = value.get<double>();
+  });
+  return figures;
 }
 
 }  // namespace curvefusion

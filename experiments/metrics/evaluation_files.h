@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 
 #include "experiments/metrics/evaluation.h"
@@ -23,5 +24,8 @@ void WriteEvaluation(const std::filesystem::path& path, const EvaluationLabels& 
 /// Error(kBadInput) where the file has other columns, Error(kResource) where it cannot be written.
 void AppendEvaluation(const std::filesystem::path& path, const EvaluationLabels& labels,
                       const Evaluation& evaluation);
+
+/// The figures of that row by the names of their columns, without those that have no value.
+std::map<std::string, double> EvaluationFigures(const Evaluation& evaluation);
 
 }  // namespace curvefusion

@@ -8,7 +8,7 @@
 
 #include "apps/demo_scan.h"
 #include "apps/frame_overlay.h"
-#include "apps/preview_style.h"
+#include "experiments/pictures/picture_style.h"
 
 namespace curvefusion {
 namespace {

@@ -1,4 +1,4 @@
-#include "apps/config.h"
+#include "experiments/config.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

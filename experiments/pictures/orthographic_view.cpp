@@ -1,4 +1,4 @@
-#include "apps/orthographic_view.h"
+#include "experiments/pictures/orthographic_view.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "apps/preview_style.h"
+#include "experiments/pictures/picture_style.h"
 
 namespace curvefusion {
 

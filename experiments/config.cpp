@@ -1,4 +1,4 @@
-#include "apps/config.h"
+#include "experiments/config.h"
 
 #include <fmt/format.h>
 #include <toml++/toml.h>

@@ -1,0 +1,144 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "apps/commands/command.h"
+#include "apps/output_folder.h"
+#include "experiments/studies/studies.h"
+#include "experiments/studies/study_runner.h"
+#include "kernel/error.h"
+#include "kernel/parallel.h"
+
+namespace curvefusion {
+
+namespace {
+
+constexpr int kRunsFailed = 1;
+
+struct ExperimentArguments {
+  std::string name;
+  std::filesystem::path output;
+  std::string profile = "both";
+  std::string split = "train";
+  StudyRequest request;
+  RunnerOptions runner;
+  RunOptions run;
+};
+
+StudyRequest RequestOf(const ExperimentArguments& arguments) {
+  StudyRequest request = arguments.request;
+  if (arguments.profile != "both") request.profiles = {ProfileNamed(arguments.profile)};
+  request.split = arguments.split == "test" ? Split::kTest : Split::kTrain;
+  return request;
+}
+
+void PrintPlan(const StudyPlan& plan, bool remeasure) {
+  fmt::print("{} runs, {} of them finished earlier\n", plan.cases.size(), plan.finished);
+  if (plan.other_settings > 0) {
+    fmt::print("  {} measured earlier with other settings will be replaced\n", plan.other_settings);
+  }
+  if (plan.other_revision > 0) {
+    fmt::print("  {} of the finished were measured by another revision of this program; {}\n",
+               plan.other_revision,
+               remeasure ? "they are measured again" : "--remeasure measures them again");
+  }
+}
+
+int PrintOutcome(const StudyResults& results) {
+  int failed = 0;
+  for (const StudyRun& run : results.runs) {
+    if (run.outcome != "failed") continue;
+    ++failed;
+    fmt::print(stderr, "failed: {}: {}\n", run.folder.string(), run.message);
+  }
+  fmt::print("Wrote {} (.csv, .tex, .md, .png, .pdf)\n",
+             (results.folder / results.stem).string() + "*");
+  return failed > 0 ? kRunsFailed : 0;
+}
+
+// What an interrupted study leaves is worth more than other commands' nothing.
+StudyResults RunOrTellHowToGoOn(const Study& study, const StudyRequest& request,
+                                const ExperimentArguments& arguments, const Progress& progress) {
+  try {
+    return RunStudy(study, request, arguments.output, arguments.runner, progress);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::kInterrupted) throw;
+    throw Error(ErrorKind::kInterrupted,
+                "interrupted; finished runs are kept, and the same command goes on from there");
+  }
+}
+
+int RunExperiment(const ExperimentArguments& arguments) {
+  const Study study = StudyNamed(arguments.name);
+  const StudyRequest request = RequestOf(arguments);
+  const StudyPlan plan = PlanStudy(study, request, arguments.output);
+  MakeOutputFolder(arguments.output);
+  if (!arguments.run.quiet) PrintPlan(plan, arguments.runner.remeasure);
+  const ThreadLimit limit(arguments.run.threads);
+  ProgressPrinter printer = MakeProgressPrinter(arguments.run.quiet);
+  const StudyResults results =
+      RunOrTellHowToGoOn(study, request, arguments, InterruptibleProgress(printer));
+  printer.Finish();
+  return PrintOutcome(results);
+}
+
+std::string StudyList() {
+  std::string text = "Studies:\n";
+  for (const Study& study : AllStudies()) {
+    text += fmt::format("  {:<18} {}\n", study.name, study.summary);
+  }
+  return text;
+}
+
+void AddRequestOptions(CLI::App& command, ExperimentArguments& arguments) {
+  command.add_flag("--quick", arguments.request.quick,
+                   "Fewer frames, cases and seeds: at most five minutes on two cores");
+  command.add_option("--profile", arguments.profile, "paper, best or both (default)")
+      ->check(CLI::IsMember({"paper", "best", "both"}));
+  command.add_option("--seeds", arguments.request.seeds, "Number of seeds; otherwise 3, quick 1")
+      ->check(CLI::Range(1, 99));
+  command
+      .add_option("--split", arguments.split,
+                  "train (default): seeds from 1, on which constants may be chosen; test: seeds "
+                  "from 101, for final figures only")
+      ->check(CLI::IsMember({"train", "test"}));
+  command
+      .add_option(
+          "--set", arguments.request.assignments,
+          "A setting of the reconstruction as section.key=value; may be given several times")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
+}  // namespace
+
+void AddExperimentCommand(CLI::App& app, int& exit_code) {
+  CLI::App* command =
+      app.add_subcommand("experiment", "Run a study of the paper on simulated scans");
+  const auto arguments = std::make_shared<ExperimentArguments>();
+  command->add_option("NAME", arguments->name, "The study, see below")->required();
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "Folder for scans, runs, tables and figures; finished runs in it are kept")
+      ->required();
+  AddRequestOptions(*command, *arguments);
+  command
+      ->add_option("--jobs", arguments->runner.jobs,
+                   "Scans worked on at the same time; more than 1 blurs times and memory")
+      ->check(CLI::Range(1, 64));
+  command->add_flag("--remeasure", arguments->runner.remeasure,
+                    "Measure again what another revision of this program has measured");
+  AddRunOptions(*command, arguments->run);
+  command->footer(StudyList() +
+                  "Example:\n  curvefusion experiment objects -o studies --quick\n"
+                  "  curvefusion experiment objects -o studies --profile best --remeasure\n"
+                  "  curvefusion experiment inter-wire -o studies --seeds 1 --set "
+                  "fusion.overlap_distance=0.008");
+  command->callback([arguments, &exit_code] { exit_code = RunExperiment(*arguments); });
+}
+
+}  // namespace curvefusion

@@ -1,0 +1,143 @@
+#include "experiments/studies/gnuplot.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "experiments/studies/partial_folder.h"
+#include "kernel/atomic_file.h"
+#include "kernel/error.h"
+
+namespace curvefusion {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int kPngDpi = 200;
+constexpr double kGnuplotDpi = 72;  // what its font and line sizes are made for
+
+// Runs gnuplot in `folder`, its messages in folder/log. False where it cannot be run or fails.
+bool RunGnuplot(const fs::path& folder, const std::string& argument, const std::string& log) {
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
+  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, log.c_str(),
+                                   O_WRONLY | O_CREAT | O_TRUNC, 0666);
+  posix_spawn_file_actions_adddup2(&actions, STDERR_FILENO, STDOUT_FILENO);
+  std::string program = "gnuplot";
+  std::string copy = argument;
+  char* arguments[] = {program.data(), copy.data(), nullptr};
+  pid_t child = 0;
+  const int failure = posix_spawnp(&child, program.c_str(), &actions, nullptr, arguments, environ);
+  posix_spawn_file_actions_destroy(&actions);
+  int status = 0;
+  if (failure != 0 || waitpid(child, &status, 0) != child) return false;
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+std::string TextOf(const fs::path& path) {
+  std::ifstream stream(path);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+void WriteText(const fs::path& path, const std::string& text) {
+  WriteStreamAtomically(path, [&](std::ostream& stream) { stream << text; });
+}
+
+// One set of commands, drawn into a PNG and a PDF of the same look.
+std::string Script(const std::string& name, const Plot& plot) {
+  const double scale = kPngDpi / kGnuplotDpi;
+  return fmt::format(
+      R"(# Draws {0}.png and {0}.pdf from {0}.dat: gnuplot {0}.gp
+data = '{0}.dat'
+do for [format in 'png pdf'] {{
+reset
+if (format eq 'png') {{
+  set terminal pngcairo size {1:.0f},{2:.0f} font 'DejaVu Sans,8' fontscale {3:.3f} linewidth {3:.3f} pointscale {3:.3f}
+}} else {{
+  set terminal pdfcairo size {4}in,{5}in font 'DejaVu Sans,8'
+}}
+set output '{0}.'.format
+set encoding utf8
+set linetype 1 linecolor rgb '#D55E00' linewidth 1.6 pointtype 7 pointsize 0.6
+set linetype 2 linecolor rgb '#0072B2' linewidth 1.6 pointtype 5 pointsize 0.6
+set linetype 3 linecolor rgb '#009E73' linewidth 1.6 pointtype 9 pointsize 0.7
+set linetype 4 linecolor rgb '#CC79A7' linewidth 1.6 pointtype 13 pointsize 0.8
+set linetype 5 linecolor rgb '#E69F00' linewidth 1.6 pointtype 11 pointsize 0.7
+set linetype 6 linecolor rgb '#56B4E9' linewidth 1.6 pointtype 15 pointsize 0.7
+set border 3 linecolor rgb '#444444' linewidth 0.8
+set grid linecolor rgb '#DDDDDD' linewidth 0.5 dashtype 1
+set tics nomirror out scale 0.6
+set key noautotitle
+{6}
+unset output
+}}
+)",
+      name, plot.width * kPngDpi, plot.height * kPngDpi, scale, plot.width, plot.height,
+      plot.commands);
+}
+
+}  // namespace
+
+void RequireGnuplot() {
+  const PartialFolder folder(fs::temp_directory_path() / "curvefusion_gnuplot");
+  if (RunGnuplot(folder.path(), "--version", "log")) return;
+  throw Error(
+      ErrorKind::kResource,
+      "gnuplot draws the figures and cannot be run; on Debian: apt-get install gnuplot-nox");
+}
+
+void DrawPlot(const fs::path& folder, const std::string& name, const Plot& plot) {
+  WriteText(folder / (name + ".dat"), plot.data);
+  WriteText(folder / (name + ".gp"), Script(name, plot));
+  const std::string log = name + ".log";
+  const bool drawn = RunGnuplot(folder, name + ".gp", log);
+  const std::string message = TextOf(folder / log);
+  fs::remove(folder / log);
+  if (drawn) return;
+  throw Error(ErrorKind::kResource,
+              (folder / (name + ".gp")).string() + ": gnuplot failed: " + message);
+}
+
+void DrawPictureGrid(const fs::path& folder, const std::string& name, const PictureGrid& grid) {
+  constexpr double kLeft = 0.35;  // inches for the rows' names
+  constexpr double kTop = 0.25;   // and for the columns'
+  const size_t columns = grid.columns.size();
+  const double width = kLeft + grid.cell_width * static_cast<double>(columns);
+  const double height = kTop + grid.cell_height * static_cast<double>(grid.rows.size());
+  std::string commands = fmt::format(
+      "set multiplot\nunset border\nunset tics\nunset grid\nset size ratio -1\n"
+      "set lmargin 0\nset rmargin 0\nset tmargin 0\nset bmargin 0\n");
+  const auto label = [&](const std::string& text, double x, double y, const char* how) {
+    commands += fmt::format("set label '{}' at screen {:.5f},{:.5f} center {}\n", text, x / width,
+                            1 - y / height, how);
+  };
+  for (size_t c = 0; c < columns; ++c) {
+    label(grid.columns[c], kLeft + grid.cell_width * (static_cast<double>(c) + 0.5), kTop / 2, "");
+  }
+  for (size_t r = 0; r < grid.rows.size(); ++r) {
+    label(grid.rows[r], kLeft / 2, kTop + grid.cell_height * (static_cast<double>(r) + 0.5),
+          "rotate by 90");
+  }
+  for (size_t i = 0; i < grid.pictures.size(); ++i) {
+    if (grid.pictures[i].empty()) continue;
+    const double x = kLeft + grid.cell_width * static_cast<double>(i % columns);
+    const double y = kTop + grid.cell_height * static_cast<double>(i / columns + 1);
+    commands += fmt::format(
+        "set origin {:.5f},{:.5f}\nset size {:.5f},{:.5f}\n"
+        "plot '{}' binary filetype=png with rgbimage\nunset label\n",
+        x / width, 1 - y / height, grid.cell_width / width, grid.cell_height / height,
+        grid.pictures[i]);
+  }
+  DrawPlot(
+      folder, name,
+      {"# the pictures are files of their own\n", commands + "unset multiplot", width, height});
+}
+
+}  // namespace curvefusion

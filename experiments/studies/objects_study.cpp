@@ -1,0 +1,154 @@
+// The eight objects of the paper's Table 1: "Our algorithm successfully detects and classifies 95%
+// of these junctions and provides a faithful 3D reconstruction" (CurveFusion 4).
+#include <fmt/format.h>
+
+#include "experiments/studies/gnuplot.h"
+#include "experiments/studies/result_table.h"
+#include "experiments/studies/studies.h"
+
+namespace curvefusion {
+
+namespace {
+
+constexpr int kFrames = 150;
+constexpr int kQuickFrames = 60;
+
+std::vector<std::string> ObjectsOf(const StudyRequest& request) {
+  if (request.quick) return {"cat", "deco"};
+  return {"dish", "cage", "cat", "deco", "hanger", "rack", "chair", "wine"};
+}
+
+std::vector<StudyCase> Cases(const StudyRequest& request) {
+  std::vector<StudyCase> cases;
+  for (const std::string& object : ObjectsOf(request)) {
+    for (const uint64_t seed : SeedsOf(request)) {
+      SimulationOptions scan;
+      scan.object = object;
+      scan.seed = seed;
+      scan.frames = request.quick ? kQuickFrames : kFrames;
+      for (const Profile profile : request.profiles) {
+        cases.push_back({{{"object", object}, {"profile", ProfileName(profile)}},
+                         seed,
+                         scan,
+                         CaseConfig(request, profile)});
+      }
+    }
+  }
+  return cases;
+}
+
+const std::vector<TableColumn> kColumns = {{"F5", "raw.curves.5mm.f"},
+                                           {"F2", "raw.curves.2mm.f"},
+                                           {"F5 aligned", "aligned.curves.5mm.f"},
+                                           {"F2 aligned", "aligned.curves.2mm.f"},
+                                           {"junction recall", "raw.junctions_10mm.recall"},
+                                           {"junction precision", "raw.junctions_10mm.precision"},
+                                           {"valence right", "raw.junctions_10mm.valence_share"},
+                                           {"pieces", "components", 0},
+                                           {"cycles", "cycles", 0},
+                                           {"true cycles", "true_cycles", 0},
+                                           {"diameter error (mm)", "raw.diameter.mean_error_mm"},
+                                           {"s per 30 frames", "seconds_per_30_frames", 1},
+                                           {"CPU s per 30 frames", "cpu_seconds_per_30_frames", 1},
+                                           {"memory (MB)", "peak_memory_mb", 0}};
+
+std::string Share(double part, double whole) {
+  return whole > 0 ? fmt::format("{:.3f}", part / whole) : "-";
+}
+
+// Junctions of all objects and seeds together, as the paper counts its 95 %.
+Table PooledJunctions(const std::vector<StudyRun>& runs) {
+  Table table{{"profile", "placed", "within", "true", "found", "matched", "recall", "precision",
+               "valence right"},
+              {},
+              3};
+  for (const RunGroup& group : GroupRuns(runs, {"profile"})) {
+    for (const char* placed : {"raw", "aligned"}) {
+      for (const char* radius : {"10mm", "5mm"}) {
+        const auto sum = [&](const char* count) {
+          return SumOf(group, fmt::format("{}.junctions_{}.{}", placed, radius, count));
+        };
+        const double truth = sum("truth"), found = sum("found"), matched = sum("matched");
+        table.rows.push_back({group.labels.front().second, placed, radius,
+                              fmt::format("{:.0f}", truth), fmt::format("{:.0f}", found),
+                              fmt::format("{:.0f}", matched), Share(matched, truth),
+                              Share(matched, found), Share(sum("valence_right"), truth)});
+      }
+    }
+  }
+  return table;
+}
+
+struct Panel {
+  const char* title;
+  const char* figure;
+};
+constexpr Panel kPanels[] = {{"F at 5 mm", "raw.curves.5mm.f"},
+                             {"F at 2 mm, aligned", "aligned.curves.2mm.f"},
+                             {"Junction recall", "raw.junctions_10mm.recall"},
+                             {"Junction precision", "raw.junctions_10mm.precision"}};
+
+// A block a profile, a row an object: name, then median, least and greatest of every panel.
+std::string PlotData(const std::vector<RunGroup>& groups, const std::vector<RunGroup>& profiles) {
+  std::string data;
+  for (const RunGroup& profile : profiles) {
+    data += "# " + profile.labels.front().second + "\n";
+    for (const RunGroup& group : groups) {
+      if (LabelOf(group.labels, "profile") != profile.labels.front().second) continue;
+      data += LabelOf(group.labels, "object");
+      for (const Panel& panel : kPanels) data += " " + SpreadData(group, panel.figure);
+      data += "\n";
+    }
+    data += "\n\n";
+  }
+  return data;
+}
+
+// Medians as bars, with lines from the least to the greatest value.
+std::string PlotCommands(const std::vector<RunGroup>& profiles) {
+  std::string commands =
+      "set datafile missing '?'\nset yrange [0:1.05]\nset ytics 0.2\nset xtics rotate by 35 right "
+      "scale 0\nunset grid\nset grid ytics linecolor rgb '#DDDDDD' linewidth 0.5 dashtype 1\n"
+      "set boxwidth 0.36\nset style fill solid 0.85 noborder\nset xrange [-0.6:*]\n"
+      "set multiplot layout 2,2 margins 0.06,0.99,0.13,0.90 spacing 0.07,0.21\n";
+  int column = 2;
+  for (const Panel& panel : kPanels) {
+    const bool first = column == 2;
+    commands += fmt::format("set title '{}' offset 0,-0.6\n", panel.title);
+    commands += first ? "set key at screen 0.5,0.985 center top horizontal\n" : "unset key\n";
+    std::vector<std::string> parts;
+    for (size_t i = 0; i < profiles.size(); ++i) {
+      const double shift = (static_cast<double>(i) - (profiles.size() - 1) / 2.) * 0.38;
+      parts.push_back(
+          fmt::format("data index {} using ($0{:+}):{}:xtic(1) with boxes lt {} title '{}'", i,
+                      shift, column, i + 1, profiles[i].labels.front().second));
+      parts.push_back(
+          fmt::format("data index {} using ($0{:+}):{}:{}:{} with yerrorbars pt -1 lw 0.9 "
+                      "lc rgb '#222222'",
+                      i, shift, column, column + 1, column + 2));
+    }
+    commands += fmt::format("plot {}\n", fmt::join(parts, ", "));
+    column += 3;
+  }
+  return commands + "unset multiplot";
+}
+
+void Report(const StudyResults& results) {
+  const std::vector<RunGroup> groups = GroupRuns(results.runs, {"object", "profile"});
+  const std::vector<RunGroup> profiles = GroupRuns(results.runs, {"profile"});
+  WriteTable(results.folder, results.stem, MedianTable(groups, kColumns));
+  WriteTable(results.folder, results.stem + "_junctions", PooledJunctions(results.runs));
+  DrawPlot(results.folder, results.stem,
+           {PlotData(groups, profiles), PlotCommands(profiles), 6.5, 4.2});
+}
+
+}  // namespace
+
+Study ObjectsStudy() {
+  return {
+      "objects", "The eight objects of the paper's Table 1: accuracy, junctions, diameters, cost",
+      false,     Cases,
+      {},        Report};
+}
+
+}  // namespace curvefusion

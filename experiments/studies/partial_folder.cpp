@@ -1,0 +1,47 @@
+#include "experiments/studies/partial_folder.h"
+
+#include <unistd.h>
+
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "kernel/error.h"
+
+namespace curvefusion {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+void ThrowIf(const std::error_code& failure, const fs::path& path) {
+  if (!failure) return;
+  throw Error(ErrorKind::kResource,
+              path.string() + ": cannot be written (" + failure.message() + ")");
+}
+
+}  // namespace
+
+PartialFolder::PartialFolder(fs::path final_path)
+    : final_path_(std::move(final_path)),
+      path_(final_path_.string() + ".partial-" + std::to_string(getpid())) {
+  std::error_code failure;
+  fs::remove_all(path_, failure);
+  fs::create_directories(path_, failure);
+  ThrowIf(failure, path_);
+}
+
+PartialFolder::~PartialFolder() {
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
+}
+
+void PartialFolder::Finish() {
+  std::error_code failure;
+  fs::remove_all(final_path_, failure);
+  ThrowIf(failure, final_path_);
+  fs::rename(path_, final_path_, failure);
+  ThrowIf(failure, final_path_);
+}
+
+}  // namespace curvefusion

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <filesystem>
+
+namespace curvefusion {
+
+/// A folder that is filled under a temporary name and gets its final one only when it is complete;
+/// otherwise it disappears, and whatever lay under the final name stays.
+class PartialFolder {
+ public:
+  /// Makes the folder and those above it. Throws Error(kResource) where that is impossible.
+  explicit PartialFolder(std::filesystem::path final_path);
+  ~PartialFolder();
+  PartialFolder(const PartialFolder&) = delete;
+  PartialFolder& operator=(const PartialFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+
+  /// Replaces what lies under the final name. Throws Error(kResource) where that is impossible.
+  void Finish();
+
+ private:
+  std::filesystem::path final_path_;
+  std::filesystem::path path_;
+};
+
+}  // namespace curvefusion

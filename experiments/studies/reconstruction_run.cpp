@@ -1,0 +1,75 @@
+#include "experiments/studies/reconstruction_run.h"
+
+#include <sys/resource.h>
+
+#include <chrono>
+
+#include "capture/sequence.h"
+#include "experiments/metrics/evaluation_files.h"
+#include "experiments/metrics/truth.h"
+#include "graph/graph_io.h"
+#include "kernel/atomic_file.h"
+#include "kernel/peak_memory.h"
+
+namespace curvefusion {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kBundle = 30;  // frames of a bundle in the paper; its times are given per bundle
+
+double Seconds(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
+double CpuSeconds() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return Seconds(usage.ru_utime) + Seconds(usage.ru_stime);
+}
+
+}  // namespace
+
+Cost CostOf(const std::function<void()>& work) {
+  ResetPeakMemory();
+  const auto start = Clock::now();
+  const double cpu_start = CpuSeconds();
+  work();
+  return {std::chrono::duration<double>(Clock::now() - start).count(), CpuSeconds() - cpu_start,
+          static_cast<double>(PeakMemory())};
+}
+
+void AddCost(const Cost& cost, int frames, Figures& figures) {
+  figures["seconds"] = cost.seconds;
+  figures["cpu_seconds"] = cost.cpu_seconds;
+  figures["peak_memory_mb"] = cost.peak_memory / 1e6;
+  if (frames == 0) return;
+  figures["seconds_per_30_frames"] = cost.seconds * kBundle / frames;
+  figures["cpu_seconds_per_30_frames"] = cost.cpu_seconds * kBundle / frames;
+}
+
+RunOutcome EvaluateAndKeep(const SkeletonGraph& skeleton, const RunInput& input) {
+  const std::string config = ConfigToml(input.study_case.config);
+  WriteStreamAtomically(input.folder / "config.toml",
+                        [&](std::ostream& stream) { stream << config; });
+  WriteSkeleton(input.folder / "skeleton.json", skeleton);
+  const Evaluation evaluation = Evaluate(skeleton, nullptr, ReadTruth(input.scan / "truth"));
+  WriteEvaluation(input.folder / "evaluation.json",
+                  {CaseName(input.study_case), input.scan.filename().string()}, evaluation);
+  return {!skeleton.empty(), EvaluationFigures(evaluation)};
+}
+
+RunOutcome ReconstructAndEvaluate(const RunInput& input) {
+  const Sequence sequence = OpenSequence(input.scan);
+  InterruptibleObserver observer(input.progress);
+  Reconstruction result;
+  const Cost cost =
+      CostOf([&] { result = Reconstruct(sequence, input.study_case.config.pipeline, observer); });
+  RunOutcome outcome = EvaluateAndKeep(result.skeleton, input);
+  AddCost(cost, sequence.frame_count(), outcome.figures);
+  outcome.figures["global_diameter_mm"] = 2 * result.global_radius / kMillimetre;
+  return outcome;
+}
+
+}  // namespace curvefusion

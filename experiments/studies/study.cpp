@@ -1,0 +1,48 @@
+#include "experiments/studies/study.h"
+
+#include <cctype>
+
+namespace curvefusion {
+
+namespace {
+
+constexpr int kSeeds = 3;
+constexpr uint64_t kFirstTrainSeed = 1;
+constexpr uint64_t kFirstTestSeed = 101;
+
+}  // namespace
+
+std::string SplitName(Split split) { return split == Split::kTrain ? "train" : "test"; }
+
+std::vector<uint64_t> SeedsOf(const StudyRequest& request) {
+  const int count = request.seeds > 0 ? request.seeds : request.quick ? 1 : kSeeds;
+  const uint64_t first = request.split == Split::kTrain ? kFirstTrainSeed : kFirstTestSeed;
+  std::vector<uint64_t> seeds;
+  for (int i = 0; i < count; ++i) seeds.push_back(first + static_cast<uint64_t>(i));
+  return seeds;
+}
+
+Config CaseConfig(const StudyRequest& request, Profile profile,
+                  const std::vector<std::string>& more) {
+  ConfigSources sources{profile, {}, request.assignments};
+  sources.assignments.insert(sources.assignments.end(), more.begin(), more.end());
+  return ReadConfig(sources);
+}
+
+std::string LabelOf(const Labels& labels, const std::string& name) {
+  for (const auto& [label, value] : labels) {
+    if (label == name) return value;
+  }
+  return "";
+}
+
+std::string CaseName(const StudyCase& study_case) {
+  std::string name;
+  for (const auto& [label, value] : study_case.labels) name += value + "_";
+  for (char& c : name) {
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '.' && c != '-') c = '_';
+  }
+  return name + "s" + std::to_string(study_case.seed);
+}
+
+}  // namespace curvefusion

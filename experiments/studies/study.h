@@ -1,0 +1,110 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "experiments/config.h"
+#include "experiments/simulation/simulate.h"
+#include "kernel/progress.h"
+
+namespace curvefusion {
+
+/// Which scans a study looks at: those on which constants may be chosen (seeds 1, 2, 3, ...) or
+/// those kept for the final figures (seeds 101, 102, 103, ...).
+enum class Split { kTrain, kTest };
+
+/// "train" or "test".
+std::string SplitName(Split split);
+
+/// What the user asks of a study.
+struct StudyRequest {
+  bool quick = false;  ///< fewer frames, cases and seeds: at most five minutes on two cores
+  std::vector<Profile> profiles = {Profile::kPaper, Profile::kBest};
+  int seeds = 0;  ///< how many; 0 = 3, or 1 of a quick study
+  Split split = Split::kTrain;
+  std::vector<std::string> assignments;  ///< "section.key=value" for the config of every case
+};
+
+/// The seeds a request asks for.
+std::vector<uint64_t> SeedsOf(const StudyRequest& request);
+
+/// The config of a case: the profile's, with the request's assignments, then `more`.
+Config CaseConfig(const StudyRequest& request, Profile profile,
+                  const std::vector<std::string>& more = {});
+
+/// What tells a run from others besides its seed: {{"object", "cage"}, {"profile", "best"}}.
+using Labels = std::vector<std::pair<std::string, std::string>>;
+
+/// The value of a label; empty where there is none.
+std::string LabelOf(const Labels& labels, const std::string& name);
+
+/// One measurement to be made. Everything that decides its outcome stands here: a run is measured
+/// again when any of it has changed.
+struct StudyCase {
+  Labels labels;
+  uint64_t seed = 1;
+  /// The scan to simulate (scan.seed should be `seed`); none where the study makes its own data.
+  std::optional<SimulationOptions> scan;
+  Config config;
+};
+
+/// "cage_best_s1": the labels' values and the seed, characters unfit for a file name replaced.
+std::string CaseName(const StudyCase& study_case);
+
+/// What was measured, by the column names of `curvefusion evaluate` ("raw.curves.5mm.f") and the
+/// study's own. What has no value is left out.
+using Figures = std::map<std::string, double>;
+
+/// What a measurement is given.
+struct RunInput {
+  const StudyCase& study_case;
+  std::filesystem::path scan;    ///< the simulated scan, with truth/; empty where it has none
+  std::filesystem::path folder;  ///< for files to keep; it gets its final name only afterwards
+  const Progress& progress;      ///< to be called now and then: throws once the user interrupts
+};
+
+struct RunOutcome {
+  bool found = true;  ///< false: nothing thin was found, an expected outcome
+  Figures figures;
+};
+
+/// A run that has been measured, or has failed.
+struct StudyRun {
+  Labels labels;
+  uint64_t seed = 1;
+  std::string outcome;           ///< "done", "nothing found" or "failed"
+  std::string message;           ///< of a failed run
+  std::string revision;          ///< of the program that measured it
+  std::filesystem::path folder;  ///< its files
+  Figures figures;
+};
+
+/// All runs of a study, in the order of its cases.
+struct StudyResults {
+  std::filesystem::path folder;  ///< where tables and figures go
+  std::string stem;              ///< what their names begin with: "objects_train"
+  std::vector<StudyRun> runs;
+};
+
+/// A study: which cases it has, how one is measured, and what is made of all. To add one, write a
+/// file that fills such a struct and name its function in studies.cpp.
+struct Study {
+  std::string name;
+  std::string summary;  ///< one sentence for --help
+  /// It chooses constants by what it measures, so that it must not see the test split.
+  bool tunes_parameters = false;
+  std::function<std::vector<StudyCase>(const StudyRequest&)> cases;
+  /// Measures one case; ReconstructAndEvaluate where it is empty. Called from several threads at
+  /// once where there is more than one job.
+  std::function<RunOutcome(const RunInput&)> run;
+  /// Writes tables and figures (result_table.h, gnuplot.h), also where runs have failed.
+  std::function<void(const StudyResults&)> report;
+};
+
+}  // namespace curvefusion

@@ -1,0 +1,254 @@
+#include "experiments/studies/study_runner.h"
+
+#include <cmath>
+#include <exception>
+#include <map>
+#include <mutex>
+#include <new>
+#include <set>
+#include <thread>
+
+#include "experiments/studies/case_settings.h"
+#include "experiments/studies/gnuplot.h"
+#include "experiments/studies/partial_folder.h"
+#include "experiments/studies/provenance.h"
+#include "experiments/studies/reconstruction_run.h"
+#include "experiments/studies/run_files.h"
+#include "experiments/studies/scan_cache.h"
+#include "kernel/error.h"
+
+namespace curvefusion {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kDone = "done";
+constexpr const char* kNothing = "nothing found";
+constexpr const char* kFailed = "failed";
+
+// JSON has neither NaN nor infinity: such a figure is one without a value.
+Figures FiniteOnly(Figures figures) {
+  std::erase_if(figures, [](const auto& figure) { return !std::isfinite(figure.second); });
+  return figures;
+}
+
+fs::path RunFolder(const Study& study, const StudyRequest& request, const fs::path& folder,
+                   const StudyCase& study_case) {
+  return folder / "runs" / StudyStem(study, request) / CaseName(study_case);
+}
+
+void CheckNames(const Study& study, const std::vector<StudyCase>& cases) {
+  std::set<std::string> names;
+  for (const StudyCase& study_case : cases) {
+    if (names.insert(CaseName(study_case)).second) continue;
+    throw Error(ErrorKind::kUsage, "study " + study.name + ": two cases are called " +
+                                       CaseName(study_case) + "; their labels must differ");
+  }
+}
+
+// Cases that share a scan: it is simulated once, then they are measured one after the other.
+struct ScanGroup {
+  const SimulationOptions* scan = nullptr;  // none: the cases make their own data
+  std::vector<size_t> cases;                // to be measured
+};
+
+// Counts what is done, and hands interruptions on from any thread.
+class StepCounter {
+ public:
+  StepCounter(const Progress& progress, std::string stage, int64_t total)
+      : progress_(progress), stage_(std::move(stage)), total_(total) {}
+
+  void Advance() { Report(1); }
+
+  // The progress of a single step: it does not count, but may end the study.
+  Progress Within() {
+    return [this](std::string_view, int64_t, int64_t) { Report(0); };
+  }
+
+ private:
+  void Report(int64_t steps) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    done_ += steps;
+    progress_(stage_, done_, total_);
+  }
+
+  const Progress& progress_;
+  std::string stage_;
+  int64_t total_;
+  std::mutex mutex_;
+  int64_t done_ = 0;
+};
+
+// One call of RunStudy.
+class StudyRunner {
+ public:
+  StudyRunner(const Study& study, const StudyRequest& request, const fs::path& folder,
+              const std::vector<StudyCase>& cases)
+      : study_(study), request_(request), folder_(folder), cases_(cases), runs_(cases.size()) {}
+
+  // Takes over what is finished; returns the rest, grouped by scans.
+  std::vector<ScanGroup> Pending(bool remeasure);
+
+  void Measure(const std::vector<ScanGroup>& groups, int jobs, const Progress& progress);
+
+  std::vector<StudyRun> TakeRuns() { return std::move(runs_); }
+
+ private:
+  void MeasureGroup(const ScanGroup& group, StepCounter& steps);
+  void MeasureCase(size_t index, const fs::path& scan, StepCounter& steps);
+  RunOutcome RunCase(const RunInput& input) const;
+  void RecordFailure(size_t index, const std::string& message);
+
+  const Study& study_;
+  const StudyRequest& request_;
+  const fs::path& folder_;
+  const std::vector<StudyCase>& cases_;
+  const std::string revision_ = ThisProgram().revision;
+  std::vector<StudyRun> runs_;
+};
+
+std::vector<ScanGroup> StudyRunner::Pending(bool remeasure) {
+  std::vector<ScanGroup> groups;
+  std::map<std::string, size_t> group_of_scan;
+  for (size_t i = 0; i < cases_.size(); ++i) {
+    const std::optional<RunFile> file =
+        ReadRunFile(RunFolder(study_, request_, folder_, cases_[i]));
+    const bool finished = file && file->run.outcome != kFailed &&
+                          file->settings == CaseSettings(cases_[i]) &&
+                          !(remeasure && file->run.revision != revision_);
+    if (finished) {
+      runs_[i] = file->run;
+      continue;
+    }
+    const auto& scan = cases_[i].scan;
+    const std::string key = scan ? ScanSettings(*scan) : "none " + std::to_string(i);
+    const auto [group, is_new] = group_of_scan.emplace(key, groups.size());
+    if (is_new) groups.push_back({scan ? &*scan : nullptr, {}});
+    groups[group->second].cases.push_back(i);
+  }
+  return groups;
+}
+
+void StudyRunner::Measure(const std::vector<ScanGroup>& groups, int jobs,
+                          const Progress& progress) {
+  int64_t total = 0;
+  for (const ScanGroup& group : groups) {
+    total += static_cast<int64_t>(group.cases.size()) + (group.scan != nullptr ? 1 : 0);
+  }
+  StepCounter steps(progress, study_.name, total);
+  std::mutex mutex;
+  size_t next = 0;
+  std::exception_ptr failure;
+  const auto work = [&] {
+    while (true) {
+      size_t mine;
+      {
+        const std::lock_guard<std::mutex> lock(mutex);
+        if (failure || next == groups.size()) return;
+        mine = next++;
+      }
+      try {
+        MeasureGroup(groups[mine], steps);
+      } catch (...) {
+        const std::lock_guard<std::mutex> lock(mutex);
+        if (!failure) failure = std::current_exception();
+      }
+    }
+  };
+  std::vector<std::thread> threads;
+  for (int i = 1; i < jobs; ++i) threads.emplace_back(work);
+  work();
+  for (std::thread& thread : threads) thread.join();
+  if (failure) std::rethrow_exception(failure);
+}
+
+void StudyRunner::MeasureGroup(const ScanGroup& group, StepCounter& steps) {
+  fs::path scan;
+  if (group.scan != nullptr) {
+    try {
+      scan = CachedScan(folder_ / "scans", *group.scan, steps.Within());
+    } catch (const Error& error) {
+      if (error.kind() == ErrorKind::kInterrupted) throw;
+      for (const size_t i : group.cases) RecordFailure(i, error.what());
+      return;
+    }
+    steps.Advance();
+  }
+  for (const size_t i : group.cases) MeasureCase(i, scan, steps);
+}
+
+RunOutcome StudyRunner::RunCase(const RunInput& input) const {
+  return study_.run ? study_.run(input) : ReconstructAndEvaluate(input);
+}
+
+void StudyRunner::MeasureCase(size_t index, const fs::path& scan, StepCounter& steps) {
+  const StudyCase& study_case = cases_[index];
+  const fs::path run_folder = RunFolder(study_, request_, folder_, study_case);
+  try {
+    PartialFolder partial(run_folder);
+    const Progress within = steps.Within();
+    const RunOutcome outcome = RunCase({study_case, scan, partial.path(), within});
+    runs_[index] = {study_case.labels, study_case.seed, outcome.found ? kDone : kNothing, "",
+                    revision_,         run_folder,      FiniteOnly(outcome.figures)};
+    WriteRunFile(partial.path(), {runs_[index], CaseSettings(study_case)});
+    partial.Finish();
+  } catch (const Error& error) {
+    if (error.kind() == ErrorKind::kInterrupted) throw;
+    RecordFailure(index, error.what());
+  } catch (const std::bad_alloc&) {
+    RecordFailure(index, "out of memory");
+  }
+  steps.Advance();
+}
+
+void StudyRunner::RecordFailure(size_t index, const std::string& message) {
+  const StudyCase& study_case = cases_[index];
+  const fs::path run_folder = RunFolder(study_, request_, folder_, study_case);
+  runs_[index] = {study_case.labels, study_case.seed, kFailed, message, revision_, run_folder, {}};
+  PartialFolder partial(run_folder);
+  WriteRunFile(partial.path(), {runs_[index], CaseSettings(study_case)});
+  partial.Finish();
+}
+
+}  // namespace
+
+std::string StudyStem(const Study& study, const StudyRequest& request) {
+  return study.name + "_" + SplitName(request.split) + (request.quick ? "_quick" : "");
+}
+
+StudyPlan PlanStudy(const Study& study, const StudyRequest& request, const fs::path& folder) {
+  if (study.tunes_parameters && request.split == Split::kTest) {
+    throw Error(ErrorKind::kUsage,
+                "study " + study.name +
+                    " chooses constants by what it measures, and constants "
+                    "that have seen the test split say nothing about it; use --split train");
+  }
+  StudyPlan plan;
+  plan.cases = study.cases(request);
+  CheckNames(study, plan.cases);
+  const std::string revision = ThisProgram().revision;
+  for (const StudyCase& study_case : plan.cases) {
+    const auto file = ReadRunFile(RunFolder(study, request, folder, study_case));
+    if (!file || file->run.outcome == kFailed) continue;
+    const bool same = file->settings == CaseSettings(study_case);
+    plan.finished += same ? 1 : 0;
+    plan.other_settings += same ? 0 : 1;
+    plan.other_revision += same && file->run.revision != revision ? 1 : 0;
+  }
+  return plan;
+}
+
+StudyResults RunStudy(const Study& study, const StudyRequest& request, const fs::path& folder,
+                      const RunnerOptions& options, const Progress& progress) {
+  const StudyPlan plan = PlanStudy(study, request, folder);
+  RequireGnuplot();
+  StudyRunner runner(study, request, folder, plan.cases);
+  runner.Measure(runner.Pending(options.remeasure), options.jobs, progress);
+  StudyResults results{folder, StudyStem(study, request), runner.TakeRuns()};
+  WriteRunsCsv(folder / (results.stem + ".csv"), results.runs);
+  if (study.report) study.report(results);
+  return results;
+}
+
+}  // namespace curvefusion
