@@ -4,7 +4,6 @@
 #include <exception>
 #include <map>
 #include <mutex>
-#include <new>
 #include <set>
 #include <thread>
 
@@ -95,6 +94,7 @@ class StudyRunner {
   std::vector<StudyRun> TakeRuns() { return std::move(runs_); }
 
  private:
+  bool IsSimulated(const ScanGroup& group) const;
   void MeasureGroup(const ScanGroup& group, StepCounter& steps);
   void MeasureCase(size_t index, const fs::path& scan, StepCounter& steps);
   RunOutcome RunCase(const RunInput& input) const;
@@ -134,7 +134,7 @@ void StudyRunner::Measure(const std::vector<ScanGroup>& groups, int jobs,
                           const Progress& progress) {
   int64_t total = 0;
   for (const ScanGroup& group : groups) {
-    total += static_cast<int64_t>(group.cases.size()) + (group.scan != nullptr ? 1 : 0);
+    total += static_cast<int64_t>(group.cases.size()) + (IsSimulated(group) ? 0 : 1);
   }
   StepCounter steps(progress, study_.name, total);
   std::mutex mutex;
@@ -163,8 +163,14 @@ void StudyRunner::Measure(const std::vector<ScanGroup>& groups, int jobs,
   if (failure) std::rethrow_exception(failure);
 }
 
+// Whether the group needs no scan any more.
+bool StudyRunner::IsSimulated(const ScanGroup& group) const {
+  return group.scan == nullptr || fs::exists(ScanFolder(folder_ / "scans", *group.scan));
+}
+
 void StudyRunner::MeasureGroup(const ScanGroup& group, StepCounter& steps) {
   fs::path scan;
+  const bool is_simulated = IsSimulated(group);
   if (group.scan != nullptr) {
     try {
       scan = CachedScan(folder_ / "scans", *group.scan, steps.Within());
@@ -173,8 +179,8 @@ void StudyRunner::MeasureGroup(const ScanGroup& group, StepCounter& steps) {
       for (const size_t i : group.cases) RecordFailure(i, error.what());
       return;
     }
-    steps.Advance();
   }
+  if (!is_simulated) steps.Advance();
   for (const size_t i : group.cases) MeasureCase(i, scan, steps);
 }
 
@@ -196,8 +202,8 @@ void StudyRunner::MeasureCase(size_t index, const fs::path& scan, StepCounter& s
   } catch (const Error& error) {
     if (error.kind() == ErrorKind::kInterrupted) throw;
     RecordFailure(index, error.what());
-  } catch (const std::bad_alloc&) {
-    RecordFailure(index, "out of memory");
+  } catch (const std::exception& error) {
+    RecordFailure(index, error.what());
   }
   steps.Advance();
 }
@@ -242,7 +248,7 @@ StudyPlan PlanStudy(const Study& study, const StudyRequest& request, const fs::p
 StudyResults RunStudy(const Study& study, const StudyRequest& request, const fs::path& folder,
                       const RunnerOptions& options, const Progress& progress) {
   const StudyPlan plan = PlanStudy(study, request, folder);
-  RequireGnuplot();
+  if (study.report) RequireGnuplot();
   StudyRunner runner(study, request, folder, plan.cases);
   runner.Measure(runner.Pending(options.remeasure), options.jobs, progress);
   StudyResults results{folder, StudyStem(study, request), runner.TakeRuns()};

@@ -39,7 +39,7 @@ std::string StudyStem(const Study& study, const StudyRequest& request);
 /// that find nothing count; runs that fail are recorded with their message, do not end the study
 /// and are tried again by the next call. `progress` counts scans and runs that are to do; it may be
 /// called from several threads, one at a time. Throws Error(kUsage) as PlanStudy, kInterrupted, and
-/// kResource before anything is measured where gnuplot is missing.
+/// kResource before anything is measured where there is a report and no gnuplot.
 StudyResults RunStudy(const Study& study, const StudyRequest& request,
                       const std::filesystem::path& folder, const RunnerOptions& options,
                       const Progress& progress);

@@ -1,0 +1,72 @@
+#include "experiments/studies/gnuplot.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+
+#include "kernel/error.h"
+#include "tests/temporary_path.h"
+
+namespace curvefusion {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Gnuplot : public testing::Test {
+ protected:
+  void SetUp() override {
+    try {
+      RequireGnuplot();
+    } catch (const Error& error) {
+      GTEST_SKIP() << error.what();
+    }
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string Head(const std::string& file) const {
+    std::ifstream stream(folder_ / file, std::ios::binary);
+    std::string head(4, '\0');
+    stream.read(head.data(), 4);
+    return head;
+  }
+
+  const fs::path folder_ = TemporaryPath("gnuplot's");  // a name that a shell would stumble over
+};
+
+TEST_F(Gnuplot, DrawsBothFormatsAndKeepsWhatTheyAreMadeOf) {
+  DrawPlot(folder_, "line", {"0 1\n1 2\n", "plot data with linespoints", 3, 2});
+  EXPECT_EQ(Head("line.png"), "\x89PNG");
+  EXPECT_EQ(Head("line.pdf"), "%PDF");
+  EXPECT_TRUE(fs::exists(folder_ / "line.gp"));
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 4);
+}
+
+TEST_F(Gnuplot, TellsWhatGnuplotSays) {
+  try {
+    DrawPlot(folder_, "bad", {"", "plot nonsense(", 3, 2});
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kResource);
+    EXPECT_THAT(error.what(), testing::HasSubstr("bad.gp"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("invalid expression"));
+  }
+}
+
+TEST(GnuplotMissing, IsSaidWithItsRemedy) {
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", "/nonexistent", 1);
+  try {
+    RequireGnuplot();
+    ADD_FAILURE() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kResource);
+    EXPECT_THAT(error.what(), testing::HasSubstr("apt-get install gnuplot-nox"));
+  }
+  setenv("PATH", path.c_str(), 1);
+}
+
+}  // namespace
+}  // namespace curvefusion
