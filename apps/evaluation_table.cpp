@@ -64,36 +64,59 @@ std::string PlacedRows(const PlacedScores& raw, const PlacedScores& aligned) {
               Millimetres(aligned.diameters.mean_error));
   rows += Row("  relative", Percent(raw.diameters.relative_error),
               Percent(aligned.diameters.relative_error));
-  if (raw.surface && aligned.surface) {
-    rows += WithinRows("surface", raw.surface->within, aligned.surface->within);
-  }
   return rows;
 }
 
-std::string MeshRow(const WatertightReport& mesh, double area_outside) {
+std::string SurfaceRows(const SurfaceScores& raw, const SurfaceScores& aligned) {
+  return WithinRows("surface", raw.within, aligned.within) +
+         Row("  mean mesh to tubes", Millimetres(raw.mean_to_truth),
+             Millimetres(aligned.mean_to_truth)) +
+         Row("  mean tubes to mesh", Millimetres(raw.mean_to_mesh),
+             Millimetres(aligned.mean_to_mesh));
+}
+
+std::string MeshRows(const Evaluation& evaluation) {
+  const WatertightReport& mesh = *evaluation.mesh;
+  const SampledVolume& truth = *evaluation.true_volume;
+  const std::string ratio =
+      evaluation.VolumeRatio()
+          ? fmt::format("{:.3f} of the true tubes' (which is sampled to {:.1f} %)",
+                        *evaluation.VolumeRatio(), 100 * truth.relative_error)
+          : "- (the surface is not closed)";
   return fmt::format(
       "mesh around the truth     {} faces, {} parts, {} boundary edges, {} edges of more than two\n"
-      "                          faces, {} self-intersections; {:.4f} m2, elsewhere {:.4f} m2\n",
+      "                          faces, {} self-intersections; {:.4f} m2, elsewhere {:.4f} m2\n"
+      "mesh volume               {}\n",
       mesh.faces, mesh.components, mesh.boundary_edges, mesh.non_manifold_edges,
-      mesh.self_intersections, mesh.area, area_outside);
+      mesh.self_intersections, mesh.area, evaluation.mesh_area_outside, ratio);
+}
+
+std::string TopologyRows(const Evaluation& evaluation) {
+  const TopologyScores& topology = evaluation.topology;
+  return fmt::format(
+      "\n{:<26}{} (truth {})\n{:<26}{} (truth {})\n{:<26}{:.3f} m (truth {:.3f} m)\n", "components",
+      topology.components, topology.true_components, "cycles", topology.cycles,
+      topology.true_cycles, "length", evaluation.length, evaluation.true_length);
+}
+
+std::string AlignmentRow(const RigidTransform& T_truth_result) {
+  const Eigen::AngleAxisd rotation(T_truth_result.rotation());
+  return fmt::format("{:<26}{:.2f} mm, {:.3f} degrees\n", "alignment",
+                     T_truth_result.translation().norm() / kMillimetre,
+                     rotation.angle() * 180 / std::numbers::pi);
 }
 
 }  // namespace
 
 std::string EvaluationTable(const Evaluation& evaluation) {
-  std::string table = Row("", "raw", "aligned") +
-                      Row("", "  P     R     F  ", "  P     R     F  ") +
-                      PlacedRows(evaluation.raw, evaluation.aligned);
-  const TopologyScores& topology = evaluation.topology;
-  const Eigen::AngleAxisd rotation(evaluation.T_truth_result.rotation());
-  table += fmt::format(
-      "\n{:<26}{} (truth {})\n{:<26}{} (truth {})\n{:<26}{:.3f} m (truth {:.3f} m)\n"
-      "{:<26}{:.2f} mm, {:.3f} degrees\n",
-      "components", topology.components, topology.true_components, "cycles", topology.cycles,
-      topology.true_cycles, "length", evaluation.length, evaluation.true_length, "alignment",
-      evaluation.T_truth_result.translation().norm() / kMillimetre,
-      rotation.angle() * 180 / std::numbers::pi);
-  if (evaluation.mesh) table += MeshRow(*evaluation.mesh, evaluation.mesh_area_outside);
+  const PlacedScores& raw = evaluation.raw;
+  const PlacedScores& aligned = evaluation.aligned;
+  std::string table = Row("", "raw", "aligned") + Row("", "  P     R     F  ", "  P     R     F  ");
+  if (evaluation.has_curves) table += PlacedRows(raw, aligned);
+  if (raw.surface && aligned.surface) table += SurfaceRows(*raw.surface, *aligned.surface);
+  if (evaluation.has_curves) table += TopologyRows(evaluation);
+  table += AlignmentRow(evaluation.T_truth_result);
+  if (evaluation.mesh) table += MeshRows(evaluation);
   return table;
 }
 

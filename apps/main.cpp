@@ -45,7 +45,6 @@ int Parse(int argc, char** argv) {
   AddMeshCommand(app, exit_code);
   AddGraphCommand(app, exit_code);
   AddConfigCommand(app, exit_code);
-  AddDemoScanCommand(app, exit_code);
   AddSimulateCommand(app, exit_code);
   AddEvaluateCommand(app, exit_code);
   AddExperimentCommand(app, exit_code);

@@ -12,6 +12,29 @@ namespace curvefusion {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+Error CannotBeWritten(const fs::path& path, const std::string& reason) {
+  return {ErrorKind::kResource, fmt::format("{}: cannot be written ({})", path.string(), reason)};
+}
+
+// Without a slash at its end, which would hide its name.
+fs::path NamedFolder(const fs::path& folder) {
+  const fs::path path = fs::absolute(folder).lexically_normal();
+  return path.has_filename() ? path : path.parent_path();
+}
+
+void CheckIsFree(const fs::path& folder) {
+  std::error_code failure;
+  if (!fs::exists(folder, failure)) return;
+  if (fs::is_directory(folder, failure) && fs::is_empty(folder, failure)) return;
+  throw Error(
+      ErrorKind::kUsage,
+      fmt::format("{}: is there already; name another folder or remove it", folder.string()));
+}
+
+}  // namespace
+
 void WriteFileAtomically(const fs::path& path,
                          const std::function<void(const fs::path& temporary)>& write) {
   fs::path temporary = path;
@@ -28,8 +51,7 @@ void WriteFileAtomically(const fs::path& path,
   if (failure) {
     const std::string reason = failure.message();
     fs::remove(temporary, failure);
-    throw Error(ErrorKind::kResource,
-                fmt::format("{}: cannot be written ({})", path.string(), reason));
+    throw CannotBeWritten(path, reason);
   }
 }
 
@@ -45,6 +67,25 @@ void WriteStreamAtomically(const fs::path& path,
                               path.string()));
     }
   });
+}
+
+void WriteFolderAtomically(const fs::path& folder,
+                           const std::function<void(const fs::path& temporary)>& write) {
+  CheckIsFree(folder);
+  const fs::path path = NamedFolder(folder);
+  fs::path temporary = path;
+  temporary += fmt::format(".partial-{}", ::getpid());
+  std::error_code failure;
+  fs::create_directories(temporary, failure);
+  if (failure) throw CannotBeWritten(folder, failure.message());
+  try {
+    write(temporary);
+    fs::rename(temporary, path, failure);
+    if (failure) throw CannotBeWritten(folder, failure.message());
+  } catch (...) {
+    fs::remove_all(temporary, failure);
+    throw;
+  }
 }
 
 }  // namespace curvefusion

@@ -18,4 +18,12 @@ void WriteFileAtomically(const std::filesystem::path& path,
 void WriteStreamAtomically(const std::filesystem::path& path,
                            const std::function<void(std::ostream& stream)>& write);
 
+/// The same for a whole folder: `write` fills a temporary one beside `folder`, which gets its name
+/// when `write` has returned. Makes the folders above. Throws Error(kUsage) where `folder` is there
+/// already and is not an empty folder, before `write` is called; Error(kResource) where it cannot
+/// be made.
+void WriteFolderAtomically(
+    const std::filesystem::path& folder,
+    const std::function<void(const std::filesystem::path& temporary)>& write);
+
 }  // namespace curvefusion

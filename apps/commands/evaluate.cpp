@@ -12,6 +12,7 @@
 #include "experiments/metrics/evaluation_files.h"
 #include "experiments/metrics/truth.h"
 #include "graph/graph_io.h"
+#include "kernel/error.h"
 #include "kernel/parallel.h"
 #include "meshing/mesh_io.h"
 
@@ -30,19 +31,28 @@ struct EvaluateArguments {
   RunOptions run;
 };
 
-int RunEvaluate(const EvaluateArguments& arguments) {
-  const ThreadLimit limit(arguments.run.threads);
-  const bool is_folder = fs::is_directory(arguments.result);
-  const SkeletonGraph result =
-      ReadSkeleton(is_folder ? arguments.result / "skeleton.json" : arguments.result);
+Evaluation EvaluateFiles(const EvaluateArguments& arguments) {
   const SkeletonGraph truth = ReadTruth(arguments.truth);
   std::optional<TriangleMesh> mesh;
   if (!arguments.mesh.empty()) mesh = ReadMesh(arguments.mesh);
+  if (arguments.result.empty()) return EvaluateMesh(*mesh, truth);
+  const bool is_folder = fs::is_directory(arguments.result);
+  const SkeletonGraph result =
+      ReadSkeleton(is_folder ? arguments.result / "skeleton.json" : arguments.result);
+  return Evaluate(result, mesh ? &*mesh : nullptr, truth);
+}
+
+int RunEvaluate(const EvaluateArguments& arguments) {
+  if (arguments.result.empty() && arguments.mesh.empty()) {
+    throw Error(ErrorKind::kUsage, "name a result folder, a skeleton.json or a --mesh to evaluate");
+  }
+  const ThreadLimit limit(arguments.run.threads);
   MakeFolderOf(arguments.json);
   MakeFolderOf(arguments.csv);
-  const Evaluation evaluation = Evaluate(result, mesh ? &*mesh : nullptr, truth);
+  const Evaluation evaluation = EvaluateFiles(arguments);
   ThrowIfInterrupted();
-  const EvaluationLabels labels{arguments.result.string(), arguments.truth.string()};
+  const fs::path& evaluated = arguments.result.empty() ? arguments.mesh : arguments.result;
+  const EvaluationLabels labels{evaluated.string(), arguments.truth.string()};
   if (!arguments.json.empty()) WriteEvaluation(arguments.json, labels, evaluation);
   if (!arguments.csv.empty()) AppendEvaluation(arguments.csv, labels, evaluation);
   if (!arguments.run.quiet) fmt::print("{}", EvaluationTable(evaluation));
@@ -54,14 +64,16 @@ int RunEvaluate(const EvaluateArguments& arguments) {
 void AddEvaluateCommand(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("evaluate", "Compare a result with a known truth");
   const auto arguments = std::make_shared<EvaluateArguments>();
-  command->add_option("OUT", arguments->result, "A result folder or a skeleton.json")->required();
+  command->add_option("OUT", arguments->result,
+                      "A result folder or a skeleton.json; may be left out beside --mesh");
   command
       ->add_option("--truth", arguments->truth,
                    "The truth/ folder of a simulated scan, a skeleton.json with radii, or a "
                    "curves.json")
       ->required();
-  command->add_option("--mesh", arguments->mesh,
-                      "A mesh in metres (PLY, OBJ, STL) to compare with the true tubes' surface");
+  command->add_option(
+      "--mesh", arguments->mesh,
+      "A mesh in metres (PLY, OBJ, STL) to compare with the true tubes' surface and volume");
   command->add_option("--json", arguments->json, "Write all figures as JSON");
   command->add_option("--csv", arguments->csv,
                       "Add all figures as a row to a CSV file, which is made where it is missing");
@@ -70,8 +82,13 @@ void AddEvaluateCommand(CLI::App& app, int& exit_code) {
       "Raw figures compare the result as it lies; aligned ones after one rigid motion, found by\n"
       "iterative closest points. P and R are the shares of the result that is true and of the\n"
       "truth that was found, F is their harmonic mean; - means there is nothing to take them of.\n"
+      "Of a mesh, what lies within 30 mm of the true object's bounding box is compared by area "
+      "with\n"
+      "the surface of the true tubes, not with their centre lines. Without OUT it is aligned "
+      "itself.\n"
       "Example:\n  curvefusion evaluate result --truth scan/truth\n"
-      "  curvefusion evaluate result --truth scan/truth --mesh result/mesh.ply --csv all.csv");
+      "  curvefusion evaluate result --truth scan/truth --mesh result/mesh.ply --csv all.csv\n"
+      "  curvefusion evaluate --truth scan/truth --mesh volume.ply");
   command->callback([arguments, &exit_code] { exit_code = RunEvaluate(*arguments); });
 }
 

@@ -5,14 +5,15 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "apps/commands/command.h"
-#include "apps/output_folder.h"
 #include "experiments/simulation/depth_sensor.h"
 #include "experiments/simulation/drift.h"
 #include "experiments/simulation/object_truth.h"
 #include "graph/graph_io.h"
+#include "kernel/error.h"
 #include "kernel/parallel.h"
 
 namespace curvefusion {
@@ -21,12 +22,13 @@ namespace {
 
 constexpr const char* kSmallColor = "640x480";
 constexpr const char* kLargeColor = "1280x1024";
+constexpr const char* kSpacedObject = "parallel_wires";
 
 struct SimulateArguments {
   std::string scene;
   std::filesystem::path output;
   std::string color_size = kSmallColor;
-  double spacing_mm = 20;
+  std::optional<double> spacing_mm;
   double wire_diameter_mm = 0;  // 0 = the object's own
   SimulationOptions scan;
   RunOptions run;
@@ -44,13 +46,21 @@ void ChooseObject(const std::string& scene, SimulationOptions& scan) {
   MakeObject(scene, scan.object_options);  // refuses unknown names before anything is written
 }
 
+double SpacingOf(const SimulateArguments& arguments) {
+  if (!arguments.spacing_mm) return ObjectOptions().spacing;
+  if (arguments.scene != kSpacedObject) {
+    throw Error(ErrorKind::kUsage, fmt::format("--spacing is for {} only: leave it out for {}",
+                                               kSpacedObject, arguments.scene));
+  }
+  return *arguments.spacing_mm * kMillimetre;
+}
+
 int RunSimulate(SimulateArguments arguments) {
   SimulationOptions& scan = arguments.scan;
   scan.large_color = arguments.color_size == kLargeColor;
-  scan.object_options.spacing = arguments.spacing_mm * kMillimetre;
+  scan.object_options.spacing = SpacingOf(arguments);
   scan.object_options.wire_diameter = arguments.wire_diameter_mm * kMillimetre;
   ChooseObject(arguments.scene, scan);
-  MakeOutputFolder(arguments.output);
   ProgressPrinter printer = MakeProgressPrinter(arguments.run.quiet);
   const ThreadLimit limit(arguments.run.threads);
   SimulateScan(scan, arguments.output, InterruptibleProgress(printer));
@@ -63,13 +73,10 @@ int RunSimulate(SimulateArguments arguments) {
 }
 
 void AddSensorOptions(CLI::App& command, SimulateArguments& arguments) {
+  command.option_defaults()->group("Sensor");
   SimulationOptions& scan = arguments.scan;
   command.add_option("--sensor", scan.sensor, "The depth camera")
       ->check(CLI::IsMember(SensorNames()));
-  command.add_option("--poses", scan.pose_source, "Where poses come from, with its errors")
-      ->check(CLI::IsMember(PoseSourceNames()));
-  command.add_option("--pose-error", scan.pose_error_scale, "Factor on these errors")
-      ->check(CLI::Range(0.0, 10.0));
   command
       .add_option("--rgb", arguments.color_size,
                   "Size of colour images: 640x480 (as depth) or 1280x1024 (twice the resolution)")
@@ -80,37 +87,48 @@ void AddSensorOptions(CLI::App& command, SimulateArguments& arguments) {
       ->check(CLI::Range(0.0, 20.0));
   command
       .add_option("--readout-time", scan.readout_time,
-                  "Seconds from the first to the last row (rolling shutter)")
+                  "Seconds from the first to the last row (rolling shutter; 0.028 for a Kinect V1)")
       ->check(CLI::Range(0.0, 0.033));
 }
 
 void AddMotionOptions(CLI::App& command, SimulateArguments& arguments) {
+  command.option_defaults()->group("Motion and poses");
   SimulationOptions& scan = arguments.scan;
   command.add_option("--frames", scan.frames, "Number of frames")->check(CLI::Range(1, 100000));
-  command.add_option("--seed", scan.seed, "Another room, path and noise for each number");
+  command.add_option("--frame-rate", scan.motion.frame_rate, "Frames per second")
+      ->check(CLI::Range(1.0, 120.0));
+  command.add_option("--speed", scan.motion.speed, "Mean speed of the camera in m/s")
+      ->check(CLI::Range(0.01, 1.0));
   command
       .add_option("--distance", scan.motion.standoff,
                   "Mean distance to the object in m; otherwise the sensor's working distance")
+      ->default_str("")
       ->check(CLI::Range(0.2, 3.0));
-  command.add_option("--speed", scan.motion.speed, "Mean speed of the camera in m/s")
-      ->check(CLI::Range(0.01, 1.0));
+  command.add_option("--poses", scan.pose_source, "Where poses come from, with its errors")
+      ->check(CLI::IsMember(PoseSourceNames()));
+  command.add_option("--pose-error", scan.pose_error_scale, "Factor on these errors")
+      ->check(CLI::Range(0.0, 10.0));
 }
 
 void AddWireOptions(CLI::App& command, SimulateArguments& arguments) {
+  command.option_defaults()->group("Wires");
   SceneOptions& scene = arguments.scan.scene;
   command
+      .add_option("--wire-diameter", arguments.wire_diameter_mm,
+                  "Diameter of all wires in mm; otherwise the object's own")
+      ->default_str("")
+      ->check(CLI::Range(0.1, 50.0));
+  command
+      .add_option("--spacing", arguments.spacing_mm,
+                  "Between the axes of parallel_wires in mm, 20 otherwise")
+      ->check(CLI::Range(5.0, 100.0));
+  command
       .add_option("--wire-albedo", scene.wire_albedo,
-                  "Brightness of the wires in colour and infrared, 0 to 1")
+                  "Brightness of the wires in colour and infrared: 0.05 black, 0.9 white")
       ->check(CLI::Range(0.0, 1.0));
   command
       .add_option("--wire-shininess", scene.wire_shininess, "From 0 (matt) to 1 (like a mirror)")
       ->check(CLI::Range(0.0, 1.0));
-  command
-      .add_option("--wire-diameter", arguments.wire_diameter_mm,
-                  "Diameter of all wires in mm; otherwise the object's own")
-      ->check(CLI::Range(0.1, 50.0));
-  command.add_option("--spacing", arguments.spacing_mm, "Between the axes of parallel_wires in mm")
-      ->check(CLI::Range(5.0, 100.0));
 }
 
 }  // namespace
@@ -124,14 +142,21 @@ void AddSimulateCommand(CLI::App& app, int& exit_code) {
                    "An object: " + CLI::detail::join(ObjectNames(), ", ") +
                        "; or a skeleton.json with radii")
       ->required();
-  command->add_option("-o,--output", arguments->output, "Folder for the sequence")->required();
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "Folder for the sequence, which must be new or empty")
+      ->required();
+  command->option_defaults()->always_capture_default();
   AddSensorOptions(*command, *arguments);
   AddMotionOptions(*command, *arguments);
   AddWireOptions(*command, *arguments);
+  command->option_defaults()->group("Run");
+  command->add_option("--seed", arguments->scan.seed,
+                      "Another room, path and noise for each number");
   AddRunOptions(*command, arguments->run);
   command->footer(
-      "Options that are not given stand as the simulator has them: kinect_v1, orbslam2, 150\n"
-      "frames, seed 1, 1 px registration error, wires of albedo 0.7, matt.\n"
+      "The folder appears when the scan is complete. The same options and seed give the same "
+      "bytes.\n"
       "Example:\n  curvefusion simulate cage -o scans/cage --frames 227\n"
       "  curvefusion simulate parallel_wires -o scans/close --spacing 12 --seed 2\n"
       "  curvefusion simulate my_object.json -o scans/mine --rgb 1280x1024 --wire-albedo 0.05");

@@ -23,9 +23,17 @@ void CompareMesh(const TriangleMesh& mesh, const SkeletonGraph& truth, Evaluatio
   evaluation.aligned.surface = CompareSurface(part.mesh, truth);
   evaluation.mesh = ExamineMesh(part.mesh);
   evaluation.mesh_area_outside = part.area_outside;
+  constexpr int kVolumeSamples = 100000;  // an error of about .1 %
+  evaluation.true_volume = VolumeOfTubes(truth, kVolumeSamples);
 }
 
 }  // namespace
+
+std::optional<double> Evaluation::VolumeRatio() const {
+  if (!mesh || !true_volume || true_volume->volume <= 0) return std::nullopt;
+  if (mesh->faces == 0 || mesh->boundary_edges > 0) return std::nullopt;
+  return mesh->volume / true_volume->volume;
+}
 
 Evaluation Evaluate(const SkeletonGraph& result, const TriangleMesh* mesh,
                     const SkeletonGraph& truth) {
@@ -38,6 +46,16 @@ Evaluation Evaluate(const SkeletonGraph& result, const TriangleMesh* mesh,
   evaluation.length = result.TotalLength();
   evaluation.true_length = truth.TotalLength();
   if (mesh != nullptr) CompareMesh(*mesh, truth, evaluation);
+  return evaluation;
+}
+
+Evaluation EvaluateMesh(const TriangleMesh& mesh, const SkeletonGraph& truth) {
+  Evaluation evaluation;
+  evaluation.has_curves = false;
+  evaluation.topology = CompareTopology({}, truth);
+  evaluation.true_length = truth.TotalLength();
+  evaluation.T_truth_result = AlignSurfaceToTruth(PartAroundTruth(mesh, truth).mesh, truth);
+  CompareMesh(mesh, truth, evaluation);
   return evaluation;
 }
 

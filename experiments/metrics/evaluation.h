@@ -8,6 +8,7 @@
 #include "experiments/metrics/junction_metrics.h"
 #include "experiments/metrics/mesh_metrics.h"
 #include "experiments/metrics/topology_metrics.h"
+#include "meshing/tube_volume.h"
 
 namespace curvefusion {
 
@@ -21,20 +22,30 @@ struct PlacedScores {
   std::optional<SurfaceScores> surface;  ///< where a mesh was given
 };
 
-/// A result compared with the truth as it lies, and after one rigid alignment of its curves.
+/// A result compared with the truth as it lies, and after one rigid alignment of its curves (of its
+/// surface, where there are none).
 struct Evaluation {
+  bool has_curves = true;  ///< false for a bare mesh, which only `surface` and `mesh` tell of
   PlacedScores raw;
   PlacedScores aligned;
   RigidTransform T_truth_result = RigidTransform::Identity();  ///< the alignment
   TopologyScores topology;
-  double length = 0;                     ///< metres of curve in the result
-  double true_length = 0;                ///< and in truth
-  std::optional<WatertightReport> mesh;  ///< of the part around the truth
-  double mesh_area_outside = 0;          ///< m^2 of the rest, which nothing else looks at
+  double length = 0;                         ///< metres of curve in the result
+  double true_length = 0;                    ///< and in truth
+  std::optional<WatertightReport> mesh;      ///< of the part around the truth
+  double mesh_area_outside = 0;              ///< m^2 of the rest, which nothing else looks at
+  std::optional<SampledVolume> true_volume;  ///< of the union of the true tubes, beside a mesh
+
+  /// Volume of the mesh over that of the true tubes; nothing where the part around the truth is
+  /// not closed, as its volume depends on where it is cut.
+  std::optional<double> VolumeRatio() const;
 };
 
 /// Compares a skeleton, and the mesh beside it unless that is null, with a truth that has radii.
 Evaluation Evaluate(const SkeletonGraph& result, const TriangleMesh* mesh,
                     const SkeletonGraph& truth);
+
+/// Compares a mesh that comes without curves, as volumetric methods give it.
+Evaluation EvaluateMesh(const TriangleMesh& mesh, const SkeletonGraph& truth);
 
 }  // namespace curvefusion

@@ -75,6 +75,14 @@ Json SurfaceJson(const SurfaceScores& scores) {
   return json;
 }
 
+// The same keys without a value.
+Json Emptied(Json json) {
+  if (json.is_array()) return Json::array();
+  if (!json.is_object()) return nullptr;
+  for (Json& value : json) value = Emptied(value);
+  return json;
+}
+
 Json PlacedJson(const PlacedScores& scores) {
   return {{"curves", CurvesJson(scores.curves)},
           {"junctions_10mm", JunctionsJson(scores.junctions_10mm)},
@@ -86,19 +94,20 @@ Json PlacedJson(const PlacedScores& scores) {
 
 Json MeshJson(const Evaluation& evaluation) {
   const WatertightReport mesh = evaluation.mesh.value_or(WatertightReport{});
-  Json json = {{"faces", mesh.faces},
-               {"components", mesh.components},
-               {"boundary_edges", mesh.boundary_edges},
-               {"non_manifold_edges", mesh.non_manifold_edges},
-               {"self_intersections", mesh.self_intersections},
-               {"watertight", mesh.IsWatertight() ? 1 : 0},
-               {"volume", mesh.volume},
-               {"area", mesh.area},
-               {"area_outside", evaluation.mesh_area_outside}};
-  if (!evaluation.mesh) {
-    for (Json& value : json) value = nullptr;
-  }
-  return json;
+  Json json = {
+      {"faces", mesh.faces},
+      {"components", mesh.components},
+      {"boundary_edges", mesh.boundary_edges},
+      {"non_manifold_edges", mesh.non_manifold_edges},
+      {"self_intersections", mesh.self_intersections},
+      {"watertight", mesh.IsWatertight() ? 1 : 0},
+      {"volume", mesh.volume},
+      {"volume_ratio", Value(evaluation.VolumeRatio())},
+      {"true_volume", evaluation.true_volume.value_or(SampledVolume{}).volume},
+      {"true_volume_error", evaluation.true_volume.value_or(SampledVolume{}).relative_error},
+      {"area", mesh.area},
+      {"area_outside", evaluation.mesh_area_outside}};
+  return evaluation.mesh ? json : Emptied(json);
 }
 
 Json AlignmentJson(const RigidTransform& T_truth_result) {
@@ -107,20 +116,32 @@ Json AlignmentJson(const RigidTransform& T_truth_result) {
           {"rotation", rotation.angle()}};
 }
 
+// A bare mesh has no curves to give figures of.
+void EmptyCurves(Json& json) {
+  for (const char* key : {"length", "components", "cycles"}) json[key] = nullptr;
+  for (const char* place : {"raw", "aligned"}) {
+    for (auto& [key, value] : json[place].items()) {
+      if (key != "surface") value = Emptied(value);
+    }
+  }
+}
+
 Json EvaluationJson(const EvaluationLabels& labels, const Evaluation& evaluation) {
   const TopologyScores& topology = evaluation.topology;
-  return {{"result", labels.result},
-          {"truth", labels.truth},
-          {"length", evaluation.length},
-          {"true_length", evaluation.true_length},
-          {"components", topology.components},
-          {"true_components", topology.true_components},
-          {"cycles", topology.cycles},
-          {"true_cycles", topology.true_cycles},
-          {"alignment", AlignmentJson(evaluation.T_truth_result)},
-          {"raw", PlacedJson(evaluation.raw)},
-          {"aligned", PlacedJson(evaluation.aligned)},
-          {"mesh", MeshJson(evaluation)}};
+  Json json = {{"result", labels.result},
+               {"truth", labels.truth},
+               {"length", evaluation.length},
+               {"true_length", evaluation.true_length},
+               {"components", topology.components},
+               {"true_components", topology.true_components},
+               {"cycles", topology.cycles},
+               {"true_cycles", topology.true_cycles},
+               {"alignment", AlignmentJson(evaluation.T_truth_result)},
+               {"raw", PlacedJson(evaluation.raw)},
+               {"aligned", PlacedJson(evaluation.aligned)},
+               {"mesh", MeshJson(evaluation)}};
+  if (!evaluation.has_curves) EmptyCurves(json);
+  return json;
 }
 
 struct CsvRow {

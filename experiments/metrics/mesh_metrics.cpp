@@ -150,6 +150,14 @@ double WeightedMean(const std::vector<double>& values, const std::vector<double>
   return sum / total;
 }
 
+// About `count` of them, evenly picked.
+std::vector<Vec3> Thinned(const std::vector<Vec3>& points, size_t count) {
+  const size_t step = std::max<size_t>(1, points.size() / count);
+  std::vector<Vec3> thinned;
+  for (size_t i = 0; i < points.size(); i += step) thinned.push_back(points[i]);
+  return thinned;
+}
+
 SurfaceScores ScoresOfEmpty(bool mesh_is_empty, bool truth_is_empty) {
   SurfaceScores scores;
   for (PrecisionRecall& score : scores.within) {
@@ -179,6 +187,14 @@ SurfaceScores CompareSurface(const TriangleMesh& mesh, const SkeletonGraph& trut
   scores.mean_to_truth = WeightedMean(to_truth, surface.areas);
   scores.mean_to_mesh = WeightedMean(to_mesh, visible.areas);
   return scores;
+}
+
+RigidTransform AlignSurfaceToTruth(const TriangleMesh& mesh, const SkeletonGraph& truth) {
+  constexpr size_t kSamples = 10000;
+  const SurfaceSamples surface = SampleMesh(mesh);
+  if (surface.positions.empty() || truth.empty()) return RigidTransform::Identity();
+  const SurfaceSamples visible = SampleTubes(truth, TrueTubes(truth));
+  return AlignToTruth(Thinned(surface.positions, kSamples), visible.positions);
 }
 
 MeshPart PartAroundTruth(const TriangleMesh& mesh, const SkeletonGraph& truth) {

@@ -22,6 +22,10 @@ struct SurfaceScores {
 /// of a tube inside another tube do not count, and ends of tubes only as far as they are round.
 SurfaceScores CompareSurface(const TriangleMesh& mesh, const SkeletonGraph& truth);
 
+/// The rigid motion that takes a mesh onto the surface of the true tubes, by AlignToTruth on
+/// samples of both: for meshes that come without curves. Starts from where the mesh is.
+RigidTransform AlignSurfaceToTruth(const TriangleMesh& mesh, const SkeletonGraph& truth);
+
 /// A mesh cut to the object: scans of a volume hold the room, too.
 struct MeshPart {
   TriangleMesh mesh;        ///< triangles whose centres lie inside

@@ -24,6 +24,12 @@ Maker StructuredLight(double focal_length_px) {
   };
 }
 
+Maker TimeOfFlight(const TimeOfFlightOptions& options) {
+  return [=](uint64_t seed, const BlockMatchingOptions&) {
+    return std::make_unique<TimeOfFlightSensor>(options, seed);
+  };
+}
+
 Maker Footprint(const FootprintSensorOptions& options) {
   return [=](uint64_t seed, const BlockMatchingOptions&) {
     return std::make_unique<FootprintSensor>(options, seed);
@@ -34,10 +40,8 @@ const std::map<std::string, Maker>& Makers() {
   static const std::map<std::string, Maker> makers = {
       {"kinect_v1", StructuredLight(580)},
       {"primesense", StructuredLight(570)},
-      {"kinect_v2",
-       [](uint64_t seed, const BlockMatchingOptions&) {
-         return std::make_unique<TimeOfFlightSensor>(TimeOfFlightOptions(), seed);
-       }},
+      {"kinect_v2", TimeOfFlight(TimeOfFlightOptions())},
+      {"azure_kinect", TimeOfFlight(AzureKinect())},
       {"sr300", Footprint(RealSenseSr300())},
       {"d400", Footprint(RealSenseD400())},
       {"artec_spider", Footprint(ArtecSpider())},

@@ -20,12 +20,20 @@ struct Exposure {
   uint64_t frame = 0;
 };
 
+/// Depths that a sensor reports, in metres.
+struct DepthRange {
+  double nearest = 0;
+  double farthest = 0;
+};
+
 /// A simulated depth camera. Immutable and thread-safe once made, so frames can be taken in any
 /// order and in parallel.
 class DepthSensor {
  public:
   virtual ~DepthSensor() = default;
   virtual const PinholeCamera& camera() const = 0;
+
+  virtual DepthRange Range() const = 0;
 
   /// How far from an object one would hold it, in metres.
   virtual double WorkingDistance() const { return 0.56; }
@@ -34,8 +42,8 @@ class DepthSensor {
   virtual DepthImage Measure(const Scene& scene, const Exposure& exposure) const = 0;
 };
 
-/// The names MakeDepthSensor knows: `kinect_v1`, `primesense`, `kinect_v2`, `sr300`, `d400`,
-/// `artec_spider`, `ideal`.
+/// The names MakeDepthSensor knows: `kinect_v1`, `primesense`, `kinect_v2`, `azure_kinect`,
+/// `sr300`, `d400`, `artec_spider`, `ideal`.
 std::vector<std::string> SensorNames();
 
 /// A sensor by name; `seed` draws its pattern and noise, `matching` is for those of structured

@@ -27,6 +27,7 @@ class FootprintSensor : public DepthSensor {
       : options_(options), seed_(seed) {}
 
   const PinholeCamera& camera() const override { return options_.camera; }
+  DepthRange Range() const override { return {options_.nearest, options_.farthest}; }
   double WorkingDistance() const override { return options_.working_distance; }
   DepthImage Measure(const Scene& scene, const Exposure& exposure) const override;
 

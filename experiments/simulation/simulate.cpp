@@ -1,5 +1,7 @@
 #include "experiments/simulation/simulate.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <mutex>
@@ -37,25 +39,10 @@ void CheckOptions(const SimulationOptions& options) {
                 "a scan needs at least 1 frame, not " + std::to_string(options.frames));
   }
   if (options.readout_time * options.motion.frame_rate > 1) {
-    throw Error(ErrorKind::kUsage, "rows cannot be read for " +
-                                       std::to_string(options.readout_time) + " s at " +
-                                       std::to_string(options.motion.frame_rate) +
-                                       " frames a second: lower readout_time or frame_rate");
-  }
-}
-
-// Makes the folders; the lists of an earlier scan go first, as its images are overwritten.
-void PrepareFolder(const std::filesystem::path& folder) {
-  std::error_code failure;
-  for (const char* part : {"depth", "rgb", "truth"}) {
-    std::filesystem::create_directories(folder / part, failure);
-    if (failure) {
-      throw Error(ErrorKind::kResource,
-                  "cannot make the folder " + (folder / part).string() + ": " + failure.message());
-    }
-  }
-  for (const char* list : {"associations.txt", "depth.txt", "rgb.txt", "trajectory.txt"}) {
-    std::filesystem::remove(folder / list, failure);
+    throw Error(ErrorKind::kUsage,
+                fmt::format("rows cannot be read for {} s at {} frames a second: lower the readout "
+                            "time or the frame rate",
+                            options.readout_time, options.motion.frame_rate));
   }
 }
 
@@ -77,11 +64,24 @@ Vec2 RegistrationShift(const SimulationOptions& options) {
   return options.registration_error_px * Vec2(std::cos(angle), std::sin(angle));
 }
 
-ScanTask TaskOf(const Scene& scene, const DepthSensor& sensor, const MotionOptions& motion) {
+// The distance from the object, which the sensor must be able to measure.
+double Standoff(const SimulationOptions& options, const DepthSensor& sensor) {
+  const double standoff = options.motion.standoff;
+  if (standoff <= 0) return sensor.WorkingDistance();
+  const DepthRange range = sensor.Range();
+  if (standoff < range.nearest || standoff > range.farthest) {
+    throw Error(ErrorKind::kUsage,
+                fmt::format("{} measures from {} to {} m: it cannot be held at a distance of {} m",
+                            options.sensor, range.nearest, range.farthest, standoff));
+  }
+  return standoff;
+}
+
+ScanTask TaskOf(const Scene& scene, const DepthSensor& sensor, double standoff) {
   ScanTask task;
   task.object_bounds = scene.object_bounds;
   task.table_height = scene.TableHeight();
-  task.standoff = motion.standoff > 0 ? motion.standoff : sensor.WorkingDistance();
+  task.standoff = standoff;
   task.view_half_height = task.standoff * sensor.camera().height / sensor.camera().fy / 2;
   return task;
 }
@@ -93,8 +93,8 @@ ScanPlan PlanScan(const SimulationOptions& options) {
   plan.sensor = MakeDepthSensor(options.sensor, options.seed, options.matching);
   plan.color.camera = ColorCamera(plan.sensor->camera(), options.large_color);
   plan.color_shift_px = RegistrationShift(options);
-  plan.true_poses = HandheldPath(TaskOf(plan.scene, *plan.sensor, options.motion), options.frames,
-                                 options.motion, options.seed);
+  const ScanTask task = TaskOf(plan.scene, *plan.sensor, Standoff(options, *plan.sensor));
+  plan.true_poses = HandheldPath(task, options.frames, options.motion, options.seed);
   for (int frame = 0; frame < options.frames; ++frame) {
     plan.frame_names.push_back(FrameName(frame, options.motion.frame_rate));
   }
@@ -136,6 +136,18 @@ void TakeFrame(const ScanPlan& plan, const SimulationOptions& options, int frame
   WriteColorJpeg(folder / "rgb" / (name + ".jpg"), color);
 }
 
+void TakeFrames(const ScanPlan& plan, const SimulationOptions& options,
+                const std::filesystem::path& folder, const Progress& progress) {
+  for (const char* part : {"depth", "rgb"}) std::filesystem::create_directory(folder / part);
+  std::mutex progress_mutex;
+  int done = 0;
+  ParallelFor(0, options.frames, 1, [&](int64_t frame) {
+    TakeFrame(plan, options, static_cast<int>(frame), folder);
+    const std::lock_guard<std::mutex> lock(progress_mutex);
+    progress("simulate", ++done, options.frames);
+  });
+}
+
 nlohmann::ordered_json JsonOf(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 nlohmann::ordered_json SceneJson(const ScanPlan& plan, const SimulationOptions& options) {
@@ -161,6 +173,7 @@ nlohmann::ordered_json SceneJson(const ScanPlan& plan, const SimulationOptions& 
 
 void WriteTruth(const ScanPlan& plan, const SimulationOptions& options,
                 const std::filesystem::path& folder) {
+  std::filesystem::create_directory(folder);
   WriteSkeleton(folder / "skeleton.json", TruthSkeleton(plan.scene.object));
   WriteCurves(folder / "curves.json", plan.scene.object);
   WriteTrajectory(folder / "trajectory.txt", plan.frame_names, plan.true_poses);
@@ -203,20 +216,15 @@ void SimulateScan(const SimulationOptions& options, const std::filesystem::path&
   CheckOptions(options);
   const PoseErrorModel pose_errors = PoseErrorOf(options.pose_source, options.pose_error_scale);
   const ScanPlan plan = PlanScan(options);
-  PrepareFolder(folder);
-  std::mutex progress_mutex;
-  int done = 0;
-  ParallelFor(0, options.frames, 1, [&](int64_t frame) {
-    TakeFrame(plan, options, static_cast<int>(frame), folder);
-    const std::lock_guard<std::mutex> lock(progress_mutex);
-    progress("simulate", ++done, options.frames);
+  WriteFolderAtomically(folder, [&](const std::filesystem::path& scan) {
+    TakeFrames(plan, options, scan, progress);
+    WriteTruth(plan, options, scan / "truth");
+    WriteIntrinsics(scan / "intrinsics.json", plan.sensor->camera(), plan.color.camera);
+    WriteTrajectory(
+        scan / "trajectory.txt", plan.frame_names,
+        DriftedPoses(plan.true_poses, options.motion.frame_rate, pose_errors, options.seed));
+    WriteFrameLists(scan, plan.frame_names);
   });
-  WriteTruth(plan, options, folder / "truth");
-  WriteIntrinsics(folder / "intrinsics.json", plan.sensor->camera(), plan.color.camera);
-  WriteTrajectory(
-      folder / "trajectory.txt", plan.frame_names,
-      DriftedPoses(plan.true_poses, options.motion.frame_rate, pose_errors, options.seed));
-  WriteFrameLists(folder, plan.frame_names);
 }
 
 }  // namespace curvefusion

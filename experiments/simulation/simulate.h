@@ -31,14 +31,15 @@ struct SimulationOptions {
 
 void VisitOptions(SimulationOptions& options, OptionVisitor& visitor);
 
-/// Simulates a scan into `folder` (created where it is missing): a TUM sequence with depth/, rgb/,
-/// depth.txt, rgb.txt, associations.txt, trajectory.txt with the pose source's errors and
+/// Simulates a scan into `folder`, which must not exist or be empty: a TUM sequence with depth/,
+/// rgb/, depth.txt, rgb.txt, associations.txt, trajectory.txt with the pose source's errors and
 /// intrinsics.json; and the truth: truth/skeleton.json with radii, truth/curves.json,
-/// truth/trajectory.txt without errors, truth/scene.json. The lists are written last, so that an
-/// interrupted scan is not taken for a whole one. The same options give the same bytes for any
-/// number of threads. Frames are made in parallel; one takes about .4 s of one core. Throws
-/// Error(kUsage) for an unknown name, a count that is not positive or a readout longer than a
-/// frame, Error(kResource) where a file cannot be written.
+/// truth/trajectory.txt without errors, truth/scene.json. The folder gets its name when all is
+/// written. The same options give the same bytes for any number of threads. Frames are made in
+/// parallel; one takes about .4 s of one core. Throws Error(kUsage) for an unknown name, a count
+/// that is not positive, a readout longer than a frame, a distance out of the sensor's range, wires
+/// thicker than their spacing, or a folder that is not empty; Error(kResource) where a file cannot
+/// be written.
 void SimulateScan(const SimulationOptions& options, const std::filesystem::path& folder,
                   const Progress& progress);
 

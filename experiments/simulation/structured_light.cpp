@@ -107,6 +107,8 @@ StructuredLightSensor::StructuredLightSensor(const StructuredLightOptions& optio
       matcher_(options.camera.width, options.camera.height, ReferencePattern(pattern_),
                options.matching) {}
 
+DepthRange StructuredLightSensor::Range() const { return {kNearest, kFarthest}; }
+
 // Light that one ray brings to the camera.
 double StructuredLightSensor::Intensity(const Scene& scene, const SceneView& view,
                                         const SceneView& projector, double u, double v,

@@ -28,6 +28,7 @@ class StructuredLightSensor : public DepthSensor {
   StructuredLightSensor(const StructuredLightOptions& options, uint64_t seed);
 
   const PinholeCamera& camera() const override { return options_.camera; }
+  DepthRange Range() const override;
   DepthImage Measure(const Scene& scene, const Exposure& exposure) const override;
 
   /// The infrared image alone, 10 bits.

@@ -1,10 +1,13 @@
 // Objects of the paper's studies, and of those it does not have.
+#include <fmt/format.h>
+
 #include <cmath>
 #include <functional>
 #include <map>
 #include <numbers>
 
 #include "experiments/simulation/curve_shapes.h"
+#include "kernel/error.h"
 
 namespace curvefusion {
 namespace {
@@ -26,13 +29,22 @@ Curves Triangles() {
 }
 
 // Six parallel upright 5 mm wires: how near may neighbours be?
-Curves ParallelWires(double spacing_mm) {
+Curves ParallelWires(const ObjectOptions& options) {
   constexpr int kWires = 6;
-  constexpr double kLength = 240;
+  constexpr double kLength = 240, kDiameter = 5;
+  const double spacing_mm = options.spacing / kMillimetre;
+  const double diameter_mm =
+      options.wire_diameter > 0 ? options.wire_diameter / kMillimetre : kDiameter;
+  if (spacing_mm <= diameter_mm) {
+    throw Error(ErrorKind::kUsage,
+                fmt::format("parallel_wires of {} mm cannot stand {} mm apart from axis to axis: "
+                            "raise the spacing or lower the diameter",
+                            diameter_mm, spacing_mm));
+  }
   Curves curves;
   for (int i = 0; i < kWires; ++i) {
     const double x = (i - (kWires - 1) / 2.0) * spacing_mm;
-    curves.push_back(Wire({{x, 0, 0}, {x, 0, kLength}}, 5));
+    curves.push_back(Wire({{x, 0, 0}, {x, 0, kLength}}, kDiameter));
   }
   return curves;
 }
@@ -118,12 +130,9 @@ Curves CubeFrame() {
 bool MakeStudyObject(const std::string& name, const ObjectOptions& options,
                      std::vector<WireCurve>& curves) {
   const std::map<std::string, std::function<Curves()>> makers = {
-      {"triangles", Triangles},
-      {"parallel_wires", [&] { return ParallelWires(options.spacing / kMillimetre); }},
-      {"breadholder", Breadholder},
-      {"valence6", Valence6},
-      {"mesh_panel", MeshPanel},
-      {"cubeframe", CubeFrame},
+      {"triangles", Triangles},          {"parallel_wires", [&] { return ParallelWires(options); }},
+      {"breadholder", Breadholder},      {"valence6", Valence6},
+      {"mesh_panel", MeshPanel},         {"cubeframe", CubeFrame},
       {"empty", [] { return Curves(); }}};
   const auto maker = makers.find(name);
   if (maker == makers.end()) return false;

@@ -197,4 +197,11 @@ DepthImage TimeOfFlightSensor::Measure(const Scene& scene, const Exposure& expos
   return WithoutEdges(depth, brightness, filtered.smooth);
 }
 
+TimeOfFlightOptions AzureKinect() {
+  TimeOfFlightOptions options;
+  options.camera = {640, 576, 504, 504, 319.5, 287.5};
+  options.farthest = 3.86;
+  return options;
+}
+
 }  // namespace curvefusion

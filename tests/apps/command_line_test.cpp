@@ -45,6 +45,12 @@ class CommandLine : public testing::Test {
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, output.str()};
   }
 
+  // A scan of the wire cube without noise into the folder `scan`.
+  Outcome SimulateCube(int frames) const {
+    return Run("simulate cubeframe -o scan --sensor ideal --poses true --frame-rate 10 --quiet " +
+               ("--frames " + std::to_string(frames)));
+  }
+
   // Files below a folder whose name ends so.
   int CountFiles(const std::string& folder, const std::string& name_part) const {
     int count = 0;
@@ -94,7 +100,7 @@ TEST_F(CommandLine, BadInputIsThree) {
 }
 
 TEST_F(CommandLine, NothingThinIsFourAndLeavesNoEarlierResult) {
-  ASSERT_EQ(Run("demo-scan -o scan --frames 3 --quiet").exit_code, 0);
+  ASSERT_EQ(SimulateCube(3).exit_code, 0);
   fs::create_directories(folder_ / "out");
   std::ofstream(folder_ / "out/skeleton.json") << "of an earlier run";
   // The object has less than 10 m of curve.
@@ -106,11 +112,11 @@ TEST_F(CommandLine, NothingThinIsFourAndLeavesNoEarlierResult) {
   EXPECT_EQ(CountFiles("out", "skeleton"), 0);
 }
 
-TEST_F(CommandLine, TheDemoGivesAllFilesAndItsTwelveJunctions) {
-  ASSERT_EQ(Run("demo-scan -o scan --quiet").exit_code, 0);
+TEST_F(CommandLine, ACubeGivesAllFilesAndItsThirteenJunctions) {
+  ASSERT_EQ(SimulateCube(45).exit_code, 0);
   const Outcome outcome = Run("reconstruct scan -o out");
   EXPECT_EQ(outcome.exit_code, 0);
-  EXPECT_THAT(outcome.output, HasSubstr("12 junctions, 0 free ends"));
+  EXPECT_THAT(outcome.output, HasSubstr("13 junctions, 1 free end"));
   for (const char* name :
        {"skeleton.json", "mesh.ply", "preview.png", "report.json", "config.toml"}) {
     EXPECT_EQ(CountFiles("out", name), 1) << name;
@@ -119,7 +125,7 @@ TEST_F(CommandLine, TheDemoGivesAllFilesAndItsTwelveJunctions) {
 }
 
 TEST_F(CommandLine, AFolderThatCannotBeWrittenIsFive) {
-  ASSERT_EQ(Run("demo-scan -o scan --frames 1 --quiet").exit_code, 0);
+  ASSERT_EQ(SimulateCube(1).exit_code, 0);
   std::ofstream(folder_ / "file") << "not a folder";
   const Outcome outcome = Run("reconstruct scan -o file/out");
   EXPECT_EQ(outcome.exit_code, 5);
@@ -127,7 +133,7 @@ TEST_F(CommandLine, AFolderThatCannotBeWrittenIsFive) {
 }
 
 TEST_F(CommandLine, AnInterruptedRunIs130AndLeavesNoResult) {
-  ASSERT_EQ(Run("demo-scan -o scan --frames 25 --quiet").exit_code, 0);
+  ASSERT_EQ(SimulateCube(25).exit_code, 0);
   // The folder for stages is made right before the first frame is read.
   const Outcome outcome = RunAndInterrupt("reconstruct scan -o out --save-stages stages", "stages");
   EXPECT_EQ(outcome.exit_code, 130);
@@ -145,8 +151,6 @@ TEST_F(CommandLine, TheConfigItPrintsIsTheConfigItReads) {
   EXPECT_THAT(again.output, HasSubstr("voxel_size = 0.006"));
 }
 
-TEST_F(CommandLine, QuietPrintsNothing) {
-  EXPECT_EQ(Run("demo-scan -o scan --frames 1 --quiet").output, "");
-}
+TEST_F(CommandLine, QuietPrintsNothing) { EXPECT_EQ(SimulateCube(1).output, ""); }
 
 }  // namespace

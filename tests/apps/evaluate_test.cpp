@@ -65,9 +65,27 @@ TEST_F(Evaluate, ASimulatedTruthIsPerfect) {
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 3);
 }
 
+TEST_F(Evaluate, ABareMeshNeedsNoSkeleton) {
+  ASSERT_EQ(Run("simulate cat -o scan --sensor ideal --frames 1 --quiet").exit_code, 0);
+  ASSERT_EQ(Run("mesh scan/truth/skeleton.json -o tubes.ply --quiet").exit_code, 0);
+  const Outcome outcome =
+      Run("evaluate --truth scan/truth --mesh tubes.ply --json a.json --csv all.csv");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("of the true tubes'"));
+  const nlohmann::json json = nlohmann::json::parse(Text("a.json"));
+  EXPECT_EQ(json["result"], "tubes.ply");
+  EXPECT_EQ(json["aligned"]["surface"]["1mm"]["f"], 1.0);
+  EXPECT_TRUE(json["aligned"]["curves"]["1mm"]["f"].is_null());
+  EXPECT_TRUE(json["length"].is_null());
+  EXPECT_NEAR(json["mesh"]["volume_ratio"], 1, 0.01);
+  // Rows of results with and without curves share a table.
+  EXPECT_EQ(Run("evaluate scan/truth --truth scan/truth --csv all.csv --quiet").exit_code, 0);
+}
+
 TEST_F(Evaluate, ExitCodes) {
   EXPECT_EQ(Run("evaluate").exit_code, 2);
   EXPECT_EQ(Run("evaluate out").exit_code, 2);
+  EXPECT_EQ(Run("evaluate --truth scan/truth").exit_code, 2);
   EXPECT_EQ(Run("evaluate --help").exit_code, 0);
   ASSERT_EQ(Run("simulate cat -o scan --sensor ideal --frames 1 --quiet").exit_code, 0);
   const Outcome bad_truth = Run("evaluate scan/truth --truth nowhere --json a.json");
@@ -88,7 +106,21 @@ TEST_F(Evaluate, SimulateRefusesWhatCannotBe) {
   EXPECT_EQ(unknown.exit_code, 2);
   EXPECT_THAT(unknown.output, HasSubstr("did you mean 'cage'"));
   EXPECT_EQ(Run("simulate nowhere.json -o scan").exit_code, 3);
+  EXPECT_EQ(Run("simulate cat -o scan --spacing 12").exit_code, 2);
+  EXPECT_EQ(Run("simulate parallel_wires -o scan --spacing 5").exit_code, 2);
+  const Outcome too_far = Run("simulate cat -o scan --sensor artec_spider --distance 0.5");
+  EXPECT_EQ(too_far.exit_code, 2);
+  EXPECT_THAT(too_far.output, HasSubstr("from 0.2 to 0.3 m"));
   EXPECT_FALSE(fs::exists(folder_ / "scan"));
+}
+
+TEST_F(Evaluate, SimulateDoesNotOverwrite) {
+  fs::create_directories(folder_ / "scan");
+  std::ofstream(folder_ / "scan" / "mine.txt") << "mine";
+  const Outcome outcome = Run("simulate cat -o scan --sensor ideal --frames 1");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.output, HasSubstr("name another folder"));
+  EXPECT_EQ(Text("scan/mine.txt"), "mine");
 }
 
 TEST_F(Evaluate, SimulatesASkeletonOfTheUsers) {

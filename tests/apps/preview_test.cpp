@@ -1,24 +1,23 @@
 #include "apps/preview.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
-#include <string>
 
-#include "apps/demo_scan.h"
 #include "apps/frame_overlay.h"
 #include "experiments/pictures/picture_style.h"
+#include "experiments/simulation/simulate.h"
+#include "tests/temporary_path.h"
 
 namespace curvefusion {
 namespace {
 
 namespace fs = std::filesystem;
 
-// One upright 200 mm curve where the demo's wires are.
+// One upright 200 mm curve where the simulator puts its objects.
 SkeletonGraph Upright() {
   SkeletonGraph graph;
-  graph.AddPolyline({{0, 0, 0.08}, {0, 0, 0.28}});
+  graph.AddPolyline({{0, 0, -0.1}, {0, 0, 0.1}});
   return graph;
 }
 
@@ -26,15 +25,21 @@ int CountOf(const ColorImage& image, const Rgb& color) {
   return static_cast<int>(std::count(image.data(), image.data() + image.size(), color));
 }
 
+// Five views of the simulator's cube, made once.
 class Preview : public testing::Test {
  protected:
-  void SetUp() override {
-    WriteDemoScan(folder_, {.frame_count = 5, .width = 160, .height = 120}, NoProgress);
-    sequence_ = OpenSequence(folder_);
+  static void SetUpTestSuite() {
+    SimulationOptions options;
+    options.sensor = "ideal";
+    options.pose_source = "true";
+    options.frames = 5;
+    SimulateScan(options, Folder(), NoProgress);
   }
-  void TearDown() override { fs::remove_all(folder_); }
-  const fs::path folder_ =
-      fs::temp_directory_path() / ("curvefusion_preview_test_" + std::to_string(getpid()));
+  static void TearDownTestSuite() { fs::remove_all(Folder()); }
+  static fs::path Folder() { return TemporaryPath("preview_test"); }
+
+  void SetUp() override { sequence_ = OpenSequence(Folder()); }
+
   Sequence sequence_;
 };
 
@@ -52,8 +57,8 @@ TEST_F(Preview, IsTheSameEveryTime) {
 }
 
 TEST_F(Preview, IsWrittenAsAPicture) {
-  WritePreview(folder_ / "preview.png", DrawPreview(Upright(), {}, sequence_, "one curve"));
-  EXPECT_GT(fs::file_size(folder_ / "preview.png"), 1000u);
+  WritePreview(Folder() / "preview.png", DrawPreview(Upright(), {}, sequence_, "one curve"));
+  EXPECT_GT(fs::file_size(Folder() / "preview.png"), 1000u);
 }
 
 TEST_F(Preview, TheChosenFrameSeesTheGraph) {
@@ -67,7 +72,7 @@ TEST_F(Preview, TheFrontViewLooksAlongTheMeanCamera) {
   const Mat3 axes = MeanCameraAxes(sequence_);
   EXPECT_LT((axes * axes.transpose() - Mat3::Identity()).norm(), 1e-12);
   EXPECT_GT(axes.determinant(), 0);
-  EXPECT_GT(axes.row(1).dot(Vec3::UnitZ()), 0.8);   // up: the demo camera looks a little down
+  EXPECT_GT(axes.row(1).dot(Vec3::UnitZ()), 0.8);   // up: the camera looks down by 18 degrees
   EXPECT_LT(axes.row(2).dot(Vec3::UnitY()), -0.8);  // towards the viewer, who stands at -y
 }
 

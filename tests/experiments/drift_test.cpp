@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Geometry>
 #include <numbers>
 
+#include "experiments/metrics/trajectory_metrics.h"
 #include "experiments/simulation/motion.h"
 #include "kernel/error.h"
 
@@ -22,20 +22,6 @@ struct KnownAccuracy {
   double rpe_degree;
 };
 
-double AlignedRms(const std::vector<RigidTransform>& estimate,
-                  const std::vector<RigidTransform>& truth) {
-  Eigen::Matrix3Xd from(3, truth.size());
-  Eigen::Matrix3Xd to(3, truth.size());
-  for (size_t i = 0; i < truth.size(); ++i) {
-    from.col(i) = estimate[i].translation();
-    to.col(i) = truth[i].translation();
-  }
-  const Eigen::Matrix4d T = Eigen::umeyama(from, to, false);
-  const Eigen::Matrix3Xd residual =
-      ((T.topLeftCorner<3, 3>() * from).colwise() + Vec3(T.topRightCorner<3, 1>())) - to;
-  return std::sqrt(residual.colwise().squaredNorm().mean());
-}
-
 class Drift : public testing::TestWithParam<KnownAccuracy> {};
 
 TEST_P(Drift, HasTheKnownAccuracy) {
@@ -47,16 +33,10 @@ TEST_P(Drift, HasTheKnownAccuracy) {
     task.object_bounds.extend(Vec3::Constant(-0.1)).extend(Vec3::Constant(0.1));
     const auto truth = HandheldPath(task, kFrames, {}, seed);
     const auto estimate = DriftedPoses(truth, kRate, PoseErrorOf(GetParam().source), seed);
-    ate += AlignedRms(estimate, truth) / kSeeds;
-    double squares = 0, angle_squares = 0;
-    for (int i = 0; i + kSecond < kFrames; ++i) {
-      const RigidTransform error = (truth[i].inverse() * truth[i + kSecond]).inverse() *
-                                   (estimate[i].inverse() * estimate[i + kSecond]);
-      squares += error.translation().squaredNorm();
-      angle_squares += std::pow(Eigen::AngleAxisd(error.rotation()).angle(), 2);
-    }
-    rpe += std::sqrt(squares / (kFrames - kSecond)) / kSeeds;
-    rpe_angle += std::sqrt(angle_squares / (kFrames - kSecond)) / kSeeds;
+    ate += AbsoluteTrajectoryError(estimate, truth) / kSeeds;
+    const RelativePoseError relative = RelativePoseErrors(estimate, truth, kSecond);
+    rpe += relative.translation / kSeeds;
+    rpe_angle += relative.rotation / kSeeds;
   }
   // 20 %: the published figures depend on the scan's length and motion by that much.
   EXPECT_NEAR(ate * 1e3, GetParam().ate_mm, 0.2 * GetParam().ate_mm);

@@ -14,6 +14,8 @@
 #include "graph/graph_io.h"
 #include "kernel/error.h"
 #include "kernel/parallel.h"
+#include "meshing/surface_mesh.h"
+#include "meshing/tubes.h"
 #include "tests/temporary_path.h"
 
 namespace curvefusion {
@@ -93,6 +95,38 @@ TEST(Evaluate, EmptyResults) {
   EXPECT_EQ(evaluation.aligned.junctions_10mm.matched, 0);
   EXPECT_EQ(Evaluate(truth, nullptr, {}).aligned.curves.within[3].F(), 0.0);
   EXPECT_EQ(Evaluate({}, nullptr, {}).aligned.curves.within[3].F(), std::nullopt);
+}
+
+// A bare mesh gets the surface figures that the same mesh has beside its skeleton.
+TEST(EvaluateMesh, ScoresTheTrueTubes) {
+  const SkeletonGraph truth = TruthSkeleton(MakeObject("deco"));
+  const TriangleMesh tubes = ToTriangleMesh(BuildTubes(truth, {}).surface);
+  const Evaluation evaluation = EvaluateMesh(tubes, truth);
+  EXPECT_FALSE(evaluation.has_curves);
+  EXPECT_EQ(evaluation.raw.surface->within[0].F(), 1.0);
+  EXPECT_EQ(evaluation.aligned.surface->within[0].F(), 1.0);
+  EXPECT_LT(evaluation.true_volume->relative_error, 0.002);
+  // Tubes are meshed to .5 %, and what the sampling errs.
+  EXPECT_NEAR(*evaluation.VolumeRatio(), 1, 0.01);
+}
+
+TEST(EvaluateMesh, AlignsTheMeshItself) {
+  const SkeletonGraph truth = TruthSkeleton(MakeObject("deco"));
+  RigidTransform shift = RigidTransform::Identity();
+  shift.translation() = Vec3(0.002, 0.002, 0.002);
+  const TriangleMesh tubes = Transformed(ToTriangleMesh(BuildTubes(truth, {}).surface), shift);
+  const Evaluation evaluation = EvaluateMesh(tubes, truth);
+  EXPECT_LT(*evaluation.raw.surface->within[0].F(), 0.7);
+  EXPECT_GT(*evaluation.aligned.surface->within[0].F(), 0.99);
+}
+
+TEST(EvaluateMesh, AnOpenMeshHasNoVolume) {
+  const SkeletonGraph truth = TruthSkeleton(MakeObject("deco"));
+  TriangleMesh tubes = ToTriangleMesh(BuildTubes(truth, {}).surface);
+  tubes.triangles.pop_back();
+  EXPECT_EQ(EvaluateMesh(tubes, truth).VolumeRatio(), std::nullopt);
+  EXPECT_EQ(EvaluateMesh({}, truth).VolumeRatio(), std::nullopt);
+  EXPECT_EQ(EvaluateMesh({}, truth).aligned.surface->within[3].recall, 0.0);
 }
 
 TEST_F(EvaluationFiles, TruthReadsAlikeFromSkeletonAndCurves) {

@@ -2,8 +2,8 @@
 
 #include "experiments/simulation/color_image.h"
 #include "experiments/simulation/depth_sensor.h"
+#include "experiments/simulation/sensor_measurements.h"
 #include "kernel/error.h"
-#include "tests/experiments/wire_target.h"
 
 namespace curvefusion {
 namespace {
@@ -23,6 +23,19 @@ TEST(Sensors, KinectV2LosesThinWiresToFlyingPixels) {
   EXPECT_LT(std::abs(wall.bias), 0.001);
   EXPECT_LT(wall.sigma, 0.003);  // published: 1 to 2 mm at 1 m
   EXPECT_GT(wall.valid, 0.99);
+  EXPECT_GT(MeasureRecall(*sensor, {.depth = 1, .diameter = 0.005}).flying, 0.1);
+}
+
+// Published: a standard deviation of at most 17 mm and an error below 11 mm up to 3.5 m (Tolgyessy
+// et al. 2021).
+TEST(Sensors, AzureKinectErrsAsPublished) {
+  const auto sensor = MakeDepthSensor("azure_kinect", 1);
+  for (const double z : {1.0, 3.5}) {
+    const WallNoise wall = MeasureWall(*sensor, z);
+    EXPECT_LT(wall.sigma, 0.017) << z;
+    EXPECT_LT(std::abs(wall.bias), 0.011) << z;
+    EXPECT_GT(wall.valid, 0.99) << z;
+  }
 }
 
 // The paper reconstructs a rack of 8 mm with it, but not a bread holder of 5 mm.

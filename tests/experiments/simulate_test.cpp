@@ -124,19 +124,27 @@ TEST(SimulateScan, IsASequenceTheReaderTakes) {
   }
 }
 
-TEST(SimulateScan, InterruptedScanIsNoSequence) {
+TEST(SimulateScan, InterruptedScanLeavesNothing) {
   const TemporaryFolder folder("curvefusion_simulate_test_interrupted");
   SimulationOptions options;
   options.sensor = "ideal";
   options.frames = 3;
-  SimulateScan(options, folder.path(), NoProgress);
-  ASSERT_TRUE(fs::exists(folder.path() / "associations.txt"));
   const Progress interrupt = [](std::string_view, int64_t done, int64_t) {
     if (done == 2) throw Error(ErrorKind::kInterrupted, "stop");
   };
-  EXPECT_THROW(SimulateScan(options, folder.path(), interrupt), Error);
-  EXPECT_FALSE(fs::exists(folder.path() / "associations.txt"));
-  EXPECT_FALSE(fs::exists(folder.path() / "trajectory.txt"));
+  EXPECT_THROW(SimulateScan(options, folder.path() / "scan", interrupt), Error);
+  EXPECT_TRUE(fs::is_empty(folder.path()));
+}
+
+TEST(SimulateScan, AnEarlierScanIsLeftAlone) {
+  const TemporaryFolder folder("curvefusion_simulate_test_earlier");
+  fs::create_directories(folder.path());
+  std::ofstream(folder.path() / "associations.txt") << "of an earlier scan";
+  SimulationOptions options;
+  options.sensor = "ideal";
+  options.frames = 1;
+  EXPECT_THROW(SimulateScan(options, folder.path(), NoProgress), Error);
+  EXPECT_EQ(Contents(folder.path()).size(), 1u);
 }
 
 TEST(SimulateScan, RefusesWhatCannotBe) {
@@ -147,6 +155,12 @@ TEST(SimulateScan, RefusesWhatCannotBe) {
   options.readout_time = 0.04;
   EXPECT_THROW(SimulateScan(options, "unused", NoProgress), Error);
   options.readout_time = 0;
+  options.motion.standoff = 5;  // a Kinect V1 ends at 4 m
+  EXPECT_THROW(SimulateScan(options, "unused", NoProgress), Error);
+  options.motion.standoff = 0;
+  options.object = "parallel_wires";  // of 5 mm
+  options.object_options.spacing = 0.005;
+  EXPECT_THROW(SimulateScan(options, "unused", NoProgress), Error);
   options.object = "teapot";
   EXPECT_THROW(SimulateScan(options, "unused", NoProgress), Error);
   EXPECT_FALSE(fs::exists("unused"));

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/experiments/wire_target.h"
+#include "experiments/simulation/sensor_measurements.h"
 
 namespace curvefusion {
 namespace {

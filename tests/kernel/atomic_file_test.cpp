@@ -46,5 +46,33 @@ TEST_F(AtomicFile, AMissingFolderIsAnError) {
   EXPECT_THROW(WriteStreamAtomically(folder_ / "no" / "a.txt", [](std::ostream&) {}), Error);
 }
 
+TEST_F(AtomicFile, AFolderAppearsOnlyWhenComplete) {
+  const fs::path path = folder_ / "above" / "scan";
+  WriteFolderAtomically(path / "", [&](const fs::path& temporary) {
+    std::ofstream(temporary / "a.txt") << "whole";
+    EXPECT_FALSE(fs::exists(path));
+  });
+  EXPECT_TRUE(fs::exists(path / "a.txt"));
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "above"), fs::directory_iterator()), 1);
+}
+
+TEST_F(AtomicFile, AFailedFolderLeavesNothing) {
+  const auto fail = [](const fs::path& temporary) {
+    std::ofstream(temporary / "a.txt") << "half";
+    throw Error(ErrorKind::kInterrupted, "");
+  };
+  EXPECT_THROW(WriteFolderAtomically(folder_ / "scan", fail), Error);
+  EXPECT_TRUE(fs::is_empty(folder_));
+}
+
+TEST_F(AtomicFile, AnEmptyFolderIsTakenAndAFullOneRefused) {
+  const auto write = [](const fs::path& temporary) { std::ofstream(temporary / "a.txt") << "1"; };
+  fs::create_directories(folder_ / "scan");
+  WriteFolderAtomically(folder_ / "scan", write);
+  EXPECT_TRUE(fs::exists(folder_ / "scan" / "a.txt"));
+  EXPECT_THROW(WriteFolderAtomically(folder_ / "scan", write), Error);
+  EXPECT_THROW(WriteFolderAtomically(folder_ / "scan" / "a.txt", write), Error);
+}
+
 }  // namespace
 }  // namespace curvefusion

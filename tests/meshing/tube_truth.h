@@ -11,13 +11,6 @@ namespace curvefusion {
 /// What the union of a skeleton's tubes is, found without meshing: a tube is the union of all balls
 /// of the local radius about the points of its edges. Every edge must have radii.
 
-/// The volume in m^3 by Karp-Luby sampling; the relative standard error is returned beside it.
-struct SampledVolume {
-  double volume = 0;
-  double relative_error = 0;
-};
-SampledVolume VolumeOfTubes(const SkeletonGraph& graph, int samples);
-
 /// Euler characteristic and components of the union, from a weighted alpha complex of balls every
 /// tenth of a radius. Nothing where the answer depends on 3 % of the radius: then tubes nearly
 /// touch or a hole is about to close.

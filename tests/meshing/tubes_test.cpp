@@ -12,6 +12,7 @@
 #include "kernel/parallel.h"
 #include "meshing/mesh_io.h"
 #include "meshing/surface_mesh.h"
+#include "meshing/tube_volume.h"
 #include "tests/meshing/hard_networks.h"
 #include "tests/meshing/tube_graphs.h"
 #include "tests/meshing/tube_truth.h"
