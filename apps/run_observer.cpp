@@ -26,7 +26,7 @@ void RunObserver::OnPoints(const std::string& name, const ObservedPoints& points
 }
 
 void RunObserver::OnGraph(const std::string& name, const SkeletonGraph& graph) {
-  if (!outputs_.folder.empty()) WriteSkeletonLines(outputs_.folder / (name + ".ply"), graph);
+  if (!outputs_.folder.empty()) ExportSkeleton(outputs_.folder / (name + ".ply"), graph);
 }
 
 void RunObserver::OnVolume(const TsdfVolume& volume) {

@@ -3,13 +3,14 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "capture/trajectory.h"
 #include "kernel/error.h"
+#include "kernel/json_input.h"
+#include "kernel/text_input.h"
 
 namespace curvefusion {
 
@@ -20,19 +21,13 @@ using nlohmann::json;
 [[noreturn]] void Fail(const std::string& message) { throw Error(ErrorKind::kBadInput, message); }
 
 json ParseJsonObject(const std::filesystem::path& path) {
-  std::ifstream stream(path);
-  if (!stream) {
+  if (!std::filesystem::exists(path)) {
     Fail(
         fmt::format("{}: is missing; it must give the camera's width, height, focal lengths and "
                     "principal point",
                     path.string()));
   }
-  json object;
-  try {
-    object = json::parse(stream);
-  } catch (const json::exception& error) {
-    Fail(fmt::format("{}: is no valid JSON: {}", path.string(), error.what()));
-  }
+  json object = ParseJson(ReadFile(path), path.string());
   if (!object.is_object()) Fail(fmt::format("{}: must be a JSON object", path.string()));
   return object;
 }
@@ -44,6 +39,17 @@ double Number(const json& object, const char* key, const std::string& where) {
     Fail(fmt::format("{}: '{}' is {}, a number is needed", where, key, value->dump()));
   }
   return value->get<double>();
+}
+
+// The size of an image; RequirePlausible refuses what is not positive.
+int Pixels(const json& object, const char* key, const std::string& where) {
+  constexpr double kMaxPixels = 65536;
+  const double value = Number(object, key, where);
+  if (!(std::abs(value) <= kMaxPixels)) {
+    Fail(fmt::format("{}: '{}' is {}; an image has at most {} pixels a side", where, key, value,
+                     kMaxPixels));
+  }
+  return static_cast<int>(value);
 }
 
 void RequirePlausible(const PinholeCamera& camera, const std::string& where) {
@@ -65,8 +71,8 @@ void RequirePlausible(const PinholeCamera& camera, const std::string& where) {
 
 PinholeCamera ParseCamera(const json& object, const std::string& where) {
   PinholeCamera camera;
-  camera.width = static_cast<int>(Number(object, "width", where));
-  camera.height = static_cast<int>(Number(object, "height", where));
+  camera.width = Pixels(object, "width", where);
+  camera.height = Pixels(object, "height", where);
   camera.fx = Number(object, "fx", where);
   camera.fy = Number(object, "fy", where);
   camera.cx = Number(object, "cx", where);
@@ -138,12 +144,8 @@ Intrinsics ParseRedwoodIntrinsics(const std::filesystem::path& path) {
                     where));
   }
   Intrinsics intrinsics;
-  intrinsics.depth_camera = {static_cast<int>(Number(object, "width", where)),
-                             static_cast<int>(Number(object, "height", where)),
-                             m[0],
-                             m[4],
-                             m[6],
-                             m[7]};
+  intrinsics.depth_camera = {
+      Pixels(object, "width", where), Pixels(object, "height", where), m[0], m[4], m[6], m[7]};
   RequirePlausible(intrinsics.depth_camera, where);
   intrinsics.color_camera = intrinsics.depth_camera;
   intrinsics.depth_scale = ParseDepthScale(object, where);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,8 +15,5 @@ struct TextLine {
 /// All lines of a file with at least one field; what follows a '#' is left out. Throws
 /// Error(kBadInput) where the file cannot be read.
 std::vector<TextLine> ReadTextLines(const std::filesystem::path& path);
-
-/// The number a field spells (also "nan" and "inf", whatever the locale), or nothing.
-std::optional<double> ParseNumber(const std::string& field);
 
 }  // namespace curvefusion

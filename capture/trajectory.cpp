@@ -10,6 +10,7 @@
 
 #include "capture/stamps.h"
 #include "capture/text_lines.h"
+#include "kernel/text_input.h"
 
 namespace curvefusion {
 
@@ -115,8 +116,10 @@ std::optional<RigidTransform> RigidFromMatrix(const Eigen::Matrix4d& matrix,
     return std::nullopt;
   }
   const Mat3 rotation = matrix.topLeftCorner<3, 3>();
-  const double defect = (rotation.transpose() * rotation - Mat3::Identity()).cwiseAbs().maxCoeff();
-  if (defect > kMaxRotationDefect || rotation.determinant() < 0 ||
+  const double defect = (rotation.transpose() * rotation - Mat3::Identity())
+                            .cwiseAbs()
+                            .maxCoeff<Eigen::PropagateNaN>();  // of entries that overflow
+  if (!(defect <= kMaxRotationDefect) || rotation.determinant() < 0 ||
       !matrix.row(3).isApprox(Eigen::RowVector4d(0, 0, 0, 1), kMaxRotationDefect)) {
     ReportError(on_finding,
                 fmt::format("{}: the pose is not rigid: |R'R - I| = {:.3g} (limit {}), det R = "

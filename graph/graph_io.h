@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "graph/skeleton_graph.h"
-#include "kernel/image.h"
 
 namespace curvefusion {
 
@@ -19,18 +18,31 @@ std::string SkeletonToJson(const SkeletonGraph& graph);
 /// gives every point that radius. `source` names the input in errors. Throws Error(kBadInput) with
 /// place and reason for anything that is not such a file: syntax, missing keys, another format or
 /// version, numbers that are not finite, counts that do not match, edges of nodes that do not
-/// exist, ends that differ from their nodes, repeated points, radii that are not positive.
+/// exist, ends that differ from their nodes, repeated points, radii that are not positive. Names
+/// every defective node, or else every defective edge, up to 1000.
 SkeletonGraph SkeletonFromJson(const std::string& text, const std::string& source);
 
 /// SkeletonToJson into a file, atomically.
 void WriteSkeleton(const std::filesystem::path& path, const SkeletonGraph& graph);
 
-/// SkeletonFromJson of a file. Throws Error(kBadInput) also where it cannot be read.
-SkeletonGraph ReadSkeleton(const std::filesystem::path& path);
+/// Writes a graph in the format that the extension of `path` names, atomically:
+/// - .json    skeleton.json, metres; bit for bit
+/// - .graphml GraphML of Boost, NetworkX, Gephi, yEd: metres; bit for bit
+/// - .swc     SWC of neuron morphology: micrometres; a forest, so cycles are cut
+/// - .ply     vertices and edges in ASCII, metres, with radii
+/// - .obj     Wavefront vertices and lines, metres
+/// - .dxf     3D polylines, millimetres
+/// Returns a sentence for everything of this graph that the format does not carry; one for each
+/// cycle that is cut. Throws Error: kUsage for another extension, kBadInput for values that are not
+/// finite, kResource where the file cannot be written.
+std::vector<std::string> ExportSkeleton(const std::filesystem::path& path,
+                                        const SkeletonGraph& graph);
 
-/// The polylines as an ASCII PLY of vertices and edges, to look at in a mesh viewer. `edge_colors`
-/// is empty or holds one colour per edge, in the order of graph.Edges().
-void WriteSkeletonLines(const std::filesystem::path& path, const SkeletonGraph& graph,
-                        const std::vector<Rgb>& edge_colors = {});
+/// Reads a graph from any of these formats but DXF, by extension; a file without one is taken as
+/// skeleton.json. From formats without nodes (SWC, PLY, OBJ) nodes are the points where other than
+/// two segments meet, and one of every closed curve. Throws Error: kUsage for another extension,
+/// kBadInput with place and reason for a file that cannot be read, has more than kMaxTextBytes, or
+/// is not a graph.
+SkeletonGraph ReadSkeleton(const std::filesystem::path& path);
 
 }  // namespace curvefusion

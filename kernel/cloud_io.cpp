@@ -6,18 +6,16 @@
 #include <array>
 #include <bit>
 #include <cassert>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <string>
 #include <string_view>
 
 #include "kernel/atomic_file.h"
 #include "kernel/error.h"
+#include "kernel/text_input.h"
 
 namespace curvefusion {
 
@@ -27,6 +25,7 @@ namespace {
 constexpr std::array<const char*, 7> kFields = {"x", "y", "z", "ray_x", "ray_y", "ray_z", "count"};
 constexpr size_t kCountField = 6;
 using Vertex = std::array<double, kFields.size()>;
+constexpr std::uintmax_t kMaxCloudBytes = std::uintmax_t{4} << 30;
 constexpr Vertex kAbsentFields = {0, 0, 0, 0, 0, 0, 1};
 
 enum class ScalarType { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat, kDouble };
@@ -47,54 +46,6 @@ struct PlyHeader {
 
 [[noreturn]] void Reject(const std::filesystem::path& path, const std::string& what) {
   throw Error(ErrorKind::kBadInput, fmt::format("{}: {}", path.string(), what));
-}
-
-std::string ReadWholeFile(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) Reject(path, "cannot be opened; is the name right and the file readable?");
-  std::string content((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
-  if (stream.bad()) Reject(path, "cannot be read");
-  if (content.empty()) Reject(path, "the file is empty; a PLY or XYZ point cloud is expected");
-  return content;
-}
-
-// Hands out a text line by line and counts the lines.
-class Lines {
- public:
-  explicit Lines(std::string_view text) : rest_(text) {}
-
-  bool Next(std::string_view& line) {
-    if (rest_.empty()) return false;
-    const size_t end = rest_.find('\n');
-    line = rest_.substr(0, end);
-    rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
-    if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
-    ++number_;
-    return true;
-  }
-
-  size_t number() const { return number_; }
-  std::string_view rest() const { return rest_; }
-
- private:
-  std::string_view rest_;
-  size_t number_ = 0;
-};
-
-// The next word of a line, which is cut from its front; empty at the end.
-std::string_view NextWord(std::string_view& line) {
-  constexpr std::string_view kBlank = " \t,";
-  line.remove_prefix(std::min(line.find_first_not_of(kBlank), line.size()));
-  const std::string_view word = line.substr(0, line.find_first_of(kBlank));
-  line.remove_prefix(word.size());
-  return word;
-}
-
-std::optional<double> ParseNumber(std::string_view word) {
-  double value = 0;
-  const auto [end, failure] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (failure != std::errc() || end != word.data() + word.size()) return std::nullopt;
-  return value;
 }
 
 // Where something stands in a file, for messages: "line 12", "vertex 3".
@@ -123,7 +74,7 @@ void AddVertex(const std::filesystem::path& path, const Place& place, const Vert
 
 ObservedPoints ReadXyz(const std::filesystem::path& path, std::string_view content) {
   ObservedPoints points;
-  Lines lines(content);
+  LineScanner lines(content);
   std::string_view line;
   while (lines.Next(line)) {
     line = line.substr(0, line.find('#'));
@@ -183,12 +134,10 @@ Property ParseProperty(const std::filesystem::path& path, size_t line_number,
 
 size_t ParseVertexCount(const std::filesystem::path& path, size_t line_number,
                         std::string_view word) {
-  size_t count = 0;
-  const auto [end, failure] = std::from_chars(word.data(), word.data() + word.size(), count);
-  if (failure != std::errc() || end != word.data() + word.size()) {
+  const std::optional<int64_t> count = ParseInteger(word);
+  if (!count || *count < 0)
     Reject(path, fmt::format("line {}: '{}' is not a number of vertices", line_number, word));
-  }
-  return count;
+  return static_cast<size_t>(*count);
 }
 
 void RequirePosition(const std::filesystem::path& path, const PlyHeader& header) {
@@ -203,7 +152,7 @@ void RequirePosition(const std::filesystem::path& path, const PlyHeader& header)
 }
 
 // Leaves `lines` at the first byte of the body.
-PlyHeader ReadPlyHeader(const std::filesystem::path& path, Lines& lines) {
+PlyHeader ReadPlyHeader(const std::filesystem::path& path, LineScanner& lines) {
   PlyHeader header;
   std::string_view line, element;
   while (lines.Next(line)) {
@@ -229,8 +178,8 @@ PlyHeader ReadPlyHeader(const std::filesystem::path& path, Lines& lines) {
   Reject(path, "the PLY header has no end_header; is the file truncated?");
 }
 
-void ReadAsciiVertices(const std::filesystem::path& path, const PlyHeader& header, Lines& lines,
-                       ObservedPoints& points) {
+void ReadAsciiVertices(const std::filesystem::path& path, const PlyHeader& header,
+                       LineScanner& lines, ObservedPoints& points) {
   std::string_view line;
   for (size_t i = 0; i < header.vertex_count; ++i) {
     if (!lines.Next(line)) {
@@ -302,7 +251,7 @@ void ReadBinaryVertices(const std::filesystem::path& path, const PlyHeader& head
 }
 
 ObservedPoints ReadPly(const std::filesystem::path& path, std::string_view content) {
-  Lines lines(content);
+  LineScanner lines(content);
   const PlyHeader header = ReadPlyHeader(path, lines);
   ObservedPoints points;
   if (header.encoding == Encoding::kAscii) {
@@ -316,7 +265,8 @@ ObservedPoints ReadPly(const std::filesystem::path& path, std::string_view conte
 }  // namespace
 
 ObservedPoints ReadCloud(const std::filesystem::path& path) {
-  const std::string content = ReadWholeFile(path);
+  const std::string content = ReadFile(path, kMaxCloudBytes);
+  if (content.empty()) Reject(path, "the file is empty; a PLY or XYZ point cloud is expected");
   const bool is_ply = content.starts_with("ply\n") || content.starts_with("ply\r\n");
   return is_ply ? ReadPly(path, content) : ReadXyz(path, content);
 }

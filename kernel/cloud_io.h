@@ -13,7 +13,7 @@ namespace curvefusion {
 ///   not viewing rays.
 /// - XYZ text: `x y z` or `x y z nx ny nz` on every line, normals ignored, '#' starts a comment.
 /// Throws Error(kBadInput) that names file, line or vertex, and value: for a missing, empty or
-/// truncated file, a number that cannot be read or is not finite, and a count that is not positive.
+/// truncated file or one of more than 4 GiB, a number that cannot be read or is not finite, and a count that is not positive.
 /// A file that declares zero vertices is an empty cloud.
 ObservedPoints ReadCloud(const std::filesystem::path& path);
 

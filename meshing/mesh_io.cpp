@@ -46,9 +46,8 @@ TriangleMesh InUnit(const TriangleMesh& mesh, MeshUnit unit) {
 void RequireFinite(const std::filesystem::path& path, const TriangleMesh& mesh) {
   for (size_t v = 0; v < mesh.vertices.size(); ++v) {
     if (mesh.vertices[v].allFinite()) continue;
-    throw Error(
-        ErrorKind::kBadInput,
-        fmt::format("{}: vertex {} of the mesh is not finite; not written", path.string(), v));
+    throw Error(ErrorKind::kBadInput,
+                fmt::format("{}: vertex {} of the mesh is not finite", path.string(), v));
   }
 }
 
@@ -99,6 +98,7 @@ TriangleMesh ReadMesh(const std::filesystem::path& path) {
     throw Error(ErrorKind::kBadInput, fmt::format("{}: cannot be opened", path.string()));
   }
   TriangleMesh mesh = format.read(stream, path.string());
+  RequireFinite(path, mesh);
   const int n = static_cast<int>(mesh.vertices.size());
   for (size_t f = 0; f < mesh.triangles.size(); ++f) {
     for (const int v : mesh.triangles[f]) {

@@ -25,7 +25,7 @@ void WriteMesh(const std::filesystem::path& path, const TriangleMesh& mesh,
 
 /// Reads a triangle mesh from PLY, OBJ or binary STL, in the unit of the file. Throws Error:
 /// kUsage for another extension, kBadInput for a file that is missing, damaged, has indices out of
-/// range, or is not of triangles.
+/// range or coordinates that are not finite, or is not of triangles.
 TriangleMesh ReadMesh(const std::filesystem::path& path);
 
 }  // namespace curvefusion

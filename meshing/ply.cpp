@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <map>
@@ -145,11 +144,21 @@ double ReadScalar(std::istream& stream, bool ascii, Scalar type) {
   return 0;
 }
 
-void ReadVertex(std::istream& stream, bool ascii, const Element& element, TriangleMesh& mesh) {
+// How many values a property has here; lists begin with their number.
+int64_t ValueCount(std::istream& stream, bool ascii, const Property& property,
+                   const std::string& name) {
+  if (!property.is_list) return 1;
+  const double count = ReadScalar(stream, ascii, property.count_type);
+  if (stream && !(count >= 0 && count <= INT32_MAX))
+    ThrowBadPly(name, fmt::format("the list {} has {} values", property.name, count));
+  return stream ? static_cast<int64_t>(count) : 0;
+}
+
+void ReadVertex(std::istream& stream, bool ascii, const Element& element, const std::string& name,
+                TriangleMesh& mesh) {
   Vec3f position = Vec3f::Zero();
   for (const Property& property : element.properties) {
-    const int64_t count =
-        property.is_list ? std::llround(ReadScalar(stream, ascii, property.count_type)) : 1;
+    const int64_t count = ValueCount(stream, ascii, property, name);
     for (int64_t k = 0; k < count && stream; ++k) {
       const double value = ReadScalar(stream, ascii, property.type);
       if (property.name.size() == 1 && property.name[0] >= 'x' && property.name[0] <= 'z') {
@@ -163,8 +172,7 @@ void ReadVertex(std::istream& stream, bool ascii, const Element& element, Triang
 void ReadFace(std::istream& stream, bool ascii, const Element& element, const std::string& name,
               TriangleMesh& mesh) {
   for (const Property& property : element.properties) {
-    const int64_t count =
-        property.is_list ? std::llround(ReadScalar(stream, ascii, property.count_type)) : 1;
+    const int64_t count = ValueCount(stream, ascii, property, name);
     const bool corners = property.name == "vertex_indices" || property.name == "vertex_index";
     if (corners && count != 3 && stream) {
       ThrowBadPly(name, fmt::format("face {} has {} corners; only triangles are read",
@@ -173,16 +181,21 @@ void ReadFace(std::istream& stream, bool ascii, const Element& element, const st
     std::array<int, 3> triangle{};
     for (int64_t k = 0; k < count && stream; ++k) {
       const double value = ReadScalar(stream, ascii, property.type);
-      if (corners) triangle[static_cast<size_t>(k)] = static_cast<int>(value);
+      if (!corners || !stream) continue;
+      if (!(value >= 0 && value <= INT32_MAX)) {
+        ThrowBadPly(name, fmt::format("face {} has the corner {}", mesh.triangles.size(), value));
+      }
+      triangle[static_cast<size_t>(k)] = static_cast<int>(value);
     }
     if (corners) mesh.triangles.push_back(triangle);
   }
 }
 
 // An element of no interest: read and dropped.
-void SkipElement(std::istream& stream, bool ascii, const Element& element) {
+void SkipElement(std::istream& stream, bool ascii, const Element& element,
+                 const std::string& name) {
   TriangleMesh unused;
-  ReadVertex(stream, ascii, element, unused);
+  ReadVertex(stream, ascii, element, name, unused);
 }
 
 }  // namespace
@@ -207,13 +220,16 @@ TriangleMesh ReadPly(std::istream& stream, const std::string& name) {
   const PlyHeader header = ReadHeader(stream, name);
   TriangleMesh mesh;
   for (const Element& element : header.elements) {
+    // Nothing to read would never end the file before the count.
+    if (element.properties.empty() && element.count > 0)
+      ThrowBadPly(name, fmt::format("the element {} has no properties", element.name));
     for (int64_t i = 0; i < element.count; ++i) {
       if (element.name == "vertex") {
-        ReadVertex(stream, header.ascii, element, mesh);
+        ReadVertex(stream, header.ascii, element, name, mesh);
       } else if (element.name == "face") {
         ReadFace(stream, header.ascii, element, name, mesh);
       } else {
-        SkipElement(stream, header.ascii, element);
+        SkipElement(stream, header.ascii, element, name);
       }
       if (!stream) {
         ThrowBadPly(name, fmt::format("ends in {} {} of {}", element.name, i, element.count));

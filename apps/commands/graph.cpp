@@ -3,19 +3,33 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "apps/commands/command.h"
 #include "apps/graph_figures.h"
+#include "apps/output_folder.h"
 #include "graph/graph_io.h"
+#include "graph/intersections.h"
+#include "graph/smoothing.h"
+#include "graph/validate.h"
+#include "kernel/error.h"
+#include "kernel/parallel.h"
 
 namespace curvefusion {
 
 namespace {
 
 struct GraphArguments {
-  std::filesystem::path skeleton;
+  std::filesystem::path graph;
   bool info = false;
-  std::filesystem::path lines;
+  bool validate = false;
+  double proximity_mm = 1;
+  double resolve_mm = 0;  // 0 = do not
+  double smooth = 0;      // lambda; 0 = do not
+  std::filesystem::path output;
+  std::filesystem::path convert;
+  RunOptions run;
 };
 
 void PrintInfo(const SkeletonGraph& graph) {
@@ -35,24 +49,102 @@ void PrintInfo(const SkeletonGraph& graph) {
   }
 }
 
+// Prints everything that is wrong. Returns whether nothing is.
+bool PrintViolations(const SkeletonGraph& graph, const GraphArguments& arguments) {
+  const std::vector<std::string> violations =
+      Violations(graph, arguments.proximity_mm * kMillimetre);
+  for (const std::string& violation : violations) fmt::print("{}\n", violation);
+  if (violations.empty()) {
+    if (!arguments.run.quiet)
+      fmt::print("{} is valid (curves at least {} mm apart)\n", arguments.graph.string(),
+                 arguments.proximity_mm);
+    return true;
+  }
+  fmt::print(stderr, "curvefusion: {}: {} violations\n", arguments.graph.string(),
+             violations.size());
+  return false;
+}
+
+void Export(const std::filesystem::path& path, const SkeletonGraph& graph, bool quiet) {
+  MakeFolderOf(path);
+  const std::vector<std::string> losses = ExportSkeleton(path, graph);
+  if (quiet) return;
+  fmt::print("Wrote {}\n", path.string());
+  for (const std::string& loss : losses) fmt::print("  not kept: {}\n", loss);
+}
+
+void CheckUsage(const GraphArguments& arguments) {
+  const bool changes = arguments.resolve_mm > 0 || arguments.smooth > 0;
+  if (changes && arguments.output.empty())
+    throw Error(ErrorKind::kUsage, "--resolve and --smooth need -o: where to write the result");
+  if (!changes && !arguments.output.empty())
+    throw Error(
+        ErrorKind::kUsage,
+        "-o takes the result of --resolve or --smooth; --convert writes the graph as it is");
+}
+
 int RunGraph(const GraphArguments& arguments) {
-  const SkeletonGraph graph = ReadSkeleton(arguments.skeleton);
-  if (!arguments.lines.empty()) WriteSkeletonLines(arguments.lines, graph);
-  if (arguments.info || arguments.lines.empty()) PrintInfo(graph);
-  return 0;
+  CheckUsage(arguments);
+  const ThreadLimit limit(arguments.run.threads);
+  SkeletonGraph graph = ReadSkeleton(arguments.graph);
+  const bool valid = !arguments.validate || PrintViolations(graph, arguments);
+  if (!arguments.convert.empty()) Export(arguments.convert, graph, arguments.run.quiet);
+  if (arguments.resolve_mm > 0) ResolveIntersections(graph, arguments.resolve_mm * kMillimetre);
+  if (arguments.smooth > 0) {
+    SmoothingOptions options;
+    options.lambda = arguments.smooth;
+    graph = SmoothGraph(graph, options);
+  }
+  if (!arguments.output.empty()) Export(arguments.output, graph, arguments.run.quiet);
+  const bool only_info =
+      !arguments.validate && arguments.convert.empty() && arguments.output.empty();
+  if (arguments.info || only_info) PrintInfo(graph);
+  return valid ? 0 : ExitCode(ErrorKind::kBadInput);
 }
 
 }  // namespace
 
 void AddGraphCommand(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand("graph", "Look into a skeleton.json or export its lines");
+  CLI::App* command = app.add_subcommand(
+      "graph", "Look into a skeleton graph, validate, mend, smooth or convert it");
   const auto arguments = std::make_shared<GraphArguments>();
-  command->add_option("SKELETON", arguments->skeleton, "A skeleton.json")->required();
-  command->add_flag("--info", arguments->info, "Print its figures (what happens without options)");
-  command->add_option("--lines", arguments->lines, "Write its curves as a PLY file of lines");
+  command
+      ->add_option("FILE", arguments->graph,
+                   "A .json, .graphml, .ply or .obj file (in metres) or .swc (in micrometres)")
+      ->required();
+  command->add_flag("--info", arguments->info,
+                    "Print figures in mm, of the result where the graph is changed (what happens "
+                    "without options)");
+  command->add_flag("--validate", arguments->validate,
+                    "Print everything that is wrong with the file and where; exit code 3 if "
+                    "anything is");
+  command
+      ->add_option("--proximity", arguments->proximity_mm,
+                   "With --validate: how near in mm curves may come without meeting (1)")
+      ->check(CLI::PositiveNumber)
+      ->needs("--validate");
+  command
+      ->add_option("--resolve", arguments->resolve_mm,
+                   "Make junctions where curves cross or come within this distance in mm, and "
+                   "merge what runs side by side")
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--smooth", arguments->smooth,
+                   "Resample to 1 mm and smooth, after --resolve; the value weighs smoothness "
+                   "against the data (lambda, without unit; 60 in the paper)")
+      ->check(CLI::PositiveNumber);
+  command->add_option("-o,--output", arguments->output,
+                      "Where --resolve and --smooth write; formats as for --convert");
+  command->add_option("--convert", arguments->convert,
+                      "Write the graph as it was read, by extension: .json, .graphml, .ply or .obj "
+                      "lines (metres), .swc (micrometres), .dxf polylines (mm); prints what the "
+                      "format does not keep");
+  AddRunOptions(*command, arguments->run);
   command->footer(
       "Example:\n  curvefusion graph result/skeleton.json --info\n"
-      "  curvefusion graph result/skeleton.json --lines curves.ply");
+      "  curvefusion graph result/skeleton.json --validate --proximity 3\n"
+      "  curvefusion graph result/skeleton.json --resolve 3 --smooth 60 -o mended.json\n"
+      "  curvefusion graph result/skeleton.json --convert wires.dxf");
   command->callback([arguments, &exit_code] { exit_code = RunGraph(*arguments); });
 }
 

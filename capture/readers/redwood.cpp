@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <limits>
 #include <map>
 
 #include "capture/readers/frame_assembly.h"
@@ -7,6 +8,7 @@
 #include "capture/text_lines.h"
 #include "capture/trajectory.h"
 #include "kernel/error.h"
+#include "kernel/text_input.h"
 
 namespace curvefusion {
 
@@ -35,7 +37,12 @@ std::map<int, RigidTransform> ReadTrajectoryLog(const std::filesystem::path& pat
   }
   std::map<int, RigidTransform> poses;
   for (size_t i = 0; i < lines.size(); i += 5) {
-    const int frame = static_cast<int>(NumberAt(lines[i], 0, path));
+    const double number = NumberAt(lines[i], 0, path);
+    if (!(number >= 0 && number <= std::numeric_limits<int>::max())) {
+      throw Error(ErrorKind::kBadInput, fmt::format("{}:{}: {} is no frame number", path.string(),
+                                                    lines[i].number, number));
+    }
+    const int frame = static_cast<int>(number);
     Eigen::Matrix4d matrix;
     for (int row = 0; row < 4; ++row) {
       for (int column = 0; column < 4; ++column) {

@@ -12,6 +12,7 @@
 #include "capture/text_lines.h"
 #include "capture/trajectory.h"
 #include "kernel/error.h"
+#include "kernel/text_input.h"
 
 namespace curvefusion {
 

@@ -1,18 +1,20 @@
 #include "experiments/metrics/truth.h"
 
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "experiments/simulation/object_truth.h"
 #include "graph/graph_io.h"
 #include "kernel/error.h"
+#include "kernel/json_input.h"
+#include "kernel/text_input.h"
 
 namespace curvefusion {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr double kMaxLength = 1000;  // metres; curves are sampled every millimetre
 
 fs::path TruthFile(const fs::path& path) {
   if (!fs::is_directory(path)) return path;
@@ -22,12 +24,6 @@ fs::path TruthFile(const fs::path& path) {
   throw Error(ErrorKind::kBadInput,
               path.string() + ": holds neither skeleton.json nor curves.json; give the truth/ " +
                   "folder of a simulated scan");
-}
-
-std::string ReadText(const fs::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) throw Error(ErrorKind::kBadInput, path.string() + ": cannot be read");
-  return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 // Throws nlohmann's exceptions for what is not there or of another type.
@@ -48,17 +44,25 @@ WireCurve CurveOf(const nlohmann::json& json) {
 SkeletonGraph TruthFromCurves(const std::string& text, const std::string& source) {
   WireObject object{source, {}};
   try {
-    for (const nlohmann::json& json : nlohmann::json::parse(text)) {
+    for (const nlohmann::json& json : ParseJson(text, source)) {
       object.curves.push_back(CurveOf(json));
     }
   } catch (const nlohmann::json::exception& error) {
     throw Error(ErrorKind::kBadInput, source + ": is no list of curves: " + error.what());
   }
+  double total_length = 0;
   for (size_t i = 0; i < object.curves.size(); ++i) {
     const WireCurve& curve = object.curves[i];
-    if (curve.diameter > 0 && Length(curve.points) > 0) continue;
-    throw Error(ErrorKind::kBadInput,
-                source + ": curve " + std::to_string(i) + " has no length or no diameter");
+    const double length = Length(curve.points);
+    total_length += length;
+    if (!(curve.diameter > 0 && length > 0)) {
+      throw Error(ErrorKind::kBadInput,
+                  source + ": curve " + std::to_string(i) + " has no length or no diameter");
+    }
+    if (!(total_length <= kMaxLength)) {
+      throw Error(ErrorKind::kBadInput, source + ": has more than 1000 m of curve by curve " +
+                                            std::to_string(i) + "; coordinates must be in metres");
+    }
   }
   return TruthSkeleton(object);
 }
@@ -67,7 +71,7 @@ SkeletonGraph TruthFromCurves(const std::string& text, const std::string& source
 
 SkeletonGraph ReadTruth(const fs::path& path) {
   const fs::path file = TruthFile(path);
-  const std::string text = ReadText(file);
+  const std::string text = ReadFile(file);
   const size_t first = text.find_first_not_of(" \t\r\n");
   if (first != std::string::npos && text[first] == '[') {
     return TruthFromCurves(text, file.string());

@@ -1,71 +1,19 @@
 // Runs the program as a user does and looks at exit codes and files.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
 
+#include "tests/apps/command_line_fixture.h"
+
+namespace curvefusion {
 namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
-
-struct Outcome {
-  int exit_code = 0;
-  std::string output;  // both streams
-};
-
-class CommandLine : public testing::Test {
- protected:
-  void SetUp() override { fs::create_directories(folder_); }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  // Runs `curvefusion ARGUMENTS` inside folder_.
-  Outcome Run(const std::string& arguments) const {
-    return RunShell("'" CURVEFUSION_PROGRAM "' " + arguments + " >output.txt 2>&1");
-  }
-
-  // The same, with SIGINT sent as soon as the folder `awaited` is there (or after 20 s).
-  Outcome RunAndInterrupt(const std::string& arguments, const std::string& awaited) const {
-    return RunShell("'" CURVEFUSION_PROGRAM "' " + arguments +
-                    " >output.txt 2>&1 & i=0; while [ ! -d " + awaited +
-                    " ] && [ $i -lt 2000 ]; do i=$((i+1)); sleep 0.01; done; "
-                    "kill -INT $!; wait $!");
-  }
-
-  Outcome RunShell(const std::string& command) const {
-    const int status = std::system(("cd '" + folder_.string() + "' || exit; " + command).c_str());
-    std::stringstream output;
-    output << std::ifstream(folder_ / "output.txt").rdbuf();
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, output.str()};
-  }
-
-  // A scan of the wire cube without noise into the folder `scan`.
-  Outcome SimulateCube(int frames) const {
-    return Run("simulate cubeframe -o scan --sensor ideal --poses true --frame-rate 10 --quiet " +
-               ("--frames " + std::to_string(frames)));
-  }
-
-  // Files below a folder whose name ends so.
-  int CountFiles(const std::string& folder, const std::string& name_part) const {
-    int count = 0;
-    if (!fs::exists(folder_ / folder)) return 0;
-    for (const auto& entry : fs::recursive_directory_iterator(folder_ / folder)) {
-      count += entry.path().filename().string().find(name_part) != std::string::npos ? 1 : 0;
-    }
-    return count;
-  }
-
-  const fs::path folder_ =
-      fs::temp_directory_path() / (std::string("curvefusion_command_line_") +
-                                   testing::UnitTest::GetInstance()->current_test_info()->name() +
-                                   "_" + std::to_string(getpid()));
-};
 
 TEST_F(CommandLine, HelpAndVersionAreDone) {
   EXPECT_EQ(Run("--help").exit_code, 0);
@@ -154,3 +102,4 @@ TEST_F(CommandLine, TheConfigItPrintsIsTheConfigItReads) {
 TEST_F(CommandLine, QuietPrintsNothing) { EXPECT_EQ(SimulateCube(1).output, ""); }
 
 }  // namespace
+}  // namespace curvefusion

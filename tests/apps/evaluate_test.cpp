@@ -1,49 +1,22 @@
 // Runs `curvefusion evaluate` and `curvefusion simulate` as a user does.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
 
-#include "tests/temporary_path.h"
+#include "tests/apps/command_line_fixture.h"
 
+namespace curvefusion {
 namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-struct Outcome {
-  int exit_code = 0;
-  std::string output;  // both streams
-};
-
-class Evaluate : public testing::Test {
- protected:
-  void SetUp() override { fs::create_directories(folder_); }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  std::string Text(const std::string& name) const {
-    std::stringstream text;
-    text << std::ifstream(folder_ / name).rdbuf();
-    return text.str();
-  }
-
-  Outcome Run(const std::string& arguments) const {
-    const std::string command = "cd '" + folder_.string() + "' && '" CURVEFUSION_PROGRAM "' " +
-                                arguments + " >output.txt 2>&1";
-    const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, Text("output.txt")};
-  }
-
-  const fs::path folder_ = curvefusion::TemporaryPath(
-      std::string("evaluate_") + testing::UnitTest::GetInstance()->current_test_info()->name());
-};
+class Evaluate : public CommandLine {};
 
 TEST_F(Evaluate, ASimulatedTruthIsPerfect) {
   ASSERT_EQ(Run("simulate cat -o scan --sensor ideal --frames 1 --quiet").exit_code, 0);
@@ -140,3 +113,4 @@ TEST_F(Evaluate, SimulatesASkeletonOfTheUsers) {
 }
 
 }  // namespace
+}  // namespace curvefusion

@@ -59,10 +59,11 @@ TEST_F(IntrinsicsTest, ATransformMayBeFlat) {
 }
 
 TEST_F(IntrinsicsTest, DefectsAreNamed) {
-  EXPECT_THAT(Defect("{"), HasSubstr("no valid JSON"));
+  EXPECT_THAT(Defect("{"), HasSubstr("not valid JSON"));
   EXPECT_THAT(Defect("[]"), HasSubstr("must be a JSON object"));
   EXPECT_THAT(Defect(R"({"width":64,"height":48,"fx":36})"), HasSubstr("'fy' is missing"));
   EXPECT_THAT(Defect(R"({"width":"x"})"), HasSubstr("'width' is \"x\", a number is needed"));
+  EXPECT_THAT(Defect(R"({"width":1e300})"), HasSubstr("at most 65536 pixels a side"));
   EXPECT_THAT(Defect(R"({"width":64,"height":48,"fx":-36,"fy":36,"cx":31,"cy":21})"),
               HasSubstr("fx = -36"));
   EXPECT_THAT(Defect(R"({"width":64,"height":48,"fx":36,"fy":36,"cx":319.5,"cy":21})"),

@@ -117,6 +117,8 @@ TEST_F(SequenceTest, Redwood) {
   EXPECT_EQ(sequence.frames[1].name, "000002");
   EXPECT_EQ(sequence.frames[1].T_world_camera.translation(), Vec3(5, 6, 7));
   EXPECT_EQ(sequence.depth_camera.fy, 31);
+  WriteText(folder() / "trajectory.log", "nan 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
+  EXPECT_THAT(OpenError(folder()), HasSubstr("trajectory.log:1: nan is no frame number"));
 }
 
 TEST_F(SequenceTest, SevenScenes) {

@@ -107,6 +107,10 @@ TEST(RigidFromMatrixTest, ScaledMirroredAndNanMatricesAreReported) {
   EXPECT_FALSE(RigidFromMatrix(scaled, "a", collect));
   EXPECT_FALSE(RigidFromMatrix(mirrored, "b", collect));
   EXPECT_FALSE(RigidFromMatrix(broken, "c", collect));
+  // Products overflow to infinity, and their differences to NaN.
+  Eigen::Matrix4d huge = Eigen::Matrix4d::Identity();
+  huge.topLeftCorner<2, 2>() << 1e200, 1e200, 1e200, -1e200;
+  EXPECT_FALSE(RigidFromMatrix(huge, "d", [](const CheckFinding&) {}));
   EXPECT_THAT(messages, ElementsAre(HasSubstr("a: the pose is not rigid: |R'R - I| = 0.002"),
                                     HasSubstr("det R = -1"), HasSubstr("c: the pose holds NaN")));
 }

@@ -11,6 +11,7 @@
 
 #include "kernel/error.h"
 #include "tests/graph/graph_fixtures.h"
+#include "tests/graph/random_graph.h"
 #include "tests/temporary_path.h"
 #include "tests/test_data.h"
 
@@ -18,40 +19,6 @@ namespace curvefusion {
 namespace {
 
 using testing::HasSubstr;
-
-SkeletonGraph RandomGraph(unsigned seed) {
-  std::mt19937_64 random(seed);
-  std::uniform_real_distribution<double> coordinate(-1, 1);
-  const auto point = [&]() -> Vec3 {
-    return {coordinate(random), coordinate(random) * 1e-9, coordinate(random) * 1e5};
-  };
-  SkeletonGraph graph;
-  for (int i = 0; i < 5; ++i) graph.AddNode(point());
-  for (int i = 0; i < 8; ++i) {
-    const NodeId a = static_cast<NodeId>(random() % 5);
-    const NodeId b = static_cast<NodeId>(random() % 5);
-    SkeletonEdge edge{{a, b}, {graph.position(a), point(), point(), graph.position(b)}, {}, {}};
-    if (i % 2 == 0) edge.radii = {0.1, 0.2, 0.3 + i, 1.0 / 3};
-    if (i % 4 == 1) edge.radii = {0.1, 0.1, 0.1, 0.1};
-    if (i % 3 == 0) edge.observations = {1, 2, 0.1, 1e-300};
-    graph.AddEdge(edge);
-  }
-  return graph;
-}
-
-void ExpectSameGraph(const SkeletonGraph& a, const SkeletonGraph& b) {
-  ASSERT_EQ(a.node_count(), b.node_count());
-  ASSERT_EQ(a.edge_count(), b.edge_count());
-  for (int i = 0; i < a.node_count(); ++i)
-    EXPECT_EQ(a.position(a.Nodes()[i]), b.position(b.Nodes()[i]));
-  for (int i = 0; i < a.edge_count(); ++i) {
-    const SkeletonEdge& edge_a = a.edge(a.Edges()[i]);
-    const SkeletonEdge& edge_b = b.edge(b.Edges()[i]);
-    EXPECT_EQ(edge_a.points, edge_b.points);
-    EXPECT_EQ(edge_a.radii, edge_b.radii);
-    EXPECT_EQ(edge_a.observations, edge_b.observations);
-  }
-}
 
 TEST(GraphIo, EveryDoubleComesBackBitForBit) {
   for (unsigned seed = 0; seed < 20; ++seed) {
@@ -121,10 +88,10 @@ TEST(GraphIo, MalformedInputIsRejectedWithPlaceAndReason) {
       {File(nodes, edge(R"(,"points":[[0,0,0],[1,0,1e-17]])")), "node 1 as its last point"},
       {File(nodes, edge(R"(,"points":[[0,0,0],[0,0,0],[1,0,0]])")), "points[1] repeats"},
       {File(nodes, edge(R"(,"points":[[0,0,0],["a",0,0],[1,0,0]])")), "points[1] is \"a\""},
-      {File(nodes, edge(points + R"(,"radius":0)")), "radius 0, not positive"},
+      {File(nodes, edge(points + R"(,"radius":0)")), "radii[0] is 0, not positive"},
       {File(nodes, edge(points + R"(,"radii":[1])")), "radii holds 1 values for 2 points"},
-      {File(nodes, edge(points + R"(,"radii":[1,-1])")), "radius -1, not positive"},
-      {File(nodes, edge(points + R"(,"observations":[1,-1])")), "observations holds -1"},
+      {File(nodes, edge(points + R"(,"radii":[1,-1])")), "radii[1] is -1, not positive"},
+      {File(nodes, edge(points + R"(,"observations":[1,-1])")), "observations[1] is -1"},
   };
   for (const auto& [text, reason] : cases) {
     try {
@@ -138,6 +105,26 @@ TEST(GraphIo, MalformedInputIsRejectedWithPlaceAndReason) {
   }
 }
 
+TEST(GraphIo, EveryDefectiveEdgeIsNamed) {
+  const std::string text = File(R"([{"position":[0,0,0]},{"position":[1,0,0]}])",
+                                R"([{"nodes":[0,7],"points":[[0,0,0],[1,0,0]]},
+                                    {"nodes":[0,1],"points":[[0,0,0],[1,0,0]]},
+                                    {"nodes":[0,1],"points":[[0,0,0],[2,0,0]]}])");
+  try {
+    SkeletonFromJson(text, "bad.json");
+    ADD_FAILURE() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(),
+                 "bad.json: edges[0].nodes[1] is 7, but there are 2 nodes\n"
+                 "bad.json: edges[2].points does not have node 1 as its last point");
+  }
+}
+
+TEST(GraphIo, DeepNestingIsAnErrorAndNotTheEndOfTheStack) {
+  // A million levels overflow the stack of a recursive parser, and printing such a value does so.
+  EXPECT_THROW(SkeletonFromJson(std::string(1000000, '['), "deep.json"), Error);
+}
+
 class GraphIoFiles : public testing::Test {
  protected:
   void SetUp() override { std::filesystem::create_directories(folder_); }
@@ -149,21 +136,10 @@ TEST_F(GraphIoFiles, AFileComesBackAndAMissingOneIsNamed) {
   const SkeletonGraph graph = RandomGraph(7);
   WriteSkeleton(folder_ / "skeleton.json", graph);
   ExpectSameGraph(graph, ReadSkeleton(folder_ / "skeleton.json"));
+  std::filesystem::copy_file(folder_ / "skeleton.json", folder_ / "without_extension");
+  ExpectSameGraph(graph, ReadSkeleton(folder_ / "without_extension"));
   EXPECT_THROW(ReadSkeleton(folder_ / "missing.json"), Error);
   EXPECT_THROW(ReadSkeleton(folder_), Error);
-}
-
-TEST_F(GraphIoFiles, LinesHaveOneSegmentLessThanVerticesPerEdge) {
-  SkeletonGraph graph;
-  graph.AddPolyline({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}});
-  graph.AddPolyline({{0, 1, 0}, {1, 1, 0}});
-  WriteSkeletonLines(folder_ / "lines.ply", graph, {{255, 0, 0}, {0, 255, 0}});
-  std::ifstream stream(folder_ / "lines.ply");
-  std::stringstream text;
-  text << stream.rdbuf();
-  EXPECT_THAT(text.str(), HasSubstr("element vertex 5\n"));
-  EXPECT_THAT(text.str(), HasSubstr("element edge 3\n"));
-  EXPECT_THAT(text.str(), testing::EndsWith("0 1 255 0 0\n1 2 255 0 0\n3 4 0 255 0\n"));
 }
 
 }  // namespace

@@ -144,11 +144,16 @@ TEST_F(MeshIo, DamagedFilesAreErrors) {
         "uchar int vertex_indices\nend_header\n1\n4 0 0 0 0\n",
         "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nelement face 1\nproperty list "
         "uchar int vertex_indices\nend_header\n1\n3 0 0 1\n",
+        "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nelement face 1\nproperty list "
+        "uchar double vertex_indices\nend_header\n1\n3 0 0 1e300\n",
+        "ply\nformat ascii 1.0\nelement vertex 1\nproperty list int float x\nend_header\n-1\n",
+        "ply\nformat ascii 1.0\nelement vertex 2000000000\nend_header\n",
         "ply\nformat ascii 1.0\nproperty float x\n", "ply\nformat ascii 1.0\n"}) {
     WriteText(folder_ / "b.ply", text);
     EXPECT_THROW(ReadMesh(folder_ / "b.ply"), Error) << text;
   }
-  for (const char* text : {"v 1 2\n", "v 0 0 0\nf 1 1 2\n", "v 0 0 0\nf 1 1 1 1\n", "f a b c\n"}) {
+  for (const char* text :
+       {"v 1 2\n", "v 0 0 0\nf 1 1 2\n", "v 0 0 0\nf 1 1 1 1\n", "f a b c\n", "v 0 0 nan\n"}) {
     WriteText(folder_ / "b.obj", text);
     EXPECT_THROW(ReadMesh(folder_ / "b.obj"), Error) << text;
   }

@@ -1,0 +1,10 @@
+# dxflib ships a pkg-config file only.
+find_path(DXFLIB_INCLUDE_DIR dxflib/dl_dxf.h)
+find_library(DXFLIB_LIBRARY dxflib)
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(Dxflib REQUIRED_VARS DXFLIB_LIBRARY DXFLIB_INCLUDE_DIR)
+if(Dxflib_FOUND AND NOT TARGET Dxflib::Dxflib)
+  add_library(Dxflib::Dxflib INTERFACE IMPORTED)
+  target_include_directories(Dxflib::Dxflib SYSTEM INTERFACE "${DXFLIB_INCLUDE_DIR}")
+  target_link_libraries(Dxflib::Dxflib INTERFACE "${DXFLIB_LIBRARY}")
+endif()

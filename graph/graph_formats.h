@@ -1,0 +1,42 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "graph/skeleton_graph.h"
+
+namespace curvefusion {
+
+/// What a format does not carry of a graph, a sentence each.
+using FormatLosses = std::vector<std::string>;
+
+/// The file formats of graphs besides skeleton.json; graph_io.h chooses by extension and makes
+/// writing atomic. Readers take the text and name of a file and throw Error(kBadInput) with place
+/// and reason; writers want finite values.
+
+FormatLosses WriteGraphml(const std::filesystem::path& path, const SkeletonGraph& graph);
+/// Boost's reader behind a check of the nesting, because it recurses. An edge without `points` is
+/// straight.
+SkeletonGraph ReadGraphml(const std::string& text, const std::string& source);
+
+/// Every component is a tree that begins at its first node, breadth first; an edge that would close
+/// a cycle ends in a copy of its node.
+FormatLosses WriteSwc(const std::filesystem::path& path, const SkeletonGraph& graph);
+SkeletonGraph ReadSwc(const std::string& text, const std::string& source);
+
+FormatLosses WriteLinePly(const std::filesystem::path& path, const SkeletonGraph& graph);
+/// ASCII only; elements other than vertex and edge, and further properties, are skipped.
+SkeletonGraph ReadLinePly(const std::string& text, const std::string& source);
+
+FormatLosses WriteLineObj(const std::filesystem::path& path, const SkeletonGraph& graph);
+/// Statements other than v and l are skipped.
+SkeletonGraph ReadLineObj(const std::string& text, const std::string& source);
+
+FormatLosses WriteDxf(const std::filesystem::path& path, const SkeletonGraph& graph);
+
+/// What is wrong with an edge that is to be added to `graph` ("points[3] repeats the point before
+/// it"), or nothing. Its nodes must exist.
+std::string EdgeDefect(const SkeletonEdge& edge, const SkeletonGraph& graph);
+
+}  // namespace curvefusion

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+namespace curvefusion {
+
+/// What a run of the program gave.
+struct Outcome {
+  int exit_code = 0;
+  std::string output;  // both streams
+};
+
+/// Runs the program in a folder of its own.
+class CommandLine : public testing::Test {
+ protected:
+  void SetUp() override { std::filesystem::create_directories(folder_); }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  // Runs `curvefusion ARGUMENTS` inside folder_.
+  Outcome Run(const std::string& arguments) const {
+    return RunShell("'" CURVEFUSION_PROGRAM "' " + arguments + " >output.txt 2>&1");
+  }
+
+  // The same, with SIGINT sent as soon as the folder `awaited` is there (or after 20 s).
+  Outcome RunAndInterrupt(const std::string& arguments, const std::string& awaited) const {
+    return RunShell("'" CURVEFUSION_PROGRAM "' " + arguments +
+                    " >output.txt 2>&1 & i=0; while [ ! -d " + awaited +
+                    " ] && [ $i -lt 2000 ]; do i=$((i+1)); sleep 0.01; done; "
+                    "kill -INT $!; wait $!");
+  }
+
+  Outcome RunShell(const std::string& command) const {
+    const int status = std::system(("cd '" + folder_.string() + "' || exit; " + command).c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, Text("output.txt")};
+  }
+
+  // A scan of the wire cube without noise into the folder `scan`.
+  Outcome SimulateCube(int frames) const {
+    return Run("simulate cubeframe -o scan --sensor ideal --poses true --frame-rate 10 --quiet " +
+               ("--frames " + std::to_string(frames)));
+  }
+
+  std::string Text(const std::string& name) const {
+    std::stringstream text;
+    text << std::ifstream(folder_ / name).rdbuf();
+    return text.str();
+  }
+
+  // Files below a folder whose name ends so.
+  int CountFiles(const std::string& folder, const std::string& name_part) const {
+    int count = 0;
+    if (!std::filesystem::exists(folder_ / folder)) return 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_ / folder)) {
+      count += entry.path().filename().string().find(name_part) != std::string::npos ? 1 : 0;
+    }
+    return count;
+  }
+
+  const std::filesystem::path folder_ =
+      std::filesystem::temp_directory_path() /
+      (std::string("curvefusion_command_line_") +
+       testing::UnitTest::GetInstance()->current_test_info()->name() + "_" +
+       std::to_string(getpid()));
+};
+
+}  // namespace curvefusion

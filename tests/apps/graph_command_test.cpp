@@ -1,0 +1,85 @@
+// Runs `curvefusion graph` as a user does.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "graph/graph_io.h"
+#include "tests/apps/command_line_fixture.h"
+
+namespace curvefusion {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+class GraphCommand : public CommandLine {
+ protected:
+  // A square of 100 mm whose side is crossed at its middle by a loose curve, which makes no node.
+  void SetUp() override {
+    CommandLine::SetUp();
+    SkeletonGraph graph;
+    graph.AddPolyline({{0, 0, 0}, {0.1, 0, 0}, {0.1, 0.1, 0}, {0, 0.1, 0}, {0, 0, 0}});
+    graph.AddPolyline({{0.05, -0.05, 0}, {0.05, 0.05, 0}});
+    WriteSkeleton(folder_ / "crossing.json", graph);
+  }
+};
+
+TEST_F(GraphCommand, InfoIsInMillimetresAndWhatHappensWithoutOptions) {
+  const Outcome info = Run("graph crossing.json --info");
+  EXPECT_EQ(info.exit_code, 0);
+  EXPECT_THAT(info.output, HasSubstr("length      500.0 mm"));
+  EXPECT_EQ(Run("graph crossing.json").output, info.output);
+}
+
+TEST_F(GraphCommand, ValidationNamesEveryPlaceAndIsThree) {
+  const Outcome invalid = Run("graph crossing.json --validate");
+  EXPECT_EQ(invalid.exit_code, 3);
+  EXPECT_THAT(invalid.output, HasSubstr("1 violations"));
+  EXPECT_THAT(invalid.output, HasSubstr("edge 0 at 0.05 m comes within 0 mm of edge 1 at 0.05 m"));
+
+  std::ofstream(folder_ / "torn.json")
+      << R"({"format":"curvefusion-skeleton","version":1,"units":"m",
+ "nodes":[{"position":[0,0,0]},{"position":[1,0,0]}],
+ "edges":[{"nodes":[0,1],"points":[[0,0,0],[2,0,0]]},{"nodes":[0,5],"points":[[0,0,0],[1,0,0]]}]})";
+  const Outcome torn = Run("graph torn.json --validate");
+  EXPECT_EQ(torn.exit_code, 3);
+  EXPECT_THAT(torn.output, HasSubstr("edges[0].points does not have node 1 as its last point"));
+  EXPECT_THAT(torn.output, HasSubstr("edges[1].nodes[1] is 5, but there are 2 nodes"));
+}
+
+TEST_F(GraphCommand, ResolvingMakesTheJunctionThatValidationMissed) {
+  EXPECT_EQ(Run("graph crossing.json --resolve 1 --smooth 10 -o mended.graphml").exit_code, 0);
+  const Outcome valid = Run("graph mended.graphml --validate --info");
+  EXPECT_EQ(valid.exit_code, 0);
+  EXPECT_THAT(valid.output, HasSubstr("is valid"));
+  EXPECT_THAT(valid.output, HasSubstr("junctions   1\n"));
+  EXPECT_THAT(valid.output, HasSubstr("free ends   2\n"));
+}
+
+TEST_F(GraphCommand, ConversionTellsWhatIsLost) {
+  const Outcome swc = Run("graph crossing.json --convert new/wires.swc");
+  EXPECT_EQ(swc.exit_code, 0);
+  EXPECT_THAT(swc.output, HasSubstr("Wrote new/wires.swc\n  not kept: edge 0 would close a cycle; "
+                                    "it is cut at node 0, at (0.000, 0.000, 0.000) mm"));
+  const Outcome json = Run("graph crossing.json --convert copy.json");
+  EXPECT_THAT(json.output, Not(HasSubstr("not kept")));
+  EXPECT_EQ(Run("graph crossing.json --convert wires.dxf --quiet").output, "");
+  EXPECT_EQ(CountFiles(".", "wires."), 2);
+}
+
+TEST_F(GraphCommand, WrongUsageIsTwo) {
+  EXPECT_EQ(Run("graph crossing.json --resolve 1").exit_code, 2);
+  EXPECT_EQ(Run("graph crossing.json --smooth 60").exit_code, 2);
+  EXPECT_EQ(Run("graph crossing.json -o out.json").exit_code, 2);
+  EXPECT_EQ(Run("graph crossing.json --resolve 0 -o out.json").exit_code, 2);
+  EXPECT_EQ(Run("graph crossing.json --proximity 1").exit_code, 2);
+  EXPECT_EQ(Run("graph crossing.json --convert out.stl").exit_code, 2);
+  EXPECT_EQ(Run("graph crossing.dxf").exit_code, 2);
+  EXPECT_EQ(Run("graph missing.json").exit_code, 3);
+}
+
+}  // namespace
+}  // namespace curvefusion

@@ -1,0 +1,15 @@
+#include "graph/graph_io.h"
+#include "tests/fuzz/fuzz_target.h"
+
+using namespace curvefusion;
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  static const InputFolder folder;
+  const auto path = folder.Write("graph.obj", Text(data, size));
+  AcceptErrors([&] {
+    const SkeletonGraph graph = ReadSkeleton(path);
+    // What is read can be written again.
+    ExportSkeleton(path, graph);
+  });
+  return 0;
+}
