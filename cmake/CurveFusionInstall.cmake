@@ -18,5 +18,6 @@ write_basic_package_version_file("${PROJECT_BINARY_DIR}/curvefusionConfigVersion
                                  COMPATIBILITY SameMinorVersion)
 install(FILES "${PROJECT_BINARY_DIR}/curvefusionConfig.cmake"
               "${PROJECT_BINARY_DIR}/curvefusionConfigVersion.cmake"
-              cmake/CurveFusionDependencies.cmake cmake/FindCHOLMOD.cmake cmake/FindOpenCVImage.cmake
+              cmake/CurveFusionDependencies.cmake cmake/FindCHOLMOD.cmake cmake/FindLib3MF.cmake
+              cmake/FindOpenCVImage.cmake
         DESTINATION "${curvefusion_cmake_dir}")
