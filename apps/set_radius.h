@@ -7,4 +7,11 @@ namespace curvefusion {
 /// Gives every curve of a graph the same radius (metres, > 0), in place of what it had.
 void SetRadius(double radius, SkeletonGraph& graph);
 
+/// Gives every curve that has radii their mean at every point; the others stay without.
+void SetMeanRadii(SkeletonGraph& graph);
+
+/// Gives every curve the same radius: the median over the length of all curves that have radii, as
+/// the paper keeps one radius for all (CurveFusion 3.3). A graph without radii stays as it is.
+void SetMedianRadius(SkeletonGraph& graph);
+
 }  // namespace curvefusion

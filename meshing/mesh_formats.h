@@ -8,8 +8,8 @@
 
 namespace curvefusion {
 
-/// The file formats of triangle meshes; float32 coordinates pass through all of them unchanged.
-/// Streams are binary. Readers take the stream's name for their messages and throw
+/// The file formats of triangle meshes; float32 coordinates pass through all of them unchanged,
+/// except for 3MF. Streams are binary. Readers take the stream's name for their messages and throw
 /// Error(kBadInput) for what is cut off, damaged, or not a triangle mesh.
 
 /// Binary little-endian PLY.
@@ -27,5 +27,18 @@ TriangleMesh ReadObj(std::istream& stream, const std::string& name);
 void WriteStl(const TriangleMesh& mesh, std::ostream& stream);
 /// Binary STL; vertices with equal coordinates become one.
 TriangleMesh ReadStl(std::istream& stream, const std::string& name);
+
+/// Binary glTF 2.0 (tinygltf) with normals for shading: smooth along the wires, broken at seams.
+/// glTF is always in metres. A stream that cannot be written is left in the state failbit.
+void WriteGlb(const TriangleMesh& mesh, std::ostream& stream);
+/// The triangles of all meshes in the scene of a binary glTF, transformed as its nodes say;
+/// vertices with equal coordinates become one.
+TriangleMesh ReadGlb(std::istream& stream, const std::string& name);
+
+/// 3MF (lib3MF), the coordinates taken for millimetres; lib3MF writes six
+/// decimals, computed in float32: the last two bits of a coordinate may change.
+void Write3mf(const TriangleMesh& mesh, std::ostream& stream);
+/// The triangles of all build items of a 3MF file, in the unit of the file.
+TriangleMesh Read3mf(std::istream& stream, const std::string& name);
 
 }  // namespace curvefusion

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <fstream>
+#include <limits>
 #include <string>
 
 #include "kernel/atomic_file.h"
@@ -20,10 +21,15 @@ struct MeshFormat {
   const char* extension;
   void (*write)(const TriangleMesh&, std::ostream&);
   TriangleMesh (*read)(std::istream&, const std::string&);
+  std::optional<MeshUnit> only_unit = {};  // where the format has but one
+  float step = 0;  // of decimal coordinates that are fewer digits than float32 has
 };
 
-constexpr MeshFormat kFormats[] = {
-    {".ply", WritePly, ReadPly}, {".obj", WriteObj, ReadObj}, {".stl", WriteStl, ReadStl}};
+constexpr MeshFormat kFormats[] = {{".ply", WritePly, ReadPly},
+                                   {".obj", WriteObj, ReadObj},
+                                   {".stl", WriteStl, ReadStl},
+                                   {".glb", WriteGlb, ReadGlb, MeshUnit::kMetres},
+                                   {".3mf", Write3mf, Read3mf, MeshUnit::kMillimetres, 1e-6f}};
 
 const MeshFormat& FormatOf(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
@@ -32,8 +38,9 @@ const MeshFormat& FormatOf(const std::filesystem::path& path) {
   for (const MeshFormat& format : kFormats) {
     if (extension == format.extension) return format;
   }
-  throw Error(ErrorKind::kUsage, fmt::format("{}: a mesh file ends in .ply, .obj or .stl, not '{}'",
-                                             path.string(), extension));
+  throw Error(ErrorKind::kUsage,
+              fmt::format("{}: a mesh file ends in .ply, .obj, .stl, .glb or .3mf, not '{}'",
+                          path.string(), extension));
 }
 
 TriangleMesh InUnit(const TriangleMesh& mesh, MeshUnit unit) {
@@ -52,11 +59,16 @@ void RequireFinite(const std::filesystem::path& path, const TriangleMesh& mesh) 
 }
 
 // Whether every triangle has the same corners; the numbering of vertices may differ (STL has none).
-bool SameTriangles(const TriangleMesh& a, const TriangleMesh& b) {
+// Where a format writes decimals of this step, coordinates may change by that and, as lib3MF
+// computes them in float32, by their last bits.
+bool SameTriangles(const TriangleMesh& a, const TriangleMesh& b, float step) {
   if (a.triangles.size() != b.triangles.size()) return false;
   for (size_t f = 0; f < a.triangles.size(); ++f) {
     for (size_t k = 0; k < 3; ++k) {
-      if (a.vertices[a.triangles[f][k]] != b.vertices[b.triangles[f][k]]) return false;
+      const Vec3f change = a.vertices[a.triangles[f][k]] - b.vertices[b.triangles[f][k]];
+      const float size = a.vertices[a.triangles[f][k]].cwiseAbs().maxCoeff();
+      const float limit = step > 0 ? step + 2 * std::numeric_limits<float>::epsilon() * size : 0;
+      if (change.cwiseAbs().maxCoeff() > limit) return false;
     }
   }
   return true;
@@ -72,17 +84,30 @@ void RequireWatertight(const std::filesystem::path& path, const TriangleMesh& me
                                                 path.string(), report.Defects()));
 }
 
+MeshUnit UnitOf(const MeshFormat& format, const std::filesystem::path& path,
+                std::optional<MeshUnit> wish) {
+  const MeshUnit unit = wish.value_or(format.only_unit.value_or(MeshUnit::kMetres));
+  if (!format.only_unit || unit == *format.only_unit) return unit;
+  throw Error(ErrorKind::kUsage,
+              fmt::format("{}: {} files are always in {}; leave the unit out", path.string(),
+                          format.extension, unit == MeshUnit::kMetres ? "millimetres" : "metres"));
+}
+
 }  // namespace
+
+MeshUnit DefaultUnit(const std::filesystem::path& path) {
+  return UnitOf(FormatOf(path), path, std::nullopt);
+}
 
 void WriteMesh(const std::filesystem::path& path, const TriangleMesh& mesh,
                const MeshFileOptions& options) {
   const MeshFormat& format = FormatOf(path);
-  const TriangleMesh scaled = InUnit(mesh, options.unit);
+  const TriangleMesh scaled = InUnit(mesh, UnitOf(format, path, options.unit));
   RequireFinite(path, scaled);
   WriteFileAtomically(path, [&](const std::filesystem::path& temporary) {
     WriteStreamAtomically(temporary, [&](std::ostream& stream) { format.write(scaled, stream); });
     const TriangleMesh read_back = ReadMesh(temporary);
-    if (!SameTriangles(scaled, read_back)) {
+    if (!SameTriangles(scaled, read_back, format.step)) {
       throw Error(ErrorKind::kResource,
                   fmt::format("{}: the file does not hold what was written; is the disk sound?",
                               path.string()));

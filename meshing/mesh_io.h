@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include "kernel/triangle_mesh.h"
 
@@ -11,21 +12,26 @@ enum class MeshUnit { kMetres, kMillimetres };
 
 /// How a mesh file is written.
 struct MeshFileOptions {
-  MeshUnit unit = MeshUnit::kMetres;
+  std::optional<MeshUnit> unit;    ///< by default that of the format
   bool require_watertight = true;  ///< false for surfaces that are open by nature (a scan's volume)
 };
 
-/// Writes a mesh as PLY (binary), OBJ or STL (binary), by the extension of `path`. The file is read
-/// back and compared coordinate by coordinate, and examined where it has to be watertight, before
-/// it gets its final name: what stands there is whole and sound. Throws Error: kUsage for another
-/// extension, kBadInput for a mesh (as rounded in the file's unit) that is not watertight,
-/// kResource for a file that cannot be written or does not hold what was written.
+/// The unit in which a format is written unless asked for another: metres, of 3MF millimetres.
+/// Throws Error(kUsage) for an extension that is none of WriteMesh's.
+MeshUnit DefaultUnit(const std::filesystem::path& path);
+
+/// Writes a mesh as PLY (binary), OBJ, STL (binary), GLB or 3MF, by the extension of `path`. The
+/// file is read back and compared coordinate by coordinate, and examined where it has to be
+/// watertight, before it gets its final name: what stands there is whole and sound. Throws Error:
+/// kUsage for another extension or a unit that the format does not have (GLB is in metres, 3MF
+/// here in millimetres), kBadInput for a mesh (as rounded in the file's unit) that is not
+/// watertight, kResource for a file that cannot be written or does not hold what was written.
 void WriteMesh(const std::filesystem::path& path, const TriangleMesh& mesh,
                const MeshFileOptions& options);
 
-/// Reads a triangle mesh from PLY, OBJ or binary STL, in the unit of the file. Throws Error:
-/// kUsage for another extension, kBadInput for a file that is missing, damaged, has indices out of
-/// range or coordinates that are not finite, or is not of triangles.
+/// Reads a triangle mesh from PLY, OBJ, binary STL, GLB or 3MF, in the unit of the file. Throws
+/// Error: kUsage for another extension, kBadInput for a file that is missing, damaged, has indices
+/// out of range or coordinates that are not finite, or is not of triangles.
 TriangleMesh ReadMesh(const std::filesystem::path& path);
 
 }  // namespace curvefusion

@@ -12,34 +12,12 @@
 
 #include "kernel/disjoint_sets.h"
 #include "kernel/error.h"
+#include "meshing/half_edges.h"
 #include "meshing/self_intersections.h"
 
 namespace curvefusion {
 
 namespace {
-
-// A half-edge a -> b of a triangle, listed under its edge (low, high).
-struct HalfEdge {
-  int low, high;
-  bool forward;  // runs from low to high
-  int face;
-};
-
-std::vector<HalfEdge> SortedHalfEdges(const TriangleMesh& mesh) {
-  std::vector<HalfEdge> half_edges;
-  half_edges.reserve(3 * mesh.triangles.size());
-  for (size_t f = 0; f < mesh.triangles.size(); ++f) {
-    for (int k = 0; k < 3; ++k) {
-      const int a = mesh.triangles[f][k];
-      const int b = mesh.triangles[f][(k + 1) % 3];
-      half_edges.push_back({std::min(a, b), std::max(a, b), a < b, static_cast<int>(f)});
-    }
-  }
-  std::sort(half_edges.begin(), half_edges.end(), [](const HalfEdge& x, const HalfEdge& y) {
-    return std::tie(x.low, x.high, x.face, x.forward) < std::tie(y.low, y.high, y.face, y.forward);
-  });
-  return half_edges;
-}
 
 // Corner 3 f + k stands for vertex k of triangle f; corners of one vertex that lie in one fan end
 // up in one set.
@@ -48,8 +26,8 @@ class Fans {
   explicit Fans(const TriangleMesh& mesh) : mesh_(mesh), corners_(3 * mesh.triangles.size()) {}
 
   void JoinAcrossEdge(const HalfEdge& a, const HalfEdge& b) {
-    corners_.Unite(Corner(a.face, a.low), Corner(b.face, a.low));
-    corners_.Unite(Corner(a.face, a.high), Corner(b.face, a.high));
+    corners_.Unite(CornerOf(mesh_, a.face, a.low), CornerOf(mesh_, b.face, a.low));
+    corners_.Unite(CornerOf(mesh_, a.face, a.high), CornerOf(mesh_, b.face, a.high));
   }
 
   // Their number; `first` becomes one of them.
@@ -67,11 +45,6 @@ class Fans {
   }
 
  private:
-  int Corner(int face, int vertex) const {
-    const auto& t = mesh_.triangles[face];
-    return 3 * face + static_cast<int>(std::find(t.begin(), t.end(), vertex) - t.begin());
-  }
-
   const TriangleMesh& mesh_;
   DisjointSets corners_;
 };

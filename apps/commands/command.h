@@ -24,6 +24,9 @@ void AddExperimentCommand(CLI::App& app, int& exit_code);
 /// Exit code of a run that worked but found nothing thin.
 inline constexpr int kNothingThin = 4;
 
+/// Exit code of `mesh --check` for a mesh with a defect (also of internal errors).
+inline constexpr int kDefectFound = 1;
+
 /// What every command that takes time has.
 struct RunOptions {
   int threads = 0;  ///< 0 = all cores

@@ -2,7 +2,10 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <map>
 #include <memory>
+#include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,65 +25,122 @@ namespace curvefusion {
 namespace {
 
 struct MeshArguments {
-  std::filesystem::path skeleton;
-  std::filesystem::path output;
-  double radius_mm = 0;  // 0 = the radii of the file
-  std::string unit = "m";
+  std::filesystem::path input;
+  std::filesystem::path output;  // empty = only check the input, a mesh
+  double radius_mm = 0;          // 0 = the radii of the file
+  std::string radius_from = "vertex";
+  std::optional<MeshUnit> unit;
   bool check = false;
   TubeOptions tubes;
   RunOptions run;
 };
 
-// Examines the file as another program would find it. Returns whether it is sound.
-bool CheckFile(const std::filesystem::path& path) {
-  const WatertightReport report = ExamineMesh(ReadMesh(path));
-  fmt::print("  vertices {}, faces {}, parts {}, genus {}\n", report.vertices, report.faces,
+void PrintReport(const WatertightReport& report, MeshUnit unit) {
+  const double cm = (unit == MeshUnit::kMetres ? 1 : kMillimetre) * 100;
+  fmt::print("  vertices {}, faces {}, components {}, genus {}\n", report.vertices, report.faces,
              report.components, report.genus);
-  fmt::print("  {}\n", report.IsWatertight() ? "watertight" : report.Defects());
-  return report.IsWatertight();
+  fmt::print("  volume {:.6g} cm3, area {:.6g} cm2, worst angle {:.3g} degrees\n",
+             report.volume * cm * cm * cm, report.area * cm * cm,
+             report.min_angle * 180 / std::numbers::pi);
 }
 
-int RunMesh(const MeshArguments& arguments) {
-  const ThreadLimit limit(arguments.run.threads);
-  SkeletonGraph skeleton = ReadSkeleton(arguments.skeleton);
+// Examines a file as another program would find it.
+int CheckFile(const MeshArguments& arguments, const std::filesystem::path& path) {
+  const WatertightReport report = ExamineMesh(ReadMesh(path));
+  if (!arguments.run.quiet) {
+    PrintReport(report, arguments.unit.value_or(DefaultUnit(path)));
+    const std::string defects = report.faces > 0 ? report.Defects() : "no faces";
+    fmt::print("  {}\n", report.IsWatertight() ? "watertight" : defects);
+    if (report.defect_place) {
+      const Vec3& p = *report.defect_place;
+      fmt::print("  the first near ({:g}, {:g}, {:g})\n", p.x(), p.y(), p.z());
+    }
+  }
+  return report.IsWatertight() ? 0 : kDefectFound;
+}
+
+void ChooseRadii(const MeshArguments& arguments, SkeletonGraph& skeleton) {
+  if (arguments.radius_mm > 0) {
+    SetRadius(arguments.radius_mm * kMillimetre, skeleton);
+  } else if (arguments.radius_from == "edge") {
+    SetMeanRadii(skeleton);
+  } else if (arguments.radius_from == "global") {
+    SetMedianRadius(skeleton);
+  }
+}
+
+int MeshSkeleton(const MeshArguments& arguments) {
+  const MeshUnit unit = arguments.unit.value_or(DefaultUnit(arguments.output));
+  SkeletonGraph skeleton = ReadSkeleton(arguments.input);
   MakeFolderOf(arguments.output);
-  if (arguments.radius_mm > 0) SetRadius(arguments.radius_mm * kMillimetre, skeleton);
+  ChooseRadii(arguments, skeleton);
   const TubeMesh tubes = BuildTubes(skeleton, arguments.tubes);
   ThrowIfInterrupted();
-  const MeshUnit unit = arguments.unit == "mm" ? MeshUnit::kMillimetres : MeshUnit::kMetres;
   WriteMesh(arguments.output, ToTriangleMesh(tubes.surface), {.unit = unit});
   if (!arguments.run.quiet) {
-    fmt::print("Wrote {} ({})\n", arguments.output.string(), arguments.unit);
+    fmt::print("Wrote {} ({})\n", arguments.output.string(),
+               unit == MeshUnit::kMetres ? "m" : "mm");
+    if (!arguments.check) PrintReport(tubes.report, MeshUnit::kMetres);
     for (const std::string& warning : TubeWarnings(skeleton, tubes, arguments.tubes)) {
       fmt::print("  warning: {}\n", warning);
     }
   }
-  const bool sound = !arguments.check || CheckFile(arguments.output);
-  return sound ? 0 : ExitCode(ErrorKind::kBadInput);
+  return arguments.check ? CheckFile(arguments, arguments.output) : 0;
+}
+
+int RunMesh(const MeshArguments& arguments) {
+  const ThreadLimit limit(arguments.run.threads);
+  if (!arguments.output.empty()) return MeshSkeleton(arguments);
+  if (arguments.check) return CheckFile(arguments, arguments.input);
+  throw Error(ErrorKind::kUsage,
+              fmt::format("{}: name the file to write with -o, or check a mesh with --check",
+                          arguments.input.string()));
+}
+
+void AddTubeOptions(CLI::App& command, MeshArguments& arguments) {
+  CLI::Option* radius =
+      command
+          .add_option("--radius", arguments.radius_mm,
+                      "Radius of all tubes in mm, in place of those of the skeleton")
+          ->check(CLI::PositiveNumber);
+  command
+      .add_option("--radius-from", arguments.radius_from,
+                  "Which radii of the skeleton: of every vertex (default), the mean of every edge, "
+                  "or one global median")
+      ->check(CLI::IsMember({"global", "edge", "vertex"}))
+      ->excludes(radius);
+  command.add_option("--sides", arguments.tubes.sides, "Corners of a tube's cross-section")
+      ->check(CLI::Range(8, 64));
 }
 
 }  // namespace
 
 void AddMeshCommand(CLI::App& app, int& exit_code) {
   CLI::App* command =
-      app.add_subcommand("mesh", "Make a watertight mesh of tubes around the curves of a skeleton");
+      app.add_subcommand("mesh",
+                         "Make a watertight mesh of tubes around the curves of a skeleton, or "
+                         "check a mesh");
   const auto arguments = std::make_shared<MeshArguments>();
-  command->add_option("SKELETON", arguments->skeleton, "A skeleton.json")->required();
-  command->add_option("-o,--output", arguments->output, "A .ply, .obj or .stl file to write")
-      ->required();
   command
-      ->add_option("--radius", arguments->radius_mm,
-                   "Radius of all tubes in mm, in place of those of the skeleton")
-      ->check(CLI::PositiveNumber);
-  command->add_option("--sides", arguments->tubes.sides, "Corners of a tube's cross-section")
-      ->check(CLI::Range(8, 64));
-  command->add_option("--unit", arguments->unit, "Unit of the coordinates: m (default) or mm")
-      ->check(CLI::IsMember({"m", "mm"}));
-  command->add_flag("--check", arguments->check, "Read the file back and tell what it is");
+      ->add_option("INPUT", arguments->input,
+                   "A skeleton.json; with --check and without -o, the mesh to check")
+      ->required();
+  command->add_option("-o,--output", arguments->output,
+                      "A .ply, .obj, .stl, .glb or .3mf file to write");
+  AddTubeOptions(*command, *arguments);
+  const std::map<std::string, MeshUnit> units = {{"m", MeshUnit::kMetres},
+                                                 {"mm", MeshUnit::kMillimetres}};
+  command
+      ->add_option("--unit", arguments->unit,
+                   "Unit of the coordinates: m (default; .glb always) or mm (.3mf always)")
+      ->transform(CLI::CheckedTransformer(units));
+  command->add_flag("--check", arguments->check,
+                    "Read the file back and tell what it is; exit code 1 where it has a defect");
   AddRunOptions(*command, arguments->run);
   command->footer(
       "Example:\n  curvefusion mesh result/skeleton.json -o wires.ply\n"
-      "  curvefusion mesh result/skeleton.json -o print.stl --unit mm --radius 3 --check");
+      "  curvefusion mesh result/skeleton.json -o print.stl --unit mm --radius 3 --check\n"
+      "  curvefusion mesh --check anything.obj");
   command->callback([arguments, &exit_code] { exit_code = RunMesh(*arguments); });
 }
 

@@ -25,6 +25,52 @@ TEST_F(CommandLine, HelpAndVersionAreDone) {
   }
 }
 
+TEST_F(CommandLine, MeshCheckTellsDefectsByExitCodeOne) {
+  const std::string open = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\n";
+  std::ofstream(folder_ / "open.obj") << open;
+  std::ofstream(folder_ / "closed.obj") << open << "f 2 3 4\n";
+  const Outcome sound = Run("mesh --check closed.obj");
+  EXPECT_EQ(sound.exit_code, 0) << sound.output;
+  EXPECT_THAT(sound.output, HasSubstr("vertices 4, faces 4, components 1, genus 0"));
+  EXPECT_THAT(sound.output, HasSubstr("volume 166667 cm3"));
+  const Outcome defect = Run("mesh --check open.obj");
+  EXPECT_EQ(defect.exit_code, 1) << defect.output;
+  EXPECT_THAT(defect.output, HasSubstr("3 boundary edges"));
+  EXPECT_EQ(Run("mesh closed.obj").exit_code, 2);
+  EXPECT_EQ(Run("mesh --check none.obj").exit_code, 3);
+}
+
+TEST_F(CommandLine, MeshWritesEveryFormatWithAnyRadii) {
+  std::ofstream(folder_ / "skeleton.json")
+      << R"({"format": "curvefusion-skeleton", "version": 1, "units": "m",
+             "nodes": [{"position": [0, 0, 0]}, {"position": [0.1, 0, 0]},
+                       {"position": [0, 0.05, 0]}, {"position": [0.1, 0.05, 0]}],
+             "edges": [{"nodes": [0, 1], "points": [[0, 0, 0], [0.1, 0, 0]],
+                        "radii": [0.003, 0.005]},
+                       {"nodes": [2, 3], "points": [[0, 0.05, 0], [0.1, 0.05, 0]],
+                        "radius": 0.002}]})";
+  for (const char* name : {"a.ply", "a.obj", "a.stl", "a.glb", "a.3mf"}) {
+    const Outcome outcome = Run(std::string("mesh skeleton.json --check -o ") + name);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+    EXPECT_THAT(outcome.output, HasSubstr("components 2, genus 0")) << name;
+    EXPECT_THAT(outcome.output, HasSubstr("watertight")) << name;
+  }
+  // The mean of the first is 4 mm, and both are equally long: the median is the thinner one.
+  const auto volume = [&](const std::string& options) {
+    const std::string output = Run("mesh skeleton.json -o b.ply " + options).output;
+    return std::atof(output.c_str() + output.find("volume") + 6);
+  };
+  const double pi = 3.14159265;
+  const auto capsule = [&](double r) { return pi * r * r * (10 + 4.0 / 3 * r); };
+  // The domes are polyhedra (.3 % of the whole); a cone has more volume than its mean cylinder.
+  EXPECT_NEAR(volume("--radius-from edge"), capsule(0.4) + capsule(0.2), 0.02);
+  EXPECT_NEAR(volume("--radius-from global"), 2 * capsule(0.2), 0.01);
+  EXPECT_NEAR(volume("--radius 3"), 2 * capsule(0.3), 0.02);
+  EXPECT_GT(volume(""), 1.005 * (capsule(0.4) + capsule(0.2)));
+  EXPECT_EQ(Run("mesh skeleton.json -o a.glb --unit mm").exit_code, 2);
+  EXPECT_EQ(Run("mesh skeleton.json -o a.ply --radius 3 --radius-from edge").exit_code, 2);
+}
+
 TEST_F(CommandLine, WrongUsageIsTwo) {
   EXPECT_EQ(Run("").exit_code, 2);
   EXPECT_EQ(Run("reconstruct").exit_code, 2);

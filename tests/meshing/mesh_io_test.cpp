@@ -1,13 +1,16 @@
 #include "meshing/mesh_io.h"
 
 #include <gtest/gtest.h>
+#include <tiny_gltf.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
 #include "kernel/error.h"
+#include "meshing/corner_normals.h"
 #include "meshing/surface_mesh.h"
 #include "meshing/tubes.h"
 #include "meshing/watertight.h"
@@ -42,7 +45,7 @@ TriangleMesh LatticeMesh() {
 
 TEST_F(MeshIo, EveryFormatGivesBackEveryCoordinate) {
   const TriangleMesh mesh = LatticeMesh();
-  for (const char* name : {"a.ply", "a.obj", "a.stl", "B.PLY"}) {
+  for (const char* name : {"a.ply", "a.obj", "a.stl", "a.glb", "B.PLY"}) {
     WriteMesh(folder_ / name, mesh, {});
     const TriangleMesh back = ReadMesh(folder_ / name);
     ASSERT_EQ(back.triangles.size(), mesh.triangles.size()) << name;
@@ -53,7 +56,7 @@ TEST_F(MeshIo, EveryFormatGivesBackEveryCoordinate) {
       }
     }
   }
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 4);  // and no temporary left
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 5);  // and no temporary left
 }
 
 TEST_F(MeshIo, MillimetresScaleByAThousandAndStayWatertight) {
@@ -63,6 +66,85 @@ TEST_F(MeshIo, MillimetresScaleByAThousandAndStayWatertight) {
   EXPECT_TRUE(in_mm.IsWatertight()) << in_mm.Defects();
   // Coordinates carry seven digits.
   EXPECT_NEAR(in_mm.volume / ExamineMesh(mesh).volume, 1e9, 1e9 * 1e-5);
+}
+
+TEST_F(MeshIo, ThreeMfIsInMillimetresOfSixDecimals) {
+  const TriangleMesh mesh = LatticeMesh();
+  EXPECT_EQ(DefaultUnit("a.3mf"), MeshUnit::kMillimetres);
+  EXPECT_THROW(WriteMesh(folder_ / "a.3mf", mesh, {MeshUnit::kMetres}), Error);
+  EXPECT_THROW(WriteMesh(folder_ / "a.glb", mesh, {MeshUnit::kMillimetres}), Error);
+  WriteMesh(folder_ / "a.3mf", mesh, {});
+  const TriangleMesh back = ReadMesh(folder_ / "a.3mf");
+  ASSERT_EQ(back.triangles, mesh.triangles);
+  for (size_t v = 0; v < mesh.vertices.size(); ++v) {
+    // One step of the last decimal, and some of float32 (2e-6) at 30 mm.
+    EXPECT_LT((back.vertices[v] - 1000 * mesh.vertices[v]).norm(), 1e-6 + 1e-5);
+  }
+  EXPECT_EQ(ExamineMesh(back).Defects(), "");
+}
+
+TEST_F(MeshIo, GlbHasNormalsThatBreakAtSeams) {
+  SkeletonGraph cross;
+  AddCurve(cross, {{-0.03, 0, 0}, {0.03, 0, 0}}, 0.0025);
+  AddCurve(cross, {{0, -0.03, 0}, {0, 0.03, 0}}, 0.0025);
+  const TriangleMesh mesh = ToTriangleMesh(BuildTubes(cross, {}).surface);
+  const CornerNormals shading = ComputeCornerNormals(mesh, 0.8);
+  // Vertices on the seam have two normals or more, all others one.
+  EXPECT_GT(shading.normals.size(), mesh.vertices.size() + 20);
+  EXPECT_LT(shading.normals.size(), mesh.vertices.size() + 200);
+  for (size_t f = 0; f < mesh.triangles.size(); ++f) {
+    for (size_t k = 0; k < 3; ++k) {
+      const Vec3f& p = mesh.vertices[mesh.triangles[f][k]];
+      const Vec3f& n = shading.normals[shading.of_corner[f][k]];
+      if (std::abs(p.x()) < 0.005f || std::abs(p.x()) > 0.029f || std::abs(p.y()) > 0.003f)
+        continue;
+      // On the plain side of the tube along x normals are radial, up to a facet's half turn.
+      EXPECT_GT(n.dot(Vec3f(0, p.y(), p.z()).normalized()), std::cos(M_PI / 16));
+    }
+  }
+}
+
+TEST_F(MeshIo, ReadsGlbOfOtherPrograms) {
+  // A triangle of a node that is moved and mirrored, without indices.
+  tinygltf::Model model;
+  model.asset.version = "2.0";
+  model.buffers.emplace_back();
+  const std::vector<float> positions = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  const auto* bytes = reinterpret_cast<const unsigned char*>(positions.data());
+  model.buffers[0].data.assign(bytes, bytes + 36);
+  model.bufferViews.emplace_back();
+  model.bufferViews[0].buffer = 0;
+  model.bufferViews[0].byteLength = 36;
+  model.accessors.emplace_back();
+  model.accessors[0].bufferView = 0;
+  model.accessors[0].componentType = TINYGLTF_COMPONENT_TYPE_FLOAT;
+  model.accessors[0].type = TINYGLTF_TYPE_VEC3;
+  model.accessors[0].count = 3;
+  model.meshes.emplace_back();
+  model.meshes[0].primitives.emplace_back();
+  model.meshes[0].primitives[0].mode = TINYGLTF_MODE_TRIANGLES;
+  model.meshes[0].primitives[0].attributes["POSITION"] = 0;
+  model.nodes.resize(2);
+  model.nodes[0].children = {1};
+  model.nodes[0].translation = {0, 0, 5};
+  model.nodes[1].scale = {-2, 1, 1};
+  model.nodes[1].mesh = 0;
+  model.scenes.emplace_back();
+  model.scenes[0].nodes = {0};
+  const std::string path = (folder_ / "a.glb").string();
+  ASSERT_TRUE(tinygltf::TinyGLTF().WriteGltfSceneToFile(&model, path, true, true, false, true));
+  const TriangleMesh mesh = ReadMesh(path);
+  ASSERT_EQ(mesh.triangles.size(), 1u);
+  EXPECT_EQ(mesh.vertices[mesh.triangles[0][0]], Vec3f(-2, 0, 5));
+  EXPECT_EQ(mesh.vertices[mesh.triangles[0][2]], Vec3f(0, 1, 5));
+
+  model.accessors[0].count = 4;  // one more than there is
+  ASSERT_TRUE(tinygltf::TinyGLTF().WriteGltfSceneToFile(&model, path, true, true, false, true));
+  EXPECT_THROW(ReadMesh(path), Error);
+  model.accessors[0].count = 3;
+  model.nodes[1].children = {0};  // a circle
+  ASSERT_TRUE(tinygltf::TinyGLTF().WriteGltfSceneToFile(&model, path, true, true, false, true));
+  EXPECT_THROW(ReadMesh(path), Error);
 }
 
 TEST_F(MeshIo, AdmeshFindsNothingToRepair) {
@@ -128,7 +210,7 @@ TEST_F(MeshIo, ReadsObjWithTexturesAndBackwardIndices) {
 
 TEST_F(MeshIo, DamagedFilesAreErrors) {
   const TriangleMesh mesh = LatticeMesh();
-  for (const char* name : {"a.ply", "a.stl"}) {
+  for (const char* name : {"a.ply", "a.stl", "a.glb", "a.3mf"}) {
     WriteMesh(folder_ / name, mesh, {});
     const auto size = fs::file_size(folder_ / name);
     for (const double part : {0.0, 0.001, 0.3, 0.9}) {

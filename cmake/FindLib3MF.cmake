@@ -1,0 +1,10 @@
+# lib3MF 1.8 of Debian ships a .pc file, but no CMake config.
+find_path(Lib3MF_INCLUDE_DIR Model/COM/NMR_DLLInterfaces.h PATH_SUFFIXES lib3mf)
+find_library(Lib3MF_LIBRARY 3MF)
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(Lib3MF REQUIRED_VARS Lib3MF_LIBRARY Lib3MF_INCLUDE_DIR)
+if(Lib3MF_FOUND AND NOT TARGET Lib3MF::Lib3MF)
+  add_library(Lib3MF::Lib3MF INTERFACE IMPORTED)
+  target_include_directories(Lib3MF::Lib3MF SYSTEM INTERFACE "${Lib3MF_INCLUDE_DIR}")
+  target_link_libraries(Lib3MF::Lib3MF INTERFACE "${Lib3MF_LIBRARY}")
+endif()
