@@ -30,6 +30,7 @@ Json StagesJson(const std::vector<StageReport>& stages) {
                       {"seconds", stage.seconds},
                       {"peak_memory_bytes", stage.peak_memory},
                       {"counts", counts}});
+    if (!stage.remark.empty()) result.back()["remark"] = stage.remark;
   }
   return result;
 }

@@ -10,6 +10,7 @@
 
 #include "capture/stamps.h"
 #include "capture/text_lines.h"
+#include "kernel/atomic_file.h"
 #include "kernel/text_input.h"
 
 namespace curvefusion {
@@ -84,6 +85,17 @@ Trajectory ReadTumTrajectory(const std::filesystem::path& path, const FindingHan
       path.string(), [](const StampedPose& pose) { return pose.timestamp; }, on_finding,
       trajectory);
   return trajectory;
+}
+
+void WriteTumTrajectory(const std::filesystem::path& path, const Trajectory& trajectory) {
+  WriteStreamAtomically(path, [&](std::ostream& stream) {
+    for (const StampedPose& pose : trajectory) {
+      const Vec3 t = pose.T_world_camera.translation();
+      const Eigen::Quaterniond q(pose.T_world_camera.rotation());
+      stream << fmt::format("{:.6f} {:.9f} {:.9f} {:.9f} {:.9f} {:.9f} {:.9f} {:.9f}\n",
+                            pose.timestamp, t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w());
+    }
+  });
 }
 
 std::optional<RigidTransform> ReadPoseMatrix(const std::filesystem::path& path,

@@ -29,6 +29,10 @@ using Trajectory = std::vector<StampedPose>;
 /// Throws Error(kBadInput) where the file cannot be read.
 Trajectory ReadTumTrajectory(const std::filesystem::path& path, const FindingHandler& on_finding);
 
+/// Writes a trajectory in TUM format, one line a pose. Throws Error(kResource) where the file
+/// cannot be written.
+void WriteTumTrajectory(const std::filesystem::path& path, const Trajectory& trajectory);
+
 /// Reads a 4x4 matrix, row by row, that maps camera to world. Returns nothing, and reports, where
 /// the file does not hold one or it is not rigid.
 std::optional<RigidTransform> ReadPoseMatrix(const std::filesystem::path& path,

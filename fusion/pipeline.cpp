@@ -197,6 +197,43 @@ void ContractCarriedPoints(const SegmentedScan& scan, RunContext& run, Reconstru
   result.skeleton = Contract(result.points, "registered_frames", run);
 }
 
+RadiusEstimate AssignMeasuredRadii(RunContext& run, Reconstruction& result) {
+  RadiusEstimate estimate = MeasureRadii(result.skeleton, result.sequence, run);
+  AssignRadii(estimate, run.options.radius, result.skeleton);
+  return estimate;
+}
+
+void ReportAdjustment(const ColourAdjustment& adjusted, StageLog& log) {
+  const char* stage = "colour adjustment";
+  log.Count(stage, "frames", adjusted.frames);
+  log.Count(stage, "strips", adjusted.strips);
+  log.Count(stage, "accepted share", adjusted.accepted_share);
+  log.Count(stage, "depths", adjusted.depths);
+  log.Count(stage, "residual before, px", adjusted.start_residual_px);
+  log.Count(stage, "residual, px", adjusted.residual_px);
+  log.Count(stage, "colour shift x, px", adjusted.color_shift_px.x());
+  log.Count(stage, "colour shift y, px", adjusted.color_shift_px.y());
+  if (!adjusted.skipped.empty()) log.Remark(stage, "skipped: " + adjusted.skipped);
+}
+
+// Deviation: curves and poses as exact as the colour images show them.
+void RefineInColour(const Sequence& given, RunContext& run, Reconstruction& result) {
+  if (!run.options.colour_adjustment.enabled || result.skeleton.empty()) return;
+  AssignMeasuredRadii(run, result);
+  const StageLog::Timer timer(run.log, "colour adjustment");
+  std::vector<RigidTransform> T_world_given;
+  for (const SequenceFrame& frame : given.frames) T_world_given.push_back(frame.T_world_camera);
+  ColourAdjustment adjusted = AdjustToColours(result.skeleton, result.sequence, T_world_given,
+                                              run.options.colour_adjustment);
+  result.skeleton = std::move(adjusted.skeleton);
+  for (size_t i = 0; i < result.sequence.frames.size(); ++i) {
+    result.sequence.frames[i].T_world_camera = adjusted.T_world_camera[i];
+  }
+  ReportAdjustment(adjusted, run.log);
+  run.observer.OnProgress("colour adjustment", 1, 1);
+  run.observer.OnGraph("adjusted", result.skeleton);
+}
+
 }  // namespace
 
 Reconstruction Reconstruct(const Sequence& sequence, const PipelineOptions& options,
@@ -213,9 +250,8 @@ Reconstruction Reconstruct(const Sequence& sequence, const PipelineOptions& opti
     for (const ObservedPoints& bundle : scan.bundles) Append(result.points, bundle);
     result.skeleton = FuseBundleSkeletons(scan, run);
   }
-  const RadiusEstimate radii = MeasureRadii(result.skeleton, result.sequence, run);
-  result.global_radius = radii.global_radius;
-  AssignRadii(radii, options.radius, result.skeleton);
+  RefineInColour(sequence, run, result);
+  result.global_radius = AssignMeasuredRadii(run, result).global_radius;
   result.stages = run.log.stages();
   return result;
 }

@@ -7,6 +7,7 @@
 #include "capture/sequence.h"
 #include "fusion/alignment.h"
 #include "fusion/carried_points.h"
+#include "fusion/colour_adjustment.h"
 #include "fusion/frame_registration.h"
 #include "fusion/radius.h"
 #include "fusion/segmentation.h"
@@ -39,6 +40,7 @@ struct PipelineOptions {
   L1Options l1;
   SkeletonFusionOptions fusion;
   RadiusOptions radius;
+  ColourAdjustmentOptions colour_adjustment;
 };
 
 /// The options a profile starts from, before the config file and --set.
@@ -67,7 +69,8 @@ struct Reconstruction {
   SkeletonGraph skeleton;    ///< radii at every vertex where any could be measured
   ObservedPoints points;     ///< the points the skeleton was made from
   double global_radius = 0;  ///< the paper's one radius for all, metres; 0 = not measurable
-  /// The sequence with its poses corrected by the registration of frames (as given otherwise).
+  /// The sequence with its poses corrected by the registration of frames and the adjustment to
+  /// colours (as given otherwise).
   Sequence sequence;
   std::vector<StageReport> stages;
   std::vector<std::string> warnings;  ///< what the user should know, a sentence each

@@ -42,6 +42,7 @@ PipelineOptions BestOptions() {
   options.registration.max_points = 700;
   options.registration.max_iterations = 12;
   options.axis_depth = 0.8;
+  options.colour_adjustment.enabled = true;
   return options;
 }
 
@@ -88,6 +89,8 @@ void VisitOptions(PipelineOptions& options, OptionVisitor& visitor) {
   VisitOptions(options.fusion.smoothing, visitor);
   visitor.BeginSection("radius");
   VisitOptions(options.radius, visitor);
+  visitor.BeginSection("colour_adjustment");
+  VisitOptions(options.colour_adjustment, visitor);
 }
 
 }  // namespace curvefusion

@@ -16,6 +16,7 @@ struct StageReport {
   double seconds = 0;
   int64_t peak_memory = 0;                             ///< of the process until its end, bytes
   std::vector<std::pair<std::string, double>> counts;  ///< e.g. {"points", 48210}
+  std::string remark;                                  ///< a sentence where counts do not tell all
 };
 
 /// Collects what stages cost and find, in the order in which they first begin.
@@ -42,6 +43,9 @@ class StageLog {
 
   /// Sets a count of a stage.
   void Count(const std::string& stage, const std::string& what, double value);
+
+  /// Sets the remark of a stage.
+  void Remark(const std::string& stage, const std::string& text) { Stage(stage).remark = text; }
 
   const std::vector<StageReport>& stages() const { return stages_; }
 

@@ -85,14 +85,6 @@ double Clearance(const ProjectedSample& sample, const PointCells& cells, double 
   return clearance;
 }
 
-// The derivative of the pixel by the point in the camera frame.
-Eigen::Matrix<double, 2, 3> ProjectionJacobian(const PinholeCamera& camera, const Vec3& p) {
-  Eigen::Matrix<double, 2, 3> jacobian;
-  jacobian << camera.fx / p.z(), 0, -camera.fx * p.x() / (p.z() * p.z()), 0, camera.fy / p.z(),
-      -camera.fy * p.y() / (p.z() * p.z());
-  return jacobian;
-}
-
 // Fills what does not depend on other samples; false where the sample cannot be measured.
 bool ProjectSample(const CurveSample& sample, const PinholeCamera& camera,
                    const RigidTransform& T_camera_world, double border_px,
@@ -143,6 +135,14 @@ std::vector<CurveSample> SampleStrips(const SkeletonGraph& skeleton, double step
   return samples;
 }
 
+Eigen::Matrix<double, 2, 3> ProjectionJacobian(const PinholeCamera& camera, const Vec3& p_camera) {
+  const double x = p_camera.x() / p_camera.z();
+  const double y = p_camera.y() / p_camera.z();
+  Eigen::Matrix<double, 2, 3> jacobian;
+  jacobian << camera.fx, 0, -camera.fx * x, 0, camera.fy, -camera.fy * y;
+  return jacobian / p_camera.z();
+}
+
 std::vector<ProjectedSample> ProjectSamples(const std::vector<CurveSample>& samples,
                                             const std::vector<CurveSample>& neighbours,
                                             const PinholeCamera& camera,
@@ -150,9 +150,10 @@ std::vector<ProjectedSample> ProjectSamples(const std::vector<CurveSample>& samp
                                             double max_clearance_px) {
   const PointCells cells = ProjectNeighbours(neighbours, camera, T_camera_world, max_clearance_px);
   std::vector<ProjectedSample> visible;
-  for (const CurveSample& sample : samples) {
+  for (size_t i = 0; i < samples.size(); ++i) {
     ProjectedSample projected;
-    if (!ProjectSample(sample, camera, T_camera_world, border_px, projected)) continue;
+    if (!ProjectSample(samples[i], camera, T_camera_world, border_px, projected)) continue;
+    projected.index = static_cast<int>(i);
     projected.clearance_px = Clearance(projected, cells, max_clearance_px);
     visible.push_back(projected);
   }

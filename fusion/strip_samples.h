@@ -22,6 +22,7 @@ std::vector<CurveSample> SampleStrips(const SkeletonGraph& skeleton, double step
 
 /// A sample of a curve as one camera sees it.
 struct ProjectedSample {
+  int index = 0;  ///< among the samples that were projected
   EdgeId edge = 0;
   double arc_length = 0;
   Vec2 pixel;
@@ -31,6 +32,9 @@ struct ProjectedSample {
   double metres_per_px = 0;  ///< diameter of the cylinder whose strip is one pixel wide
   double clearance_px = 0;   ///< to the nearest strand that is not this piece of curve
 };
+
+/// The derivative of the pixel by the point in the camera's frame.
+Eigen::Matrix<double, 2, 3> ProjectionJacobian(const PinholeCamera& camera, const Vec3& p_camera);
 
 /// Projects `samples` into a camera. Left out are samples behind or outside the image (or nearer to
 /// its border than `border_px`) and those seen nearly end on (foreshortened by more than .9).

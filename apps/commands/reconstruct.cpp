@@ -14,6 +14,7 @@
 #include "apps/report.h"
 #include "apps/run_observer.h"
 #include "apps/tube_warnings.h"
+#include "capture/trajectory.h"
 #include "graph/graph_io.h"
 #include "kernel/atomic_file.h"
 #include "kernel/error.h"
@@ -46,13 +47,22 @@ void WriteText(const fs::path& path, const std::string& text) {
 
 // An earlier result must not be taken for this run's, which has none.
 void RemoveEarlierResult(const fs::path& folder) {
-  for (const char* name : {"skeleton.json", "mesh.ply", "preview.png", "report.json"})
+  for (const char* name :
+       {"skeleton.json", "trajectory.txt", "mesh.ply", "preview.png", "report.json"})
     fs::remove(folder / name);
+}
+
+Trajectory CorrectedTrajectory(const Sequence& sequence) {
+  Trajectory trajectory;
+  for (const SequenceFrame& frame : sequence.frames)
+    trajectory.push_back({frame.timestamp, frame.T_world_camera});
+  return trajectory;
 }
 
 void WriteSkeletonAndPicture(const RunRecord& record, const fs::path& folder) {
   const Reconstruction& reconstruction = record.reconstruction;
   WriteSkeleton(folder / "skeleton.json", reconstruction.skeleton);
+  WriteTumTrajectory(folder / "trajectory.txt", CorrectedTrajectory(reconstruction.sequence));
   WritePreview(folder / "preview.png",
                DrawPreview(reconstruction.skeleton, reconstruction.points, reconstruction.sequence,
                            FiguresLine(MeasureGraph(reconstruction.skeleton))));
@@ -117,7 +127,8 @@ void AddReconstructCommand(CLI::App& app, int& exit_code) {
   command->add_option("SEQUENCE", arguments->sequence, "Folder of the sequence")->required();
   command
       ->add_option("-o,--output", arguments->output,
-                   "Folder for skeleton.json, mesh.ply, preview.png, report.json, config.toml")
+                   "Folder for skeleton.json, trajectory.txt, mesh.ply, preview.png, report.json, "
+                   "config.toml")
       ->required();
   AddConfigArguments(*command, arguments->config);
   AddRunOptions(*command, arguments->run);

@@ -35,9 +35,11 @@ bool SameCamera(const PinholeCamera& a, const PinholeCamera& b) {
 
 }  // namespace
 
+double FrameTime(int frame, double frame_rate) { return kStartTime + frame / frame_rate; }
+
 std::string FrameName(int frame, double frame_rate) {
   char name[32];
-  std::snprintf(name, sizeof name, "%.6f", kStartTime + frame / frame_rate);
+  std::snprintf(name, sizeof name, "%.6f", FrameTime(frame, frame_rate));
   return name;
 }
 
@@ -75,20 +77,6 @@ void WriteFrameLists(const std::filesystem::path& folder, const std::vector<std:
   write("depth.txt", depth);
   write("associations.txt",
         [&](const std::string& name) { return color(name) + " " + depth(name); });
-}
-
-void WriteTrajectory(const std::filesystem::path& path, const std::vector<std::string>& names,
-                     const std::vector<RigidTransform>& T_world_camera) {
-  WriteStreamAtomically(path, [&](std::ostream& stream) {
-    for (size_t i = 0; i < names.size(); ++i) {
-      const Vec3 t = T_world_camera[i].translation();
-      const Eigen::Quaterniond q(T_world_camera[i].rotation());
-      char line[256];
-      std::snprintf(line, sizeof line, "%s %.9f %.9f %.9f %.9f %.9f %.9f %.9f\n", names[i].c_str(),
-                    t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w());
-      stream << line;
-    }
-  });
 }
 
 void WriteIntrinsics(const std::filesystem::path& path, const PinholeCamera& depth_camera,

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "kernel/camera.h"
-#include "kernel/geometry.h"
 #include "kernel/image.h"
 
 namespace curvefusion {
@@ -13,7 +12,10 @@ namespace curvefusion {
 /// Depth units per metre in the files.
 inline constexpr double kDepthScale = 5000;
 
-/// Name of a frame, from which its files are named too: its time in seconds.
+/// Time of a frame in seconds.
+double FrameTime(int frame, double frame_rate);
+
+/// Name of a frame, from which its files are named too: its time.
 std::string FrameName(int frame, double frame_rate);
 
 /// Depth in metres as a 16-bit PNG in units of 1/5000 m, rounded; beyond 13.1 m invalid.
@@ -25,10 +27,6 @@ void WriteColorJpeg(const std::filesystem::path& path, const ColorImage& color);
 /// rgb.txt, depth.txt and associations.txt of frames whose images are called rgb/NAME.jpg and
 /// depth/NAME.png.
 void WriteFrameLists(const std::filesystem::path& folder, const std::vector<std::string>& names);
-
-/// `t tx ty tz qx qy qz qw` lines, camera in world.
-void WriteTrajectory(const std::filesystem::path& path, const std::vector<std::string>& names,
-                     const std::vector<RigidTransform>& T_world_camera);
 
 /// intrinsics.json; the colour camera only where it differs.
 void WriteIntrinsics(const std::filesystem::path& path, const PinholeCamera& depth_camera,

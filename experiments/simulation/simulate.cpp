@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "capture/trajectory.h"
 #include "experiments/simulation/color_image.h"
 #include "experiments/simulation/depth_sensor.h"
 #include "experiments/simulation/drift.h"
@@ -171,12 +172,22 @@ nlohmann::ordered_json SceneJson(const ScanPlan& plan, const SimulationOptions& 
   return json;
 }
 
+Trajectory TrajectoryOf(const std::vector<RigidTransform>& poses,
+                        const SimulationOptions& options) {
+  Trajectory trajectory;
+  for (const RigidTransform& T_world_camera : poses) {
+    const int frame = static_cast<int>(trajectory.size());
+    trajectory.push_back({FrameTime(frame, options.motion.frame_rate), T_world_camera});
+  }
+  return trajectory;
+}
+
 void WriteTruth(const ScanPlan& plan, const SimulationOptions& options,
                 const std::filesystem::path& folder) {
   std::filesystem::create_directory(folder);
   WriteSkeleton(folder / "skeleton.json", TruthSkeleton(plan.scene.object));
   WriteCurves(folder / "curves.json", plan.scene.object);
-  WriteTrajectory(folder / "trajectory.txt", plan.frame_names, plan.true_poses);
+  WriteTumTrajectory(folder / "trajectory.txt", TrajectoryOf(plan.true_poses, options));
   const nlohmann::ordered_json scene = SceneJson(plan, options);
   WriteStreamAtomically(folder / "scene.json",
                         [&](std::ostream& stream) { stream << scene.dump(1) << "\n"; });
@@ -220,9 +231,9 @@ void SimulateScan(const SimulationOptions& options, const std::filesystem::path&
     TakeFrames(plan, options, scan, progress);
     WriteTruth(plan, options, scan / "truth");
     WriteIntrinsics(scan / "intrinsics.json", plan.sensor->camera(), plan.color.camera);
-    WriteTrajectory(
-        scan / "trajectory.txt", plan.frame_names,
-        DriftedPoses(plan.true_poses, options.motion.frame_rate, pose_errors, options.seed));
+    const std::vector<RigidTransform> drifted_poses =
+        DriftedPoses(plan.true_poses, options.motion.frame_rate, pose_errors, options.seed);
+    WriteTumTrajectory(scan / "trajectory.txt", TrajectoryOf(drifted_poses, options));
     WriteFrameLists(scan, plan.frame_names);
   });
 }

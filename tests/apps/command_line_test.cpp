@@ -111,11 +111,11 @@ TEST_F(CommandLine, ACubeGivesAllFilesAndItsThirteenJunctions) {
   const Outcome outcome = Run("reconstruct scan -o out");
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_THAT(outcome.output, HasSubstr("13 junctions, 1 free end"));
-  for (const char* name :
-       {"skeleton.json", "mesh.ply", "preview.png", "report.json", "config.toml"}) {
+  for (const char* name : {"skeleton.json", "trajectory.txt", "mesh.ply", "preview.png",
+                           "report.json", "config.toml"}) {
     EXPECT_EQ(CountFiles("out", name), 1) << name;
   }
-  EXPECT_EQ(CountFiles("out", ""), 5);  // and nothing half-written beside them
+  EXPECT_EQ(CountFiles("out", ""), 6);  // and nothing half-written beside them
 }
 
 TEST_F(CommandLine, AFolderThatCannotBeWrittenIsFive) {

@@ -66,6 +66,22 @@ TEST_F(TrajectoryTest, ReportsLinesThatAreNoPose) {
                   HasSubstr("trajectory.txt:4: the quaternion of the pose at 4 has length 2")));
 }
 
+TEST_F(TrajectoryTest, ReadsWhatWasWritten) {
+  Trajectory written(2);
+  written[0].timestamp = 1.5;
+  written[1].timestamp = 1000.033333;
+  written[1].T_world_camera.linear() =
+      Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+  written[1].T_world_camera.translation() = Vec3(-0.1, 20, 3e-5);
+  WriteTumTrajectory(folder_.path() / "trajectory.txt", written);
+  const Trajectory read = ReadTumTrajectory(folder_.path() / "trajectory.txt", FailOnFinding());
+  ASSERT_EQ(read.size(), 2u);
+  EXPECT_EQ(read[0].timestamp, 1.5);
+  EXPECT_EQ(read[1].timestamp, 1000.033333);
+  // 9 digits in the file
+  EXPECT_TRUE(read[1].T_world_camera.isApprox(written[1].T_world_camera, 1e-8));
+}
+
 TEST_F(TrajectoryTest, AMissingFileThrows) {
   EXPECT_THROW(ReadTumTrajectory(folder_.path() / "none.txt", FailOnFinding()), Error);
 }

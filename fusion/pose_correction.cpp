@@ -1,0 +1,47 @@
+#include "fusion/pose_correction.h"
+
+#include <cassert>
+
+namespace curvefusion {
+
+SmallMotion SmallMotionOf(const RigidTransform& T) {
+  const Eigen::AngleAxisd rotation(T.linear());
+  SmallMotion motion;
+  motion << T.translation(), rotation.angle() * rotation.axis();
+  return motion;
+}
+
+RigidTransform RigidTransformOf(const SmallMotion& motion) {
+  const Vec3 rotation = motion.tail<3>();
+  const double angle = rotation.norm();
+  RigidTransform T = RigidTransform::Identity();
+  if (angle > 0) T.linear() = Eigen::AngleAxisd(angle, rotation / angle).toRotationMatrix();
+  T.translation() = motion.head<3>();
+  return T;
+}
+
+std::vector<RigidTransform> InterpolateCorrections(const std::vector<RigidTransform>& given,
+                                                   const std::vector<int>& indices,
+                                                   const std::vector<RigidTransform>& corrected) {
+  assert(indices.size() == corrected.size());
+  if (indices.empty()) return given;
+  std::vector<SmallMotion> motions;
+  for (size_t i = 0; i < indices.size(); ++i) {
+    motions.push_back(SmallMotionOf(given[indices[i]].inverse() * corrected[i]));
+  }
+  std::vector<RigidTransform> poses;
+  size_t next = 0;  // the first of the indices that is not before the frame
+  for (size_t frame = 0; frame < given.size(); ++frame) {
+    while (next < indices.size() && indices[next] < static_cast<int>(frame)) ++next;
+    SmallMotion motion = next < indices.size() ? motions[next] : motions.back();
+    if (next > 0 && next < indices.size()) {
+      const double share = (static_cast<double>(frame) - indices[next - 1]) /
+                           static_cast<double>(indices[next] - indices[next - 1]);
+      motion = (1 - share) * motions[next - 1] + share * motions[next];
+    }
+    poses.push_back(given[frame] * RigidTransformOf(motion));
+  }
+  return poses;
+}
+
+}  // namespace curvefusion
