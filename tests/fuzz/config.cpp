@@ -1,4 +1,4 @@
-#include "apps/config.h"
+#include "experiments/config.h"
 
 #include "tests/fuzz/fuzz_target.h"
 
