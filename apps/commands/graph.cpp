@@ -70,7 +70,7 @@ void Export(const std::filesystem::path& path, const SkeletonGraph& graph, bool 
   const std::vector<std::string> losses = ExportSkeleton(path, graph);
   if (quiet) return;
   fmt::print("Wrote {}\n", path.string());
-  for (const std::string& loss : losses) fmt::print("  not kept: {}\n", loss);
+  for (const std::string& loss : losses) fmt::print("  {}\n", loss);
 }
 
 void CheckUsage(const GraphArguments& arguments) {
