@@ -197,17 +197,14 @@ void ContractCarriedPoints(const SegmentedScan& scan, RunContext& run, Reconstru
   result.skeleton = Contract(result.points, "registered_frames", run);
 }
 
-}  // namespace
-
-Reconstruction Reconstruct(const Sequence& sequence, const PipelineOptions& options,
-                           PipelineObserver& observer) {
-  RunContext run{options, observer, {}};
+// Everything after the volume.
+Reconstruction ReconstructThinParts(const TsdfVolume& volume, const Sequence& sequence,
+                                    RunContext& run) {
   Reconstruction result;
   result.sequence = sequence;
   result.warnings = sequence.warnings;
-  const TsdfVolume volume = FuseVolume(sequence, run);
   const SegmentedScan scan = SegmentBundles(sequence, volume, run);
-  if (options.carry_points) {
+  if (run.options.carry_points) {
     ContractCarriedPoints(scan, run, result);
   } else {
     for (const ObservedPoints& bundle : scan.bundles) Append(result.points, bundle);
@@ -215,9 +212,24 @@ Reconstruction Reconstruct(const Sequence& sequence, const PipelineOptions& opti
   }
   const RadiusEstimate radii = MeasureRadii(result.skeleton, result.sequence, run);
   result.global_radius = radii.global_radius;
-  AssignRadii(radii, options.radius, result.skeleton);
+  AssignRadii(radii, run.options.radius, result.skeleton);
   result.stages = run.log.stages();
   return result;
+}
+
+}  // namespace
+
+Reconstruction Reconstruct(const Sequence& sequence, const PipelineOptions& options,
+                           PipelineObserver& observer) {
+  RunContext run{options, observer, {}};
+  const TsdfVolume volume = FuseVolume(sequence, run);
+  return ReconstructThinParts(volume, sequence, run);
+}
+
+Reconstruction ReconstructAgainst(const TsdfVolume& volume, const Sequence& sequence,
+                                  const PipelineOptions& options, PipelineObserver& observer) {
+  RunContext run{options, observer, {}};
+  return ReconstructThinParts(volume, sequence, run);
 }
 
 }  // namespace curvefusion

@@ -14,6 +14,7 @@
 #include "apps/report.h"
 #include "apps/run_observer.h"
 #include "apps/tube_warnings.h"
+#include "experiments/pictures/png.h"
 #include "graph/graph_io.h"
 #include "kernel/atomic_file.h"
 #include "kernel/error.h"
@@ -53,9 +54,9 @@ void RemoveEarlierResult(const fs::path& folder) {
 void WriteSkeletonAndPicture(const RunRecord& record, const fs::path& folder) {
   const Reconstruction& reconstruction = record.reconstruction;
   WriteSkeleton(folder / "skeleton.json", reconstruction.skeleton);
-  WritePreview(folder / "preview.png",
-               DrawPreview(reconstruction.skeleton, reconstruction.points, reconstruction.sequence,
-                           FiguresLine(MeasureGraph(reconstruction.skeleton))));
+  WritePng(folder / "preview.png",
+           DrawPreview(reconstruction.skeleton, reconstruction.points, reconstruction.sequence,
+                       FiguresLine(MeasureGraph(reconstruction.skeleton))));
 }
 
 // Sweeps and writes the tubes. Where that fails the skeleton stays.

@@ -9,6 +9,7 @@
 #include "apps/demo_scan.h"
 #include "apps/frame_overlay.h"
 #include "experiments/pictures/picture_style.h"
+#include "experiments/pictures/png.h"
 
 namespace curvefusion {
 namespace {
@@ -52,7 +53,7 @@ TEST_F(Preview, IsTheSameEveryTime) {
 }
 
 TEST_F(Preview, IsWrittenAsAPicture) {
-  WritePreview(folder_ / "preview.png", DrawPreview(Upright(), {}, sequence_, "one curve"));
+  WritePng(folder_ / "preview.png", DrawPreview(Upright(), {}, sequence_, "one curve"));
   EXPECT_GT(fs::file_size(folder_ / "preview.png"), 1000u);
 }
 
