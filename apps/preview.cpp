@@ -4,14 +4,11 @@
 
 #include <algorithm>
 #include <array>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "apps/frame_overlay.h"
 #include "experiments/pictures/orthographic_view.h"
 #include "experiments/pictures/picture_style.h"
-#include "kernel/atomic_file.h"
-#include "kernel/error.h"
 
 namespace curvefusion {
 
@@ -112,17 +109,6 @@ ColorImage DrawPreview(const SkeletonGraph& graph, const ObservedPoints& points,
   Text(canvas, footer, {2 * kGap, kHeight - kFooterHeight + 2, text_width, kFooterHeight - 8}, 0.5,
        kPaleInk);
   return preview;
-}
-
-void WritePreview(const std::filesystem::path& path, const ColorImage& preview) {
-  ColorImage copy = preview;
-  cv::Mat image;
-  cv::cvtColor(View(copy), image, cv::COLOR_RGB2BGR);
-  WriteFileAtomically(path, [&](const std::filesystem::path& temporary) {
-    if (!cv::imwrite(temporary.string(), image)) {
-      throw Error(ErrorKind::kResource, path.string() + ": cannot be written");
-    }
-  });
 }
 
 }  // namespace curvefusion

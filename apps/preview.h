@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
 
 #include "capture/sequence.h"
@@ -15,9 +14,6 @@ namespace curvefusion {
 /// The graph must not be empty.
 ColorImage DrawPreview(const SkeletonGraph& graph, const ObservedPoints& points,
                        const Sequence& sequence, const std::string& title);
-
-/// DrawPreview into a PNG file, atomically.
-void WritePreview(const std::filesystem::path& path, const ColorImage& preview);
 
 /// The axes of the view from the mean camera: rows are right, up and towards the viewer.
 Mat3 MeanCameraAxes(const Sequence& sequence);

@@ -234,17 +234,14 @@ void RefineInColour(const Sequence& given, RunContext& run, Reconstruction& resu
   run.observer.OnGraph("adjusted", result.skeleton);
 }
 
-}  // namespace
-
-Reconstruction Reconstruct(const Sequence& sequence, const PipelineOptions& options,
-                           PipelineObserver& observer) {
-  RunContext run{options, observer, {}};
+// Everything after the volume.
+Reconstruction ReconstructThinParts(const TsdfVolume& volume, const Sequence& sequence,
+                                    RunContext& run) {
   Reconstruction result;
   result.sequence = sequence;
   result.warnings = sequence.warnings;
-  const TsdfVolume volume = FuseVolume(sequence, run);
   const SegmentedScan scan = SegmentBundles(sequence, volume, run);
-  if (options.carry_points) {
+  if (run.options.carry_points) {
     ContractCarriedPoints(scan, run, result);
   } else {
     for (const ObservedPoints& bundle : scan.bundles) Append(result.points, bundle);
@@ -254,6 +251,21 @@ Reconstruction Reconstruct(const Sequence& sequence, const PipelineOptions& opti
   result.global_radius = AssignMeasuredRadii(run, result).global_radius;
   result.stages = run.log.stages();
   return result;
+}
+
+}  // namespace
+
+Reconstruction Reconstruct(const Sequence& sequence, const PipelineOptions& options,
+                           PipelineObserver& observer) {
+  RunContext run{options, observer, {}};
+  const TsdfVolume volume = FuseVolume(sequence, run);
+  return ReconstructThinParts(volume, sequence, run);
+}
+
+Reconstruction ReconstructAgainst(const TsdfVolume& volume, const Sequence& sequence,
+                                  const PipelineOptions& options, PipelineObserver& observer) {
+  RunContext run{options, observer, {}};
+  return ReconstructThinParts(volume, sequence, run);
 }
 
 }  // namespace curvefusion

@@ -80,4 +80,9 @@ struct Reconstruction {
 Reconstruction Reconstruct(const Sequence& sequence, const PipelineOptions& options,
                            PipelineObserver& observer);
 
+/// The rest of the method where the large surfaces are known already: `volume` holds them in the
+/// sequence's world frame and may have seen more frames than the sequence has.
+Reconstruction ReconstructAgainst(const TsdfVolume& volume, const Sequence& sequence,
+                                  const PipelineOptions& options, PipelineObserver& observer);
+
 }  // namespace curvefusion

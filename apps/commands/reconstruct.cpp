@@ -15,6 +15,7 @@
 #include "apps/run_observer.h"
 #include "apps/tube_warnings.h"
 #include "capture/trajectory.h"
+#include "experiments/pictures/png.h"
 #include "graph/graph_io.h"
 #include "kernel/atomic_file.h"
 #include "kernel/error.h"
@@ -63,9 +64,9 @@ void WriteSkeletonAndPicture(const RunRecord& record, const fs::path& folder) {
   const Reconstruction& reconstruction = record.reconstruction;
   WriteSkeleton(folder / "skeleton.json", reconstruction.skeleton);
   WriteTumTrajectory(folder / "trajectory.txt", CorrectedTrajectory(reconstruction.sequence));
-  WritePreview(folder / "preview.png",
-               DrawPreview(reconstruction.skeleton, reconstruction.points, reconstruction.sequence,
-                           FiguresLine(MeasureGraph(reconstruction.skeleton))));
+  WritePng(folder / "preview.png",
+           DrawPreview(reconstruction.skeleton, reconstruction.points, reconstruction.sequence,
+                       FiguresLine(MeasureGraph(reconstruction.skeleton))));
 }
 
 // Sweeps and writes the tubes. Where that fails the skeleton stays.

@@ -21,22 +21,14 @@ constexpr size_t kMostDots = 400000;
 
 cv::Scalar Ink(const Rgb& color) { return {double(color[0]), double(color[1]), double(color[2])}; }
 
-Eigen::AlignedBox3d ViewBounds(const SkeletonGraph& graph, const Mat3& R_view_world) {
-  Eigen::AlignedBox3d bounds;
-  for (const EdgeId edge : graph.Edges()) {
-    for (const Vec3& p : graph.edge(edge).points) bounds.extend(R_view_world * p);
-  }
-  return bounds;
-}
-
 // Draws at kSupersampling times the size of the picture that comes out.
 class Panel {
  public:
-  Panel(const SkeletonGraph& graph, const OrthographicView& view, int width, int height,
+  Panel(const Eigen::AlignedBox3d& bounds, const OrthographicView& view, int width, int height,
         double scale)
       : view_(view),
         scale_(scale * kSupersampling),
-        bounds_(ViewBounds(graph, view.R_view_world)),
+        bounds_(bounds),
         image_(height * kSupersampling, width * kSupersampling, CV_8UC3, Ink(kWhite)) {}
 
   void DrawPoints(const ObservedPoints& points) {
@@ -141,6 +133,14 @@ class Panel {
 
 }  // namespace
 
+Eigen::AlignedBox3d ViewBounds(const SkeletonGraph& graph, const Mat3& R_view_world) {
+  Eigen::AlignedBox3d bounds;
+  for (const EdgeId edge : graph.Edges()) {
+    for (const Vec3& p : graph.edge(edge).points) bounds.extend(R_view_world * p);
+  }
+  return bounds;
+}
+
 Vec2 ViewExtent(const SkeletonGraph& graph, const Mat3& R_view_world) {
   const Eigen::AlignedBox3d bounds = ViewBounds(graph, R_view_world);
   return bounds.isEmpty() ? Vec2::Zero() : Vec2(bounds.sizes().head<2>());
@@ -148,10 +148,17 @@ Vec2 ViewExtent(const SkeletonGraph& graph, const Mat3& R_view_world) {
 
 ColorImage DrawOrthographicView(const SkeletonGraph& graph, const ObservedPoints& points,
                                 const OrthographicView& view, int width, int height, double scale) {
-  Panel panel(graph, view, width, height, scale);
+  return DrawFramedView(graph, points, view, ViewBounds(graph, view.R_view_world), width, height,
+                        scale);
+}
+
+ColorImage DrawFramedView(const SkeletonGraph& graph, const ObservedPoints& points,
+                          const OrthographicView& view, const Eigen::AlignedBox3d& bounds,
+                          int width, int height, double scale) {
+  Panel panel(bounds, view, width, height, scale);
   panel.DrawPoints(points);
   panel.DrawGraph(graph);
-  panel.DrawScaleBar();
+  if (view.scale_bar) panel.DrawScaleBar();
   panel.DrawName();
   return panel.Reduced();
 }

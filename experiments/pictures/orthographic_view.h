@@ -13,7 +13,11 @@ namespace curvefusion {
 struct OrthographicView {
   std::string name;
   Mat3 R_view_world = Mat3::Identity();  ///< rows: right, up, towards the viewer
+  bool scale_bar = true;
 };
+
+/// The box around a graph in a view's axes; empty for an empty graph.
+Eigen::AlignedBox3d ViewBounds(const SkeletonGraph& graph, const Mat3& R_view_world);
 
 /// Width and height (metres) of a graph seen in a view.
 Vec2 ViewExtent(const SkeletonGraph& graph, const Mat3& R_view_world);
@@ -23,5 +27,11 @@ Vec2 ViewExtent(const SkeletonGraph& graph, const Mat3& R_view_world);
 /// pixels per metre.
 ColorImage DrawOrthographicView(const SkeletonGraph& graph, const ObservedPoints& points,
                                 const OrthographicView& view, int width, int height, double scale);
+
+/// The same with the middle of another box (in the view's axes) in the middle of the picture, to
+/// draw several graphs of one object alike.
+ColorImage DrawFramedView(const SkeletonGraph& graph, const ObservedPoints& points,
+                          const OrthographicView& view, const Eigen::AlignedBox3d& bounds,
+                          int width, int height, double scale);
 
 }  // namespace curvefusion

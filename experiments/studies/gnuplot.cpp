@@ -20,7 +20,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int kPngDpi = 200;
-constexpr double kGnuplotDpi = 72;  // what its font and line sizes are made for
+constexpr double kLineDpi = 72;  // what gnuplot's line widths and point sizes are made for
+constexpr double kFontDpi = 96;  // and its font sizes in pixels
 
 // Runs gnuplot in `folder`, its messages in folder/log. False where it cannot be run or fails.
 bool RunGnuplot(const fs::path& folder, const std::string& argument, const std::string& log) {
@@ -52,14 +53,13 @@ void WriteText(const fs::path& path, const std::string& text) {
 
 // One set of commands, drawn into a PNG and a PDF of the same look.
 std::string Script(const std::string& name, const Plot& plot) {
-  const double scale = kPngDpi / kGnuplotDpi;
   return fmt::format(
       R"(# Draws {0}.png and {0}.pdf from {0}.dat: gnuplot {0}.gp
 data = '{0}.dat'
 do for [format in 'png pdf'] {{
 reset
 if (format eq 'png') {{
-  set terminal pngcairo size {1:.0f},{2:.0f} font 'DejaVu Sans,8' fontscale {3:.3f} linewidth {3:.3f} pointscale {3:.3f}
+  set terminal pngcairo size {1:.0f},{2:.0f} font 'DejaVu Sans,8' fontscale {3:.3f} linewidth {7:.3f} pointscale {7:.3f}
 }} else {{
   set terminal pdfcairo size {4}in,{5}in font 'DejaVu Sans,8'
 }}
@@ -72,15 +72,15 @@ set linetype 4 linecolor rgb '#CC79A7' linewidth 1.6 pointtype 13 pointsize 0.8
 set linetype 5 linecolor rgb '#E69F00' linewidth 1.6 pointtype 11 pointsize 0.7
 set linetype 6 linecolor rgb '#56B4E9' linewidth 1.6 pointtype 15 pointsize 0.7
 set border 3 linecolor rgb '#444444' linewidth 0.8
-set grid linecolor rgb '#DDDDDD' linewidth 0.5 dashtype 1
+set grid linecolor rgb '#DDDDDD' linewidth 0.6 dashtype 1
 set tics nomirror out scale 0.6
 set key noautotitle
 {6}
 unset output
 }}
 )",
-      name, plot.width * kPngDpi, plot.height * kPngDpi, scale, plot.width, plot.height,
-      plot.commands);
+      name, plot.width * kPngDpi, plot.height * kPngDpi, kPngDpi / kFontDpi, plot.width,
+      plot.height, plot.commands, kPngDpi / kLineDpi);
 }
 
 }  // namespace

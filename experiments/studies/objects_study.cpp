@@ -37,20 +37,21 @@ std::vector<StudyCase> Cases(const StudyRequest& request) {
   return cases;
 }
 
-const std::vector<TableColumn> kColumns = {{"F5", "raw.curves.5mm.f"},
-                                           {"F2", "raw.curves.2mm.f"},
-                                           {"F5 aligned", "aligned.curves.5mm.f"},
-                                           {"F2 aligned", "aligned.curves.2mm.f"},
-                                           {"junction recall", "raw.junctions_10mm.recall"},
-                                           {"junction precision", "raw.junctions_10mm.precision"},
-                                           {"valence right", "raw.junctions_10mm.valence_share"},
-                                           {"pieces", "components", 0},
-                                           {"cycles", "cycles", 0},
-                                           {"true cycles", "true_cycles", 0},
-                                           {"diameter error (mm)", "raw.diameter.mean_error_mm"},
-                                           {"s per 30 frames", "seconds_per_30_frames", 1},
-                                           {"CPU s per 30 frames", "cpu_seconds_per_30_frames", 1},
-                                           {"memory (MB)", "peak_memory_mb", 0}};
+const std::vector<TableColumn> kColumns = {
+    {"F5", "raw.curves.5mm.f"},
+    {"F2", "raw.curves.2mm.f"},
+    {"F5 aligned", "aligned.curves.5mm.f"},
+    {"F2 aligned", "aligned.curves.2mm.f"},
+    {"junction recall", "aligned.junctions_10mm.recall"},
+    {"junction precision", "aligned.junctions_10mm.precision"},
+    {"valence right", "aligned.junctions_10mm.valence_share"},
+    {"pieces", "components", 0},
+    {"cycles", "cycles", 0},
+    {"true cycles", "true_cycles", 0},
+    {"diameter error (mm)", "raw.diameter.mean_error_mm"},
+    {"s per 30 frames", "seconds_per_30_frames", 1},
+    {"CPU s per 30 frames", "cpu_seconds_per_30_frames", 1},
+    {"memory (MB)", "peak_memory_mb", 0}};
 
 std::string Share(double part, double whole) {
   return whole > 0 ? fmt::format("{:.3f}", part / whole) : "-";
@@ -83,10 +84,10 @@ struct Panel {
   const char* title;
   const char* figure;
 };
-constexpr Panel kPanels[] = {{"F at 5 mm", "raw.curves.5mm.f"},
+constexpr Panel kPanels[] = {{"F at 5 mm, aligned", "aligned.curves.5mm.f"},
                              {"F at 2 mm, aligned", "aligned.curves.2mm.f"},
-                             {"Junction recall", "raw.junctions_10mm.recall"},
-                             {"Junction precision", "raw.junctions_10mm.precision"}};
+                             {"Junction recall", "aligned.junctions_10mm.recall"},
+                             {"Junction precision", "aligned.junctions_10mm.precision"}};
 
 // A block a profile, a row an object: name, then median, least and greatest of every panel.
 std::string PlotData(const std::vector<RunGroup>& groups, const std::vector<RunGroup>& profiles) {
@@ -105,27 +106,25 @@ std::string PlotData(const std::vector<RunGroup>& groups, const std::vector<RunG
 }
 
 // Medians as bars, with lines from the least to the greatest value.
-std::string PlotCommands(const std::vector<RunGroup>& profiles) {
+std::string PlotCommands(const std::vector<RunGroup>& profiles, size_t objects) {
   std::string commands =
+      fmt::format("set xrange [-0.6:{:.1f}]\n", static_cast<double>(objects) - 0.4) +
       "set datafile missing '?'\nset yrange [0:1.05]\nset ytics 0.2\nset xtics rotate by 35 right "
-      "scale 0\nunset grid\nset grid ytics linecolor rgb '#DDDDDD' linewidth 0.5 dashtype 1\n"
-      "set boxwidth 0.36\nset style fill solid 0.85 noborder\nset xrange [-0.6:*]\n"
-      "set multiplot layout 2,2 margins 0.06,0.99,0.13,0.90 spacing 0.07,0.21\n";
+      "scale 0\nunset grid\nset grid ytics linecolor rgb '#DDDDDD' linewidth 0.6 dashtype 1\n"
+      "set errorbars small linecolor rgb '#222222' linewidth 0.9\nset style fill solid 0.85 "
+      "noborder\n"
+      "set multiplot layout 2,2 margins 0.055,0.99,0.115,0.89 spacing 0.065,0.21\n";
   int column = 2;
   for (const Panel& panel : kPanels) {
     const bool first = column == 2;
     commands += fmt::format("set title '{}' offset 0,-0.6\n", panel.title);
     commands += first ? "set key at screen 0.5,0.985 center top horizontal\n" : "unset key\n";
-    std::vector<std::string> parts;
+    std::vector<std::string> parts = {"data index 0 using 0:(0):xtic(1) with points pointsize 0"};
     for (size_t i = 0; i < profiles.size(); ++i) {
       const double shift = (static_cast<double>(i) - (profiles.size() - 1) / 2.) * 0.38;
-      parts.push_back(
-          fmt::format("data index {} using ($0{:+}):{}:xtic(1) with boxes lt {} title '{}'", i,
-                      shift, column, i + 1, profiles[i].labels.front().second));
-      parts.push_back(
-          fmt::format("data index {} using ($0{:+}):{}:{}:{} with yerrorbars pt -1 lw 0.9 "
-                      "lc rgb '#222222'",
-                      i, shift, column, column + 1, column + 2));
+      parts.push_back(fmt::format(
+          "data index {0} using ($0{1:+}):{2}:{3}:{4}:(0.36) with boxerrorbars lt {5} title '{6}'",
+          i, shift, column, column + 1, column + 2, i + 1, profiles[i].labels.front().second));
     }
     commands += fmt::format("plot {}\n", fmt::join(parts, ", "));
     column += 3;
@@ -139,7 +138,8 @@ void Report(const StudyResults& results) {
   WriteTable(results.folder, results.stem, MedianTable(groups, kColumns));
   WriteTable(results.folder, results.stem + "_junctions", PooledJunctions(results.runs));
   DrawPlot(results.folder, results.stem,
-           {PlotData(groups, profiles), PlotCommands(profiles), 6.5, 4.2});
+           {PlotData(groups, profiles), PlotCommands(profiles, groups.size() / profiles.size()),
+            6.5, 4.2});
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "apps/frame_overlay.h"
 #include "experiments/pictures/picture_style.h"
+#include "experiments/pictures/png.h"
 #include "experiments/simulation/simulate.h"
 #include "tests/temporary_path.h"
 
@@ -57,7 +58,7 @@ TEST_F(Preview, IsTheSameEveryTime) {
 }
 
 TEST_F(Preview, IsWrittenAsAPicture) {
-  WritePreview(Folder() / "preview.png", DrawPreview(Upright(), {}, sequence_, "one curve"));
+  WritePng(Folder() / "preview.png", DrawPreview(Upright(), {}, sequence_, "one curve"));
   EXPECT_GT(fs::file_size(Folder() / "preview.png"), 1000u);
 }
 

@@ -151,7 +151,7 @@ TEST_F(CloudFile, NamesLineOrVertexOfBadPlyValues) {
 }
 
 TEST_F(CloudFile, HugeVertexCountIsTruncationNotExhaustion) {
-  EXPECT_THAT(ErrorOf("ply\nformat binary_little_endian 1.0\nelement vertex 18446744073709551615\n"
+  EXPECT_THAT(ErrorOf("ply\nformat binary_little_endian 1.0\nelement vertex 9223372036854775807\n"
                       "property double x\nproperty double y\nproperty double z\nend_header\n"),
               HasSubstr("truncated"));
 }

@@ -1,0 +1,306 @@
+// How many frames make a bundle? "when too few frames are grouped together, e.g. k=1 or 4, the
+// merged point cloud is too sparse and leads to a broken partial skeleton ... when too many, e.g.
+// k=240 or 1000, the merged point cloud becomes more dense but too blurry"; and VolumeFusion "fails
+// to produce satisfactory reconstruction from any accumulated point cloud" (CurveFusion 4, Effect
+// of bundle size, and its figure).
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "capture/sequence.h"
+#include "capture/trajectory.h"
+#include "experiments/metrics/evaluation_files.h"
+#include "experiments/metrics/truth.h"
+#include "experiments/pictures/mesh_view.h"
+#include "experiments/pictures/orthographic_view.h"
+#include "experiments/pictures/png.h"
+#include "experiments/studies/gnuplot.h"
+#include "experiments/studies/reconstruction_run.h"
+#include "experiments/studies/result_table.h"
+#include "experiments/studies/studies.h"
+#include "kernel/error.h"
+
+namespace curvefusion {
+
+namespace {
+
+constexpr int kFrames = 300;
+constexpr int kQuickFrames = 80;
+constexpr const char* kVolume = "VolumeFusion";
+// Fine enough for a wire of 4.5 mm; a finer one holds more noise, not more wire.
+constexpr double kFineVoxel = 2 * kMillimetre;
+// The room behind the wires is seen in every frame: a third of them shows it as well.
+constexpr int kRoomStride = 3;
+constexpr int kPicture = 420;   // pixels, width and height of a picture
+constexpr double kFilled = .9;  // share of it that the object fills
+
+struct Scale {
+  std::vector<std::string> objects;
+  std::vector<int> sizes;
+  int frames;
+};
+
+Scale ScaleOf(const StudyRequest& request) {
+  if (request.quick) return {{"cat"}, {1, 4, 10, 30, kQuickFrames}, kQuickFrames};
+  return {{"cat", "deco", "rack"}, {1, 4, 10, 30, 80, 240, kFrames}, kFrames};
+}
+
+std::vector<StudyCase> Cases(const StudyRequest& request) {
+  const Scale scale = ScaleOf(request);
+  std::vector<StudyCase> cases;
+  for (const std::string& object : scale.objects) {
+    for (const uint64_t seed : SeedsOf(request)) {
+      SimulationOptions scan;
+      scan.object = object;
+      scan.seed = seed;
+      scan.frames = scale.frames;
+      for (const int size : scale.sizes) {
+        const auto add = [&](const std::string& method, const Config& config) {
+          cases.push_back(
+              {{{"object", object}, {"frames", std::to_string(size)}, {"method", method}},
+               seed,
+               scan,
+               config});
+        };
+        for (const Profile profile : request.profiles) {
+          add(ProfileName(profile),
+              CaseConfig(request, profile, {fmt::format("bundle.frames={}", size)}));
+        }
+        add(kVolume, CaseConfig(request, Profile::kPaper,
+                                {fmt::format("volume.voxel_size={}", kFineVoxel)}));
+      }
+    }
+  }
+  return cases;
+}
+
+// The scan moved so that the pose of its middle frame is the true one: a single bundle is wrong by
+// the drift within it, not by the drift before it.
+Sequence AnchoredScan(const std::filesystem::path& scan) {
+  Sequence sequence = OpenSequence(scan);
+  const Trajectory truth = ReadTumTrajectory(scan / "truth" / "trajectory.txt", [](const auto&) {});
+  const SequenceFrame& middle = sequence.frames[sequence.frames.size() / 2];
+  const StampedPose* pose = NearestPose(truth, middle.timestamp);
+  if (pose == nullptr) {
+    throw Error(ErrorKind::kBadInput,
+                (scan / "truth").string() + ": has no pose at " + middle.name);
+  }
+  const RigidTransform T_true_given = pose->T_world_camera * middle.T_world_camera.inverse();
+  for (SequenceFrame& frame : sequence.frames) {
+    frame.T_world_camera = T_true_given * frame.T_world_camera;
+  }
+  return sequence;
+}
+
+// So many frames around the middle one.
+Sequence MiddleFrames(const Sequence& sequence, int count) {
+  Sequence middle = sequence;
+  const int first = std::max(0, sequence.frame_count() / 2 - count / 2);
+  const int last = std::min(first + count, sequence.frame_count());
+  middle.frames.assign(sequence.frames.begin() + first, sequence.frames.begin() + last);
+  return middle;
+}
+
+TsdfVolume FusedVolume(const Sequence& sequence, const TsdfOptions& options, int stride,
+                       const Progress& progress) {
+  TsdfVolume volume(options);
+  for (int i = 0; i < sequence.frame_count(); i += stride) {
+    volume.Integrate(LoadDepth(sequence, i), sequence.depth_camera,
+                     sequence.frames[i].T_world_camera);
+    progress("volume", i + 1, sequence.frame_count());
+  }
+  return volume;
+}
+
+// Where the true object stands in every picture of it.
+struct Framing {
+  OrthographicView view;
+  Eigen::AlignedBox3d bounds;
+  double scale = 1;  // pixels per metre
+};
+
+// From the side of -y, where the simulator's camera is, and a little from above.
+Framing FramingOf(const SkeletonGraph& truth) {
+  Framing framing;
+  const Mat3 tilt = Eigen::AngleAxisd(0.3, Vec3::UnitX()).toRotationMatrix();
+  Mat3 front;
+  front << 1, 0, 0, 0, 0, 1, 0, -1, 0;
+  framing.view = {"", tilt * front, false};
+  framing.bounds = ViewBounds(truth, framing.view.R_view_world);
+  framing.scale = kFilled * kPicture / framing.bounds.sizes().head<2>().maxCoeff();
+  return framing;
+}
+
+ColorImage Picture(const SkeletonGraph& graph, const ObservedPoints& points,
+                   const Framing& framing) {
+  return DrawFramedView(graph, points, framing.view, framing.bounds, kPicture, kPicture,
+                        framing.scale);
+}
+
+// What skeletons and surfaces are compared in.
+void AddCommonFigures(const std::string& kind, const std::string& pieces, Figures& figures) {
+  const auto copy = [&](const std::string& from, const char* to) {
+    const auto found = figures.find(from);
+    figures[to] = found == figures.end() ? 0 : found->second;
+  };
+  copy(kind + ".5mm.f", "F5");
+  copy(kind + ".2mm.f", "F2");
+  copy(kind + ".5mm.recall", "recall");
+  copy(kind + ".5mm.precision", "precision");
+  copy(pieces, "pieces");
+}
+
+RunOutcome RunVolume(const RunInput& input, const Sequence& bundle, const SkeletonGraph& truth) {
+  const TsdfVolume volume =
+      FusedVolume(bundle, input.study_case.config.pipeline.volume, 1, input.progress);
+  const TriangleMesh mesh = PartAroundTruth(volume.ExtractMesh(), truth).mesh;
+  const Framing framing = FramingOf(truth);
+  WritePng(input.folder / "mesh.png",
+           DrawMesh(mesh, framing.view, framing.bounds, kPicture, kPicture, framing.scale));
+  RunOutcome outcome{!mesh.triangles.empty(), EvaluationFigures(Evaluate({}, &mesh, truth))};
+  AddCommonFigures("raw.surface", "mesh.components", outcome.figures);
+  return outcome;
+}
+
+RunOutcome RunSkeleton(const RunInput& input, const Sequence& scan, const Sequence& bundle,
+                       const SkeletonGraph& truth) {
+  const PipelineOptions& options = input.study_case.config.pipeline;
+  const TsdfVolume room = FusedVolume(scan, options.volume, kRoomStride, input.progress);
+  InterruptibleObserver observer(input.progress);
+  const Reconstruction result = ReconstructAgainst(room, bundle, options, observer);
+  const Framing framing = FramingOf(truth);
+  WritePng(input.folder / "points.png", Picture({}, result.points, framing));
+  WritePng(input.folder / "skeleton.png", Picture(result.skeleton, {}, framing));
+  RunOutcome outcome = EvaluateAndKeep(result.skeleton, input);
+  AddCommonFigures("raw.curves", "components", outcome.figures);
+  return outcome;
+}
+
+RunOutcome Run(const RunInput& input) {
+  const Labels& labels = input.study_case.labels;
+  const Sequence scan = AnchoredScan(input.scan);
+  const Sequence bundle = MiddleFrames(scan, std::stoi(LabelOf(labels, "frames")));
+  const SkeletonGraph truth = ReadTruth(input.scan / "truth");
+  return LabelOf(labels, "method") == kVolume ? RunVolume(input, bundle, truth)
+                                              : RunSkeleton(input, scan, bundle, truth);
+}
+
+const std::vector<TableColumn> kColumns = {{"F5", "F5"},
+                                           {"F2", "F2"},
+                                           {"recall at 5 mm", "recall"},
+                                           {"precision at 5 mm", "precision"},
+                                           {"junction recall", "raw.junctions_10mm.recall"},
+                                           {"junction precision", "raw.junctions_10mm.precision"},
+                                           {"pieces", "pieces", 0}};
+
+struct Panel {
+  const char* title;
+  const char* figure;
+};
+constexpr Panel kPanels[] = {{"F at 5 mm", "F5"},
+                             {"F at 2 mm", "F2"},
+                             {"Junction recall", "raw.junctions_10mm.recall"},
+                             {"Pieces (truth: 1)", "pieces"}};
+
+// A block a method: number of frames, then median, least and greatest of every panel.
+std::string PlotData(const std::vector<RunGroup>& groups, const std::vector<RunGroup>& methods) {
+  std::string data;
+  for (const RunGroup& method : methods) {
+    const std::string name = method.labels.front().second;
+    data += "# " + name + "\n";
+    for (const RunGroup& group : groups) {
+      if (LabelOf(group.labels, "method") != name) continue;
+      data += LabelOf(group.labels, "frames");
+      for (const Panel& panel : kPanels) data += " " + SpreadData(group, panel.figure);
+      data += "\n";
+    }
+    data += "\n\n";
+  }
+  return data;
+}
+
+std::string PlotCommands(const std::vector<RunGroup>& methods) {
+  std::string commands =
+      "set datafile missing '?'\nset logscale x\nset xrange [0.8:400]\n"
+      "set xtics (1, 4, 10, 30, 80, 300)\nset xlabel 'Frames in the bundle' offset 0,0.4\n"
+      "set object 1 rectangle from first 10,graph 0 to first 80,graph 1 behind fillcolor rgb "
+      "'#F3F3F3' fillstyle solid noborder\n"
+      "set multiplot layout 2,2 margins 0.07,0.985,0.11,0.88 spacing 0.09,0.20\n"
+      "set key at screen 0.5,0.985 center top horizontal\n";
+  int column = 2;
+  for (const Panel& panel : kPanels) {
+    const bool is_count = std::string(panel.figure) == "pieces";
+    commands += fmt::format("set title '{}' offset 0,-0.6\n{}\n", panel.title,
+                            is_count ? "set logscale y; set yrange [0.8:*]; set ytics auto"
+                                     : "set yrange [0:1.05]; set ytics 0.2");
+    std::vector<std::string> parts;
+    for (size_t i = 0; i < methods.size(); ++i) {
+      parts.push_back(fmt::format(
+          "data index {0} using ($1*{1:.3f}):{2}:{3}:{4} with yerrorlines lt {5} title '{6}'", i,
+          1 + 0.06 * static_cast<double>(i), column, column + 1, column + 2, i + 1,
+          methods[i].labels.front().second));
+    }
+    commands += fmt::format("plot {}\nunset key\n", fmt::join(parts, ", "));
+    column += 3;
+  }
+  return commands + "unset multiplot";
+}
+
+struct PictureRow {
+  std::string name;
+  std::string method;
+  std::string file;
+};
+
+// The paper's figure for one object: a column a bundle size; the first seed's pictures.
+void DrawPictures(const StudyResults& results, const RunGroup& object,
+                  const std::vector<RunGroup>& methods) {
+  std::vector<PictureRow> rows;
+  for (const RunGroup& method : methods) {
+    const std::string name = method.labels.front().second;
+    if (name == kVolume) continue;
+    rows.push_back({name + ": points", name, "points.png"});
+    rows.push_back({name + ": skeleton", name, "skeleton.png"});
+  }
+  rows.push_back({kVolume, kVolume, "mesh.png"});
+  PictureGrid grid;
+  for (const PictureRow& row : rows) {
+    grid.rows.push_back(row.name);
+    for (const StudyRun* run : object.runs) {
+      if (run->seed != object.runs.front()->seed) continue;
+      if (LabelOf(run->labels, "method") != row.method) continue;
+      if (grid.rows.size() == 1) grid.columns.push_back("k = " + LabelOf(run->labels, "frames"));
+      const std::filesystem::path picture = run->folder / row.file;
+      grid.pictures.push_back(std::filesystem::exists(picture)
+                                  ? std::filesystem::relative(picture, results.folder).string()
+                                  : "");
+    }
+  }
+  DrawPictureGrid(results.folder, results.stem + "_" + object.labels.front().second, grid);
+}
+
+void Report(const StudyResults& results) {
+  const std::vector<RunGroup> methods = GroupRuns(results.runs, {"method"});
+  const std::vector<RunGroup> sizes = GroupRuns(results.runs, {"method", "frames"});
+  WriteTable(results.folder, results.stem, MedianTable(sizes, kColumns));
+  WriteTable(results.folder, results.stem + "_objects",
+             MedianTable(GroupRuns(results.runs, {"object", "method", "frames"}), kColumns));
+  DrawPlot(results.folder, results.stem,
+           {PlotData(sizes, methods), PlotCommands(methods), 6.5, 4.2});
+  for (const RunGroup& object : GroupRuns(results.runs, {"object"})) {
+    DrawPictures(results, object, methods);
+  }
+}
+
+}  // namespace
+
+Study BundleSizeStudy() {
+  return {"bundle-size",
+          "Skeletons of a single bundle of 1 to 300 frames, and VolumeFusion of the same frames",
+          false,
+          Cases,
+          Run,
+          Report};
+}
+
+}  // namespace curvefusion
