@@ -39,7 +39,7 @@ class Panel {
     }
     std::sort(dots.begin(), dots.end(), [](const Vec3& a, const Vec3& b) { return a.z() < b.z(); });
     for (const Vec3& dot : dots) {
-      const double shade = 232 - 90 * Nearness(dot.z());
+      const double shade = (1 - view_.point_ink) * (232 - 90 * Nearness(dot.z()));
       cv::circle(image_, Fixed(dot), 1 << kShift, {shade, shade, shade}, cv::FILLED, cv::LINE_AA,
                  kShift);
     }

@@ -14,6 +14,7 @@ struct OrthographicView {
   std::string name;
   Mat3 R_view_world = Mat3::Identity();  ///< rows: right, up, towards the viewer
   bool scale_bar = true;
+  double point_ink = 0;  ///< 0: points are pale, behind a graph; 1: black, where they stand alone
 };
 
 /// The box around a graph in a view's axes; empty for an empty graph.

@@ -31,7 +31,8 @@ constexpr const char* kVolume = "VolumeFusion";
 constexpr double kFineVoxel = 2 * kMillimetre;
 // The room behind the wires is seen in every frame: a third of them shows it as well.
 constexpr int kRoomStride = 3;
-constexpr int kPicture = 420;   // pixels, width and height of a picture
+constexpr int kPicture = 420;  // pixels, width and height of a picture
+constexpr double kPointInk = .75;
 constexpr double kFilled = .9;  // share of it that the object fills
 
 struct Scale {
@@ -125,7 +126,7 @@ Framing FramingOf(const SkeletonGraph& truth) {
   const Mat3 tilt = Eigen::AngleAxisd(0.3, Vec3::UnitX()).toRotationMatrix();
   Mat3 front;
   front << 1, 0, 0, 0, 0, 1, 0, -1, 0;
-  framing.view = {"", tilt * front, false};
+  framing.view = {"", tilt * front, false, kPointInk};
   framing.bounds = ViewBounds(truth, framing.view.R_view_world);
   framing.scale = kFilled * kPicture / framing.bounds.sizes().head<2>().maxCoeff();
   return framing;
@@ -219,7 +220,7 @@ std::string PlotData(const std::vector<RunGroup>& groups, const std::vector<RunG
   return data;
 }
 
-std::string PlotCommands(const std::vector<RunGroup>& methods) {
+std::string PlotCommands(const std::vector<RunGroup>& methods, double most_pieces) {
   std::string commands =
       "set datafile missing '?'\nset logscale x\nset xrange [0.8:400]\n"
       "set xtics (1, 4, 10, 30, 80, 300)\nset xlabel 'Frames in the bundle' offset 0,0.4\n"
@@ -230,9 +231,11 @@ std::string PlotCommands(const std::vector<RunGroup>& methods) {
   int column = 2;
   for (const Panel& panel : kPanels) {
     const bool is_count = std::string(panel.figure) == "pieces";
-    commands += fmt::format("set title '{}' offset 0,-0.6\n{}\n", panel.title,
-                            is_count ? "set logscale y; set yrange [0.8:*]; set ytics auto"
-                                     : "set yrange [0:1.05]; set ytics 0.2");
+    commands += fmt::format(
+        "set title '{}' offset 0,-0.6\n{}\n", panel.title,
+        is_count
+            ? fmt::format("set logscale y; set yrange [0.8:{}]; set ytics auto", 1.3 * most_pieces)
+            : "set yrange [0:1.05]; set ytics 0.2");
     std::vector<std::string> parts;
     for (size_t i = 0; i < methods.size(); ++i) {
       parts.push_back(fmt::format(
@@ -286,7 +289,8 @@ void Report(const StudyResults& results) {
   WriteTable(results.folder, results.stem + "_objects",
              MedianTable(GroupRuns(results.runs, {"object", "method", "frames"}), kColumns));
   DrawPlot(results.folder, results.stem,
-           {PlotData(sizes, methods), PlotCommands(methods), 6.5, 4.2});
+           {PlotData(sizes, methods), PlotCommands(methods, GreatestOf(results.runs, "pieces", 10)),
+            6.5, 4.2});
   for (const RunGroup& object : GroupRuns(results.runs, {"object"})) {
     DrawPictures(results, object, methods);
   }

@@ -138,7 +138,7 @@ std::string PlotData(const std::vector<RunGroup>& groups, const std::vector<RunG
   return data;
 }
 
-std::string PlotCommands(const std::vector<RunGroup>& profiles) {
+std::string PlotCommands(const std::vector<RunGroup>& profiles, double most_wires) {
   const auto curves = [&](int column) {
     std::vector<std::string> parts;
     for (size_t i = 0; i < profiles.size(); ++i) {
@@ -154,7 +154,8 @@ std::string PlotCommands(const std::vector<RunGroup>& profiles) {
          "'#666666'\n"
          "set label 1 'paper: 17 mm' at first 17.6,graph 0.06 right font ',7' tc rgb '#666666'\n"
          "set multiplot layout 1,2 margins 0.07,0.99,0.16,0.90 spacing 0.09,0\n"
-         "set title 'Separate curves at the wires'\nset yrange [0:*]\n"
+         "set title 'Separate curves at the wires'\n" +
+         fmt::format("set yrange [0:{}]\n", most_wires + 0.5) +
          "set arrow 2 from graph 0,first 6 to graph 1,first 6 nohead dashtype 3 lc rgb '#666666'\n"
          "set key bottom left\n" +
          curves(2) +
@@ -169,7 +170,8 @@ void Report(const StudyResults& results) {
   WriteTable(results.folder, results.stem, MedianTable(groups, kColumns));
   WriteTable(results.folder, results.stem + "_smallest", SmallestSpacings(groups, profiles));
   DrawPlot(results.folder, results.stem,
-           {PlotData(groups, profiles), PlotCommands(profiles), 6.5, 2.8});
+           {PlotData(groups, profiles),
+            PlotCommands(profiles, GreatestOf(results.runs, "wires.components", 7)), 6.5, 2.8});
 }
 
 }  // namespace

@@ -74,6 +74,15 @@ double SumOf(const RunGroup& group, const std::string& figure) {
   return sum;
 }
 
+double GreatestOf(const std::vector<StudyRun>& runs, const std::string& figure, double least) {
+  double greatest = least;
+  for (const StudyRun& run : runs) {
+    const auto found = run.figures.find(figure);
+    if (found != run.figures.end()) greatest = std::max(greatest, found->second);
+  }
+  return greatest;
+}
+
 std::string SpreadData(const RunGroup& group, const std::string& figure) {
   const std::optional<Spread> spread = SpreadOf(group, figure);
   if (!spread) return "? ? ?";

@@ -32,6 +32,10 @@ std::optional<Spread> SpreadOf(const RunGroup& group, const std::string& figure)
 /// The sum over the group's runs that have the figure, to pool counts.
 double SumOf(const RunGroup& group, const std::string& figure);
 
+/// The greatest value of a figure in all runs, but at least `least`: the end of an axis, which
+/// gnuplot cannot choose where no run has a value.
+double GreatestOf(const std::vector<StudyRun>& runs, const std::string& figure, double least);
+
 /// "median least greatest" for a data file of gnuplot; "? ? ?" for none.
 std::string SpreadData(const RunGroup& group, const std::string& figure);
 
