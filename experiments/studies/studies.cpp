@@ -5,7 +5,7 @@
 
 namespace curvefusion {
 
-std::vector<Study> AllStudies() { return {ObjectsStudy(), InterWireStudy()}; }
+std::vector<Study> AllStudies() { return {ObjectsStudy(), InterWireStudy(), SensorValidationStudy()}; }
 
 Study StudyNamed(const std::string& name) {
   std::vector<std::string> names;
