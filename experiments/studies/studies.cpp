@@ -5,7 +5,9 @@
 
 namespace curvefusion {
 
-std::vector<Study> AllStudies() { return {ObjectsStudy(), BundleSizeStudy(), InterWireStudy()}; }
+std::vector<Study> AllStudies() {
+  return {ObjectsStudy(), BundleSizeStudy(), InterWireStudy(), SensorValidationStudy()};
+}
 
 Study StudyNamed(const std::string& name) {
   std::vector<std::string> names;

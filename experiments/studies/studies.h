@@ -17,5 +17,6 @@ Study StudyNamed(const std::string& name);
 Study ObjectsStudy();
 Study BundleSizeStudy();
 Study InterWireStudy();
+Study SensorValidationStudy();
 
 }  // namespace curvefusion
