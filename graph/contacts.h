@@ -3,37 +3,38 @@
 #include <vector>
 
 #include "graph/junctions.h"
+#include "graph/segment_pairs.h"
 #include "graph/skeleton_graph.h"
 
 namespace curvefusion {
 
 /// A stretch along which two edges, or two parts of one, come within a threshold of each other
-/// without need: neither close to a node they share nor because the curve is continuous there.
+/// without need: segments in contact (graph/segment_pairs.h) that follow one another on both.
 struct Contact {
-  LocationPair closest;  ///< where they are nearest
-  double distance = 0;   ///< there, metres
-  LocationPair first;    ///< the ends of the stretch, ordered along the first edge
+  LocationPair closest;    ///< where they are nearest
+  double distance = 0;     ///< there, metres
+  double closest_gap = 0;  ///< arc length between the two places over a shared node or along the
+                           ///< common edge; infinite where there is no such way
+  LocationPair first;      ///< the ends of the stretch, ordered along the first edge
   LocationPair last;
-  double first_gap = 0;  ///< arc length between the two places over a shared node or along the
-  double last_gap = 0;   ///< common edge; infinite where there is no such way
+  double first_gap = 0;  ///< as closest_gap
+  double last_gap = 0;
   bool overlap = false;  ///< the edges run side by side, longer than one node would explain
 };
 
-/// Arc length in thresholds over which two parts of the graph that hang together may stay near each
-/// other: arms of a fork of more than 20 degrees have parted by then.
-inline constexpr double kConnectedReach = 6;
-
-/// All contacts of a graph, in an order that depends on the graph only. Whether two segments are
-/// within the threshold (limit included) is decided exactly on the stored coordinates. Parts of the
-/// graph with less than kConnectedReach thresholds of arc length between them, over at most one
-/// node, are no contact as long as they come out of one another: two arms of a fork near their node
-/// are none, a curve that returns to itself in a loop is one. Cost O(n log n + k) in segments and
-/// in pairs of segments within the threshold; segments longer than the threshold are cut in
-/// thought.
+/// All contacts of a graph, in an order that depends on the graph only; none exactly where no two
+/// segments are in contact, which is decided exactly on the stored coordinates. Extent and places
+/// of a contact are rounded. No segment may have length zero. Parts of the graph with less than
+/// kConnectedReach thresholds of arc length between them, over at most one node, are a contact only
+/// where they have a point in common: two arms of a fork near their node are none, nor is a
+/// hairpin, but a curve that crosses itself is. Cost O(n log^3 n + k log k) in segments and in
+/// pairs of segments whose boxes, grown by the threshold, meet.
 std::vector<Contact> FindContacts(const SkeletonGraph& graph, double threshold);
 
-/// The places that have to become one node to resolve a contact: the nearest ones; for an overlap,
-/// those at its two ends, as far as they are not at a node already.
+/// The places that have to become one node to resolve a contact: the nearest ones, or where these
+/// are at one node already, the end of the stretch farther from it; for an overlap, those at its
+/// two ends, as far as they are not at a node already. Where one edge folds back onto itself, the
+/// fold is a place of its own, paired with itself. The threshold must be above zero.
 std::vector<LocationPair> PlacesToJoin(const Contact& contact, double threshold);
 
 }  // namespace curvefusion

@@ -67,6 +67,14 @@ void Fade(Polyline& points, const Vec3& displacement, double reach) {
     points[i] += displacement * (1 - arc_lengths[i] / reach);
 }
 
+// The edges at a node, each once.
+std::vector<EdgeId> EdgesAt(const SkeletonGraph& graph, NodeId node) {
+  std::vector<EdgeId> edges = graph.IncidentEdges(node);
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return edges;
+}
+
 void SetEdgeCurve(SkeletonGraph& graph, EdgeId id, SkeletonEdge edge) {
   graph.SetCurve(id, std::move(edge.points), std::move(edge.radii), std::move(edge.observations));
 }
@@ -77,6 +85,32 @@ SkeletonEdge PartOfEdge(const SkeletonEdge& edge, const std::vector<double>& arc
                         double from, double to) {
   assert(from <= to && arc_lengths.size() == edge.points.size());
   return EdgeAt(edge, PlacesBetween(arc_lengths, from, to));
+}
+
+SkeletonEdge WithPointAt(const SkeletonEdge& edge, const std::vector<double>& arc_lengths,
+                         double arc_length) {
+  const Place place = PlaceAt(arc_lengths, arc_length);
+  std::vector<Place> places;
+  for (size_t i = 0; i < edge.points.size(); ++i) {
+    places.push_back({i, 0.0});
+    if (i == place.index) places.push_back(place);
+  }
+  return EdgeAt(edge, places);
+}
+
+SkeletonEdge SampledAt(const SkeletonEdge& edge, const std::vector<double>& arc_lengths,
+                       const std::vector<double>& at) {
+  std::vector<Place> places;
+  places.reserve(at.size());
+  const size_t last = arc_lengths.size() - 2;
+  size_t i = 0;
+  for (const double s : at) {
+    while (i < last && arc_lengths[i + 1] <= s) ++i;
+    const double length = arc_lengths[i + 1] - arc_lengths[i];
+    const double fraction = length > 0 ? (s - arc_lengths[i]) / length : 0;
+    places.push_back({i, std::clamp(fraction, 0.0, 1.0)});
+  }
+  return EdgeAt(edge, places);
 }
 
 SkeletonEdge Resampled(const SkeletonEdge& edge, double step) {
@@ -94,6 +128,7 @@ SkeletonEdge Resampled(const SkeletonEdge& edge, double step) {
 void ResampleGraph(SkeletonGraph& graph, double step) {
   for (const EdgeId id : graph.Edges()) {
     SkeletonEdge edge = Resampled(graph.edge(id), step);
+    RemoveRepeatedPoints(edge);  // where the curve runs back over itself
     // A closed curve shorter than two steps would become a point and back.
     if (edge.nodes[0] == edge.nodes[1] && edge.points.size() < 4) continue;
     SetEdgeCurve(graph, id, std::move(edge));
@@ -131,13 +166,31 @@ void RemoveZeroLengthSegments(SkeletonGraph& graph) {
   graph.RemoveIsolatedNodes();
 }
 
+void AddBendPoints(SkeletonGraph& graph, NodeId node, double reach) {
+  for (const EdgeId id : EdgesAt(graph, node)) {
+    SkeletonEdge edge = graph.edge(id);
+    bool added = false;
+    for (int end = 0; end < 2; ++end) {
+      if (edge.nodes[0] == node) {
+        const std::vector<double> arcs = CumulativeLength(edge.points);
+        const auto next = std::upper_bound(arcs.begin(), arcs.end(), reach);
+        if (next != arcs.end() && *next > 2 * reach) {
+          edge = WithPointAt(edge, arcs, reach);
+          added = true;
+        }
+      }
+      Reverse(edge);
+    }
+    if (!added) continue;
+    RemoveRepeatedPoints(edge);
+    SetEdgeCurve(graph, id, std::move(edge));
+  }
+}
+
 void MoveNodeSmoothly(SkeletonGraph& graph, NodeId node, const Vec3& position, double reach) {
   const Vec3 displacement = position - graph.position(node);
   if (displacement.isZero(0)) return;
-  std::vector<EdgeId> incident = graph.IncidentEdges(node);
-  std::sort(incident.begin(), incident.end());
-  incident.erase(std::unique(incident.begin(), incident.end()), incident.end());
-  for (const EdgeId id : incident) {
+  for (const EdgeId id : EdgesAt(graph, node)) {
     SkeletonEdge edge = graph.edge(id);
     for (int end = 0; end < 2; ++end) {
       if (edge.nodes[0] == node) Fade(edge.points, displacement, reach);

@@ -13,6 +13,14 @@ namespace curvefusion {
 SkeletonEdge PartOfEdge(const SkeletonEdge& edge, const std::vector<double>& arc_lengths,
                         double from, double to);
 
+/// The edge with a point added at an arc length.
+SkeletonEdge WithPointAt(const SkeletonEdge& edge, const std::vector<double>& arc_lengths,
+                         double arc_length);
+
+/// The values of an edge at ascending arc lengths, interpolated. Linear in both.
+SkeletonEdge SampledAt(const SkeletonEdge& edge, const std::vector<double>& arc_lengths,
+                       const std::vector<double>& at);
+
 /// The curve with points at equal arc-length steps as near to `step` as divides the length evenly,
 /// ends kept bit for bit, radii and observations interpolated.
 SkeletonEdge Resampled(const SkeletonEdge& edge, double step);
@@ -26,6 +34,10 @@ void RemoveRepeatedPoints(SkeletonEdge& edge);
 
 /// RemoveRepeatedPoints for every edge, and edges of no length removed.
 void RemoveZeroLengthSegments(SkeletonGraph& graph);
+
+/// Gives each edge at a node a point at `reach` metres from it where its segment there goes on for
+/// as long again: a bend that ends there does not reach farther.
+void AddBendPoints(SkeletonGraph& graph, NodeId node, double reach);
 
 /// Moves a node and, with it, the near parts of its edges: the displacement fades linearly to zero
 /// over `reach` metres of arc length (at most the whole edge), so that no kink is left at the end.

@@ -1,109 +1,147 @@
 #include "graph/intersections.h"
 
-#include <algorithm>
-#include <map>
+#include <fmt/format.h>
+
+#include <cmath>
 #include <utility>
 #include <vector>
 
+#include "graph/canonical_form.h"
+#include "graph/contact_joining.h"
 #include "graph/contacts.h"
 #include "graph/edge_curve.h"
-#include "graph/junctions.h"
 #include "graph/merge.h"
 #include "graph/validate.h"
+#include "kernel/error.h"
 
 namespace curvefusion {
 
 namespace {
 
 // Real and simulated skeletons need two to five rounds.
-constexpr int kMaxRounds = 12;
+constexpr int kMaxJoiningRounds = 30;
+// So often may joining leave the numbers of nodes, edges and contacts as they were.
+constexpr int kMaxStalls = 2;
 // A loop of this many thresholds is nowhere wider than the threshold.
 constexpr double kLoop = 3;
 // Curves that were joined at both ends of a stretch within the threshold may part a little between.
 constexpr double kParallelSlack = 1.5;
 
+// What every step of tidying makes less of.
+struct Counts {
+  int nodes = 0;
+  int edges = 0;
+  size_t vertices = 0;  // nodes and points inside edges
+  bool operator==(const Counts&) const = default;
+};
+
+Counts CountsOf(const SkeletonGraph& graph) {
+  Counts counts{graph.node_count(), graph.edge_count(), 0};
+  counts.vertices = counts.nodes;
+  for (const EdgeId id : graph.Edges()) counts.vertices += graph.edge(id).points.size() - 2;
+  return counts;
+}
+
 // Brings a graph to the form in which contacts are looked for; every step removes edges, so it
-// ends.
+// ends. Edges that were split only to become parallel are merged before their nodes dissolve.
 void Tidy(SkeletonGraph& graph, double threshold) {
   RemoveZeroLengthSegments(graph);
   for (int edges = -1; edges != graph.edge_count();) {
     edges = graph.edge_count();
-    graph.DissolveDegree2Nodes();
     RemoveSmallLoops(graph, kLoop * threshold);
     MergeParallelEdges(graph, kParallelSlack * threshold);
+    graph.DissolveDegree2Nodes();
   }
 }
 
-void JoinContacts(SkeletonGraph& graph, const std::vector<Contact>& contacts, double threshold) {
-  std::vector<LocationPair> places;
-  for (const Contact& contact : contacts) {
-    const std::vector<LocationPair> joined = PlacesToJoin(contact, threshold);
-    places.insert(places.end(), joined.begin(), joined.end());
-  }
-  JoinLocations(graph, places, threshold);
+// Merges vertices; where rounding hides them, drops the shorter edge of the first contact and
+// returns false. Either way there are fewer vertices or edges afterwards.
+bool MergeOrDrop(SkeletonGraph& graph, const std::vector<Contact>& contacts, double threshold) {
+  const size_t vertices = CountsOf(graph).vertices;
+  const EdgeId a = contacts[0].closest.first.edge;
+  const EdgeId b = contacts[0].closest.second.edge;
+  const EdgeId shorter = Length(graph.edge(a).points) < Length(graph.edge(b).points) ? a : b;
+  SkeletonGraph dropped = graph;
+  MergeContactVertices(graph, contacts);
+  Tidy(graph, threshold);
+  if (CountsOf(graph).vertices < vertices) return true;
+  dropped.RemoveEdge(shorter);
+  graph = std::move(dropped);
+  Tidy(graph, threshold);
+  return false;
 }
 
-using Interval = std::pair<double, double>;
+// The state of one resolution.
+class Resolution {
+ public:
+  Resolution(SkeletonGraph graph, double threshold)
+      : graph_(std::move(graph)), threshold_(threshold) {}
 
-// Removes every segment of an edge that meets one of the intervals of arc length.
-void CutAway(SkeletonGraph& graph, EdgeId id, const std::vector<Interval>& intervals) {
-  const SkeletonEdge whole = graph.edge(id);
-  const std::vector<double> arcs = CumulativeLength(whole.points);
-  const auto is_kept = [&](size_t segment) {
-    return std::none_of(intervals.begin(), intervals.end(), [&](const Interval& interval) {
-      return arcs[segment] <= interval.second && arcs[segment + 1] >= interval.first;
-    });
-  };
-  const size_t segments = whole.points.size() - 1;
-  graph.RemoveEdge(id);
-  for (size_t first = 0; first < segments;) {
-    size_t last = first;
-    while (last < segments && is_kept(last)) ++last;
-    if (last > first) {
-      SkeletonEdge part = PartOfEdge(whole, arcs, arcs[first], arcs[last]);
-      part.nodes[0] = first == 0 ? whole.nodes[0] : graph.AddNode(part.points.front());
-      part.nodes[1] = last == segments ? whole.nodes[1] : graph.AddNode(part.points.back());
-      graph.AddEdge(std::move(part));
+  void Run() {
+    while (TidyAtScale()) {
+      for (std::vector<Contact> contacts = FindContacts(graph_, threshold_); !contacts.empty();
+           contacts = FindContacts(graph_, threshold_))
+        Step(contacts);
     }
-    first = last + 1;
   }
-}
 
-Interval Ordered(double a, double b) { return {std::min(a, b), std::max(a, b)}; }
+  const SkeletonGraph& graph() const { return graph_; }
+  const ResolutionRounds& rounds() const { return rounds_; }
 
-// Cuts the shorter edge of every contact away along it.
-void CutContactsAway(SkeletonGraph& graph, const std::vector<Contact>& contacts) {
-  std::map<EdgeId, std::vector<Interval>> cuts;
-  for (const Contact& contact : contacts) {
-    const EdgeId a = contact.closest.first.edge;
-    const EdgeId b = contact.closest.second.edge;
-    const bool cut_first = Length(graph.edge(a).points) < Length(graph.edge(b).points);
-    const auto arc = [cut_first](const LocationPair& pair) {
-      return cut_first ? pair.first.arc_length : pair.second.arc_length;
-    };
-    Interval interval = Ordered(arc(contact.first), arc(contact.last));
-    interval.first = std::min(interval.first, arc(contact.closest));
-    interval.second = std::max(interval.second, arc(contact.closest));
-    cuts[cut_first ? a : b].push_back(interval);
+ private:
+  // Where the threshold is below what rounding amounts to, junctions are still made at its scale.
+  // That grows with the coordinates, by powers of two; false where it has not since the last call.
+  bool TidyAtScale() {
+    const double scale = std::max(threshold_, SegmentTable(graph_).Resolution());
+    if (scale <= scale_) return false;
+    scale_ = scale;
+    Tidy(graph_, scale);
+    return true;
   }
-  for (const auto& [edge, intervals] : cuts) CutAway(graph, edge, intervals);
-  graph.RemoveIsolatedNodes();
+
+  void Step(const std::vector<Contact>& contacts) {
+    if (is_stuck_ || rounds_.joining >= kMaxJoiningRounds) {
+      ++(MergeOrDrop(graph_, contacts, scale_) ? rounds_.merging : rounds_.dropping);
+      is_stuck_ = false;
+      return;
+    }
+    const Counts before = CountsOf(graph_);
+    ++rounds_.joining;
+    JoinContacts(graph_, contacts, scale_);
+    Tidy(graph_, scale_);
+    const Counts after = CountsOf(graph_);
+    const bool is_stall = after.nodes == before.nodes && after.edges == before.edges &&
+                          contacts.size() == last_contacts_;
+    stalls_ = is_stall ? stalls_ + 1 : 0;
+    is_stuck_ = after == before || stalls_ > kMaxStalls;
+    last_contacts_ = contacts.size();
+  }
+
+  SkeletonGraph graph_;
+  double threshold_;
+  double scale_ = -1;
+  ResolutionRounds rounds_;
+  bool is_stuck_ = false;
+  int stalls_ = 0;
+  size_t last_contacts_ = 0;
+};
+
+void RequireThreshold(double threshold) {
+  if (std::isfinite(threshold) && threshold >= 0) return;
+  throw Error(ErrorKind::kUsage,
+              fmt::format("threshold of intersections is {}, must be 0 m or more", threshold));
 }
 
 }  // namespace
 
-void ResolveIntersections(SkeletonGraph& graph, double threshold) {
+ResolutionRounds ResolveIntersections(SkeletonGraph& graph, double threshold) {
+  RequireThreshold(threshold);
   RequireFinite(graph, "graph with intersections to resolve");
-  for (int round = 0; true; ++round) {
-    Tidy(graph, threshold);
-    const std::vector<Contact> contacts = FindContacts(graph, threshold);
-    if (contacts.empty()) return;
-    if (round < kMaxRounds) {
-      JoinContacts(graph, contacts, threshold);
-    } else {
-      CutContactsAway(graph, contacts);
-    }
-  }
+  Resolution resolution(CanonicalForm(graph), threshold);
+  resolution.Run();
+  if (CountsOf(resolution.graph()) != CountsOf(graph) || resolution.rounds().joining > 0)
+    graph = CanonicalForm(resolution.graph());
+  return resolution.rounds();
 }
 
 }  // namespace curvefusion

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "graph/edge_curve.h"
+#include "kernel/disjoint_sets.h"
 
 namespace curvefusion {
 
@@ -15,6 +16,8 @@ namespace {
 // degrees.
 constexpr double kReach = 4;
 constexpr double kLinkInSnaps = 3;
+// Displacements below this many times the longest link are rounding: no bend.
+constexpr double kBendInLinks = 1e-3;
 
 // Nodes that the places on each edge have become. Places on one edge are looked up in order.
 class EdgeCutter {
@@ -83,13 +86,14 @@ class EdgeCutter {
 };
 
 // Removes the edges within a group that are no longer than max_link.
-void RemoveLinks(SkeletonGraph& graph, const std::vector<NodeId>& nodes, double max_link) {
+void RemoveLinks(SkeletonGraph& graph, std::vector<NodeId> nodes, double max_link) {
+  std::sort(nodes.begin(), nodes.end());
   std::vector<EdgeId> links;
   for (const NodeId node : nodes) {
     for (const EdgeId id : graph.IncidentEdges(node)) {
       const SkeletonEdge& edge = graph.edge(id);
       const NodeId other = edge.nodes[0] == node ? edge.nodes[1] : edge.nodes[0];
-      if (other < node || std::find(nodes.begin(), nodes.end(), other) == nodes.end()) continue;
+      if (other < node || !std::binary_search(nodes.begin(), nodes.end(), other)) continue;
       if (Length(edge.points) <= max_link) links.push_back(id);
     }
   }
@@ -110,27 +114,37 @@ Vec3 WeightedMean(const SkeletonGraph& graph, const NodeGroup& group) {
 // Groups of nodes linked by pairs; each ascending, ordered by their first node.
 std::vector<NodeGroup> LinkedGroups(const std::vector<std::pair<NodeId, NodeId>>& links,
                                     const SkeletonGraph& graph) {
-  std::map<NodeId, NodeId> parent;
-  const auto root = [&parent](NodeId node) {
-    parent.emplace(node, node);
-    while (parent[node] != node) node = parent[node] = parent[parent[node]];
-    return node;
+  std::vector<NodeId> nodes;
+  for (const auto& [a, b] : links) nodes.insert(nodes.end(), {a, b});
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  const auto index = [&nodes](NodeId node) {
+    return static_cast<int>(std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin());
   };
-  for (const auto& [a, b] : links) {
-    const NodeId root_a = root(a);
-    const NodeId root_b = root(b);
-    parent[std::max(root_a, root_b)] = std::min(root_a, root_b);
+  DisjointSets sets(nodes.size());
+  for (const auto& [a, b] : links) sets.Unite(index(a), index(b));
+  std::vector<NodeGroup> groups(nodes.size());
+  for (size_t i = 0; i < nodes.size(); ++i) {
+    NodeGroup& group = groups[sets.Root(static_cast<int>(i))];
+    group.nodes.push_back(nodes[i]);
+    group.weights.push_back(std::max(1, graph.Degree(nodes[i])));
   }
-  std::map<NodeId, NodeGroup> groups;
-  for (const auto& entry : parent) {
-    NodeGroup& group = groups[root(entry.first)];
-    group.nodes.push_back(entry.first);
-    group.weights.push_back(std::max(1, graph.Degree(entry.first)));
+  groups.erase(std::remove_if(groups.begin(), groups.end(),
+                              [](const NodeGroup& group) { return group.nodes.size() < 2; }),
+               groups.end());
+  return groups;
+}
+
+// Moves a node of a group to where the group meets. Its curves bend over a few times the distance
+// moved, where that is more than rounding.
+void Bend(SkeletonGraph& graph, NodeId node, const Vec3& position, double max_link) {
+  const double moved = (position - graph.position(node)).norm();
+  if (moved <= kBendInLinks * max_link) {
+    graph.MoveNode(node, position);
+    return;
   }
-  std::vector<NodeGroup> result;
-  for (auto& [first, group] : groups)
-    if (group.nodes.size() > 1) result.push_back(std::move(group));
-  return result;
+  AddBendPoints(graph, node, kReach * moved);
+  MoveNodeSmoothly(graph, node, position, kReach * moved);
 }
 
 }  // namespace
@@ -140,8 +154,11 @@ void MergeNodeGroups(SkeletonGraph& graph, const std::vector<NodeGroup>& groups,
     RemoveLinks(graph, group.nodes, max_link);
     const Vec3 mean = WeightedMean(graph, group);
     for (const NodeId node : group.nodes) {
-      const double moved = (mean - graph.position(node)).norm();
-      MoveNodeSmoothly(graph, node, mean, kReach * moved);
+      if (max_link > 0) {
+        Bend(graph, node, mean, max_link);
+      } else {
+        graph.MoveNode(node, mean);
+      }
     }
     for (size_t i = 1; i < group.nodes.size(); ++i)
       graph.MergeNodes(group.nodes[0], group.nodes[i]);

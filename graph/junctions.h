@@ -23,8 +23,10 @@ struct NodeGroup {
 };
 
 /// Merges each group of nodes into its first node, at the weighted mean of their positions; the
-/// curves bend towards it over a few times the distance moved. Edges within a group disappear where
-/// they are no longer than `max_link`, longer ones become self-loops. Groups must not share nodes.
+/// curves bend towards it over a few times the distance moved, with a point added where a long
+/// segment would carry the bend too far; without links (`max_link` 0) only the nodes move. Edges
+/// within a group disappear where they are no longer than `max_link`, longer ones become
+/// self-loops. Groups must not share nodes.
 void MergeNodeGroups(SkeletonGraph& graph, const std::vector<NodeGroup>& groups, double max_link);
 
 /// Makes every pair of places one node, and places that are linked by several pairs one node all

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <memory>
 #include <numeric>
 #include <set>
 #include <tuple>
@@ -10,6 +11,7 @@
 #include "graph/contacts.h"
 #include "graph/edge_curve.h"
 #include "graph/junctions.h"
+#include "graph/segment_tree.h"
 #include "kernel/spatial_search.h"
 
 namespace curvefusion {
@@ -20,11 +22,26 @@ constexpr int kMaxRounds = 8;
 // Curves that were joined at both ends of a stretch within the threshold may part a little between.
 constexpr double kParallelSlack = 1.5;
 
-bool StaysWithin(const Polyline& points, const Polyline& other, double distance) {
-  return std::all_of(points.begin(), points.end(), [&other, distance](const Vec3& p) {
-    return Project(other, p).distance <= distance;
-  });
-}
+// The trees of edges whose distance was asked for.
+class EdgeTrees {
+ public:
+  explicit EdgeTrees(const SkeletonGraph& graph) : graph_(graph) {}
+
+  /// Whether every point of an edge lies within a distance of another edge.
+  bool StaysWithin(EdgeId edge, EdgeId other, double distance) {
+    const auto [entry, is_new] = trees_.try_emplace(other);
+    if (is_new) entry->second = std::make_unique<SegmentTree>(graph_.edge(other).points);
+    const SegmentTree& tree = *entry->second;
+    const Polyline& points = graph_.edge(edge).points;
+    if (!tree.IsWithin(points[points.size() / 2], distance)) return false;
+    return std::all_of(points.begin(), points.end(),
+                       [&tree, distance](const Vec3& p) { return tree.IsWithin(p, distance); });
+  }
+
+ private:
+  const SkeletonGraph& graph_;
+  std::map<EdgeId, std::unique_ptr<SegmentTree>> trees_;
+};
 
 double Weight(const SkeletonEdge& edge) {
   if (edge.observations.empty()) return 1;
@@ -43,30 +60,21 @@ bool RunAgainst(const SkeletonEdge& a, const SkeletonEdge& b) {
 }
 
 // The values of `to` at the same fractions of the length as the points of `from`.
-struct MatchedCurve {
-  Polyline points;
-  std::vector<double> radii;
-  std::vector<double> observations;
-};
-MatchedCurve MatchAlongLength(const SkeletonEdge& from, const SkeletonEdge& to) {
+SkeletonEdge MatchAlongLength(const SkeletonEdge& from, const SkeletonEdge& to) {
   const std::vector<double> from_arcs = CumulativeLength(from.points);
   const std::vector<double> to_arcs = CumulativeLength(to.points);
-  MatchedCurve matched;
-  for (const double arc : from_arcs) {
-    const double at = to_arcs.back() * (arc / from_arcs.back());
-    const SkeletonEdge here = PartOfEdge(to, to_arcs, at, at);
-    matched.points.push_back(here.points.front());
-    if (!here.radii.empty()) matched.radii.push_back(here.radii.front());
-    if (!here.observations.empty()) matched.observations.push_back(here.observations.front());
-  }
-  return matched;
+  const double scale = from_arcs.back() > 0 ? to_arcs.back() / from_arcs.back() : 0;
+  std::vector<double> at;
+  at.reserve(from_arcs.size());
+  for (const double arc : from_arcs) at.push_back(std::min(arc * scale, to_arcs.back()));
+  return SampledAt(to, to_arcs, at);
 }
 
 // The mean of two edges between the same nodes, on the points of the first.
 SkeletonEdge MeanEdge(const SkeletonEdge& a, SkeletonEdge b) {
   if (RunAgainst(a, b)) Reverse(b);
   const double share = Weight(b) / (Weight(a) + Weight(b));
-  const MatchedCurve matched = MatchAlongLength(a, b);
+  const SkeletonEdge matched = MatchAlongLength(a, b);
   SkeletonEdge mean = a;
   if (mean.radii.empty()) mean.radii = matched.radii;
   for (size_t i = 0; i < mean.points.size(); ++i) {
@@ -191,12 +199,10 @@ void MergeNearbyJunctions(SkeletonGraph& graph, double distance) {
 
 std::vector<std::pair<EdgeId, EdgeId>> ParallelEdges(const SkeletonGraph& graph, double distance) {
   std::vector<std::pair<EdgeId, EdgeId>> parallel;
-  for (const auto& [a, b] : EdgesOfSameNodes(graph)) {
-    const Polyline& points_a = graph.edge(a).points;
-    const Polyline& points_b = graph.edge(b).points;
-    if (StaysWithin(points_a, points_b, distance) && StaysWithin(points_b, points_a, distance))
+  EdgeTrees trees(graph);
+  for (const auto& [a, b] : EdgesOfSameNodes(graph))
+    if (trees.StaysWithin(a, b, distance) && trees.StaysWithin(b, a, distance))
       parallel.emplace_back(a, b);
-  }
   return parallel;
 }
 

@@ -14,7 +14,7 @@ namespace curvefusion {
 void MergeNearbyJunctions(SkeletonGraph& graph, double distance);
 
 /// Pairs of edges between the same two nodes of which every point of each lies within `distance` of
-/// the other: one curve that is there twice. Cost quadratic in the points of such candidates only.
+/// the other, decided exactly: one curve that is there twice. O(n log n) in the points of candidates.
 std::vector<std::pair<EdgeId, EdgeId>> ParallelEdges(const SkeletonGraph& graph, double distance);
 
 /// Replaces parallel edges by their mean along arc length, weighted by observations; observations

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "graph/intersections.h"
 #include "graph/merge.h"
 
 namespace curvefusion {
@@ -94,6 +95,7 @@ SkeletonGraph ExtractRidgeSkeleton(const ObservedPoints& points, const RidgeOpti
   PruneSpurs(graph, options.network.min_spur);
   DropSmallComponents(graph, options.min_component);
   SmoothEdges(graph, options.smoothing_length, options.step);
+  ResolveIntersections(graph, 0);  // curves that touch in a point become a junction
   return graph;
 }
 

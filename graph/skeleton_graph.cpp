@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cassert>
-#include <numeric>
 #include <utility>
+
+#include "kernel/disjoint_sets.h"
 
 namespace curvefusion {
 
@@ -235,22 +236,11 @@ double SkeletonGraph::TotalLength() const {
 }
 
 int SkeletonGraph::ComponentCount() const {
-  std::vector<NodeId> parent(nodes_.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&parent](NodeId node) {
-    while (parent[node] != node) node = parent[node] = parent[parent[node]];
-    return node;
-  };
+  DisjointSets sets(nodes_.size());
+  for (const auto& edge : edges_)
+    if (edge) sets.Unite(edge->nodes[0], edge->nodes[1]);
   int components = 0;
-  for (const NodeId node : Nodes()) components += Degree(node) > 0;
-  for (const auto& edge : edges_) {
-    if (!edge) continue;
-    const NodeId a = root(edge->nodes[0]);
-    const NodeId b = root(edge->nodes[1]);
-    if (a == b) continue;
-    parent[a] = b;
-    --components;
-  }
+  for (const NodeId node : Nodes()) components += Degree(node) > 0 && sets.Root(node) == node;
   return components;
 }
 

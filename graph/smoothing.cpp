@@ -1,15 +1,14 @@
 #include "graph/smoothing.h"
 
-#include <Eigen/CholmodSupport>
 #include <Eigen/Sparse>
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
 #include <utility>
 #include <vector>
 
 #include "graph/edge_curve.h"
+#include "graph/graph_smoother.h"
 
 namespace curvefusion {
 
@@ -141,18 +140,18 @@ class NormalEquations {
   }
 
   // The minimum; with twicing, plus the minimum for what is left of the data.
-  Eigen::MatrixX3d Solve(bool twicing) const {
+  Eigen::MatrixX3d Solve(bool twicing, SparseSolver& solver) const {
     const int n = static_cast<int>(start_.rows());
     std::vector<Eigen::Triplet<double>> lower = entries_;
+    lower.reserve(lower.size() + n);
     for (int i = 0; i < n; ++i) lower.emplace_back(i, i, weights_[i]);
     Eigen::SparseMatrix<double> matrix(n, n);
     matrix.setFromTriplets(lower.begin(), lower.end());
-    const Eigen::CholmodSimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> solver(matrix);
-    assert(solver.info() == Eigen::Success);  // positive definite: every vertex has a data term
-    const Eigen::MatrixX3d smooth = solver.solve(RightHandSide(start_));
+    solver.Factorise(matrix);  // positive definite: every vertex has a data term
+    const Eigen::MatrixX3d smooth = solver.Solve(RightHandSide(start_));
     if (!twicing) return smooth;
     const Eigen::MatrixX3d lost = start_ - smooth;
-    return smooth + solver.solve(RightHandSide(lost));
+    return smooth + solver.Solve(RightHandSide(lost));
   }
 
  private:
@@ -276,6 +275,10 @@ SmoothingOptions PaperSmoothingOptions() {
 }
 
 SkeletonGraph SmoothGraph(const SkeletonGraph& graph, const SmoothingOptions& options) {
+  return GraphSmoother().Smooth(graph, options);
+}
+
+SkeletonGraph GraphSmoother::Smooth(const SkeletonGraph& graph, const SmoothingOptions& options) {
   std::vector<SampledEdge> edges;
   for (const EdgeId id : graph.Edges()) edges.push_back(Sampled(graph.edge(id), options));
   const VertexTable table(graph, edges);
@@ -293,7 +296,8 @@ SkeletonGraph SmoothGraph(const SkeletonGraph& graph, const SmoothingOptions& op
   }
   AddEdgeTerms(graph, edges, table, options.lambda, equations);
   AddNodeTerms(graph, edges, table, options, equations);
-  return WithPositions(graph, std::move(edges), table, equations.Solve(options.keep_curvature));
+  return WithPositions(graph, std::move(edges), table,
+                       equations.Solve(options.keep_curvature, solver_));
 }
 
 }  // namespace curvefusion

@@ -61,7 +61,7 @@ void AddContacts(const SkeletonGraph& graph, double proximity,
 
 }  // namespace
 
-std::vector<std::string> Violations(const SkeletonGraph& graph, double proximity) {
+std::vector<std::string> Faults(const SkeletonGraph& graph) {
   std::vector<std::string> violations;
   for (const NodeId node : graph.Nodes())
     if (!graph.position(node).allFinite())
@@ -69,6 +69,11 @@ std::vector<std::string> Violations(const SkeletonGraph& graph, double proximity
   for (const EdgeId id : graph.Edges())
     for (const std::string& fault : EdgeFaults(graph, graph.edge(id)))
       violations.push_back(fmt::format("edge {} {}", id, fault));
+  return violations;
+}
+
+std::vector<std::string> Violations(const SkeletonGraph& graph, double proximity) {
+  std::vector<std::string> violations = Faults(graph);
   // Distances mean nothing where coordinates do not.
   if (!violations.empty()) return violations;
   AddContacts(graph, proximity, violations);

@@ -7,9 +7,15 @@
 
 namespace curvefusion {
 
+/// What is wrong with a graph whatever the distance of its edges, one sentence each: coordinates
+/// that are not finite, edges of fewer than two points, edges whose ends do not equal their nodes
+/// bit for bit, segments of length zero, radii that are not positive, observations that are
+/// negative, either not one per point or none. Every operation on graphs without such faults ends
+/// in one without. Linear.
+std::vector<std::string> Faults(const SkeletonGraph& graph);
+
 /// What is wrong with a graph, one sentence each; empty for a valid one:
-/// - all coordinates are finite, the ends of an edge equal its nodes bit for bit, no segment has
-///   length zero, radii are positive, observations not negative, both one per point or none;
+/// - it has no Faults;
 /// - no two edges come within `proximity` of each other except at a shared node, no edge comes
 ///   within it of itself except where it is continuous (FindContacts says what that means);
 /// - no edge is there twice: two edges between the same nodes, each within `proximity` of the

@@ -1,4 +1,4 @@
-#include "graph/smoothing.h"
+#include "graph/graph_smoother.h"
 
 #include <gtest/gtest.h>
 
@@ -104,6 +104,23 @@ TEST(SmoothGraph, ABendOfAWireIsNoCorner) {
   no_corners.corner_angle = M_PI;
   EXPECT_EQ(SmoothGraph(graph, SmoothingOptions()).edge(0).points,
             SmoothGraph(graph, no_corners).edge(0).points);
+}
+
+TEST(GraphSmoother, AnalysesEachStructureOnce) {
+  const SkeletonGraph first = Lattice(3, 3, 0.05);
+  const SkeletonGraph second = Perturbed(first, RigidTransform::Identity(), 1e-6, 1);
+  GraphSmoother smoother;
+  SmoothingOptions options;
+  options.hold_free_ends = false;
+  for (const SkeletonGraph& graph : {first, second, first}) {
+    const SkeletonGraph smooth = smoother.Smooth(graph, options);
+    const SkeletonGraph expected = SmoothGraph(graph, options);
+    for (const EdgeId id : graph.Edges())
+      EXPECT_EQ(smooth.edge(id).points, expected.edge(id).points);
+  }
+  EXPECT_EQ(smoother.analyses(), 1);
+  smoother.Smooth(YShape(0.05), options);
+  EXPECT_EQ(smoother.analyses(), 2);
 }
 
 TEST(SmoothGraph, AttributesAreCarriedAlong) {
