@@ -24,6 +24,7 @@ PipelineOptions PaperOptions() {
   options.fusion = PaperSkeletonFusionOptions();
   options.radius.strip_model = false;
   options.radius.per_edge = false;
+  options.radius.per_wire = false;
   return options;
 }
 

@@ -10,6 +10,7 @@
 #include "fusion/strip_box.h"
 #include "fusion/strip_samples.h"
 #include "fusion/strip_widths.h"
+#include "fusion/wire_chains.h"
 
 namespace curvefusion {
 
@@ -19,6 +20,7 @@ constexpr double kNeighbourStep = 0.002;  // metres, between points of strands k
 constexpr double kMaxClearancePx = 40;    // a strip and its background fit in
 constexpr double kBorderPx = 8;           // samples nearer to the image border are left out
 constexpr double kAgreement = 0.25;       // strips this near to the mode count, relative
+constexpr int kMinOwnStrips = 20;         // to tell that a piece of a wire is thicker or thinner
 constexpr double kGaussianMad = 1.4826;   // standard deviation of a Gaussian over its MAD
 
 // At most max_frames of the frames, evenly spread.
@@ -74,20 +76,32 @@ Agreement Agree(const std::vector<double>& diameters, const RadiusOptions& optio
   return agreement;
 }
 
+// The diameter of an edge: that of its wire, unless the edge's own strips clearly tell another.
+Agreement ChooseAgreement(const Agreement& own, const Agreement& wire) {
+  const bool differs = std::abs(own.diameter - wire.diameter) > kAgreement * wire.diameter;
+  return differs && own.count >= kMinOwnStrips ? own : wire;
+}
+
 void Summarize(const SkeletonGraph& skeleton, const RadiusOptions& options,
                RadiusEstimate& estimate) {
+  const std::map<EdgeId, int> wires = WiresOfEdges(skeleton);
   std::vector<double> all;
   std::map<EdgeId, std::vector<double>> by_edge;
+  std::map<int, std::vector<double>> by_wire;
   for (const StripWidth& strip : estimate.strips) {
     all.push_back(strip.diameter);
     by_edge[strip.edge].push_back(strip.diameter);
+    by_wire[wires.at(strip.edge)].push_back(strip.diameter);
   }
   estimate.global_radius = 0.5 * (options.strip_model ? Agree(all, options).diameter
                                                       : MostProminent(all, options.histogram_bin));
   for (const EdgeId edge : skeleton.Edges()) {
-    const Agreement own = Agree(by_edge[edge], options);
-    const double radius = own.count >= options.min_strips ? 0.5 * own.diameter : 0;
-    estimate.edges.push_back({edge, radius, 0.5 * own.spread, own.count});
+    Agreement agreed = Agree(by_edge[edge], options);
+    if (options.per_wire) {
+      agreed = ChooseAgreement(agreed, Agree(by_wire[wires.at(edge)], options));
+    }
+    const double radius = agreed.count >= options.min_strips ? 0.5 * agreed.diameter : 0;
+    estimate.edges.push_back({edge, radius, 0.5 * agreed.spread, agreed.count});
   }
 }
 
@@ -156,6 +170,10 @@ void VisitOptions(RadiusOptions& options, OptionVisitor& visitor) {
   visitor.Visit({"per_edge", "", 0, 1,
                  "Deviation: one radius for each edge; CurveFusion 3.3 has one for all."},
                 options.per_edge);
+  visitor.Visit({"per_wire", "", 0, 1,
+                 "Deviation: edges that go straight on through a junction are pieces of one wire "
+                 "and share their strips: between near junctions too few are free of other wires."},
+                options.per_wire);
   visitor.Visit({"search_px", "px", 0, 40,
                  "Deviation: how far from its projection a strip is looked for by the strip model, "
                  "since poses drift."},

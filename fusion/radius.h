@@ -9,7 +9,7 @@
 namespace curvefusion {
 
 /// Wire radius estimation, CurveFusion 3.3 ("Wire radius estimation"). Units, ranges and sources
-/// stand in VisitOptions; the paper's way is strip_model = per_edge = false.
+/// stand in VisitOptions; the paper's way is strip_model = per_edge = per_wire = false.
 struct RadiusOptions {
   double sample_step = 0.010;
   double histogram_bin = 0.00025;
@@ -17,6 +17,7 @@ struct RadiusOptions {
   int max_frames = 30;
   bool strip_model = true;
   bool per_edge = true;
+  bool per_wire = true;
   double search_px = 10;
   double max_diameter = 0.025;
   double luma_blur_px = 0.95;
@@ -53,7 +54,8 @@ struct RadiusEstimate {
 /// (world frame) are projected into at most options.max_frames of `frames` (indices into
 /// sequence.frames, evenly thinned), the strip found near each is measured across the curve and
 /// converted to metres. The most prominent value of all is the global radius; each edge gets the
-/// value its own strips agree on. Places where another strand of the skeleton lies within 1.5
+/// value that the strips of its wire (all edges that go straight on into one another) agree on, or,
+/// where that clearly differs, its own. Places where another strand of the skeleton lies within 1.5
 /// widths are left out. Throws Error(kBadInput) for images that cannot be decoded. Cost: 10 ms a
 /// frame for 3 m of wire.
 RadiusEstimate EstimateRadius(const SkeletonGraph& skeleton, const Sequence& sequence,

@@ -21,7 +21,7 @@ struct TrackedStrip {
 /// stand out from both sides; then per run of samples along one edge the best sequence of centres
 /// that do not jump (Viterbi). `samples` must be in order along their edges, `radii` holds one
 /// value per sample. Not accepted are strips that stand out too little, those with a second centre
-/// nearly as good, and those with another strand within 1.2 widths + 2 px.
+/// nearly as good, and those with another strand within .85 widths + 2 px.
 std::vector<TrackedStrip> TrackStrips(const PosteriorImage& posterior,
                                       const std::vector<ProjectedSample>& samples,
                                       const std::vector<double>& radii, double search_px);
