@@ -254,7 +254,7 @@ std::string Curves(const Names& names, int first, const std::string& unit) {
   return fmt::format("{}", fmt::join(curves, ", "));
 }
 
-std::string PlotCommands() {
+std::string PlotCommands(double greatest_ate_mm) {
   std::string prototype;
   for (size_t i = 0; i < RecallDistances().size(); ++i) {
     prototype += fmt::format(", data index {} using 1:5 with lines dashtype 3 lt {}", i + 1, i + 1);
@@ -274,9 +274,9 @@ std::string PlotCommands() {
          Curves(RecallDistances(), 1, " m") + prototype +
          "\nset title 'Recall of wires at 0.7 m by sensor'\nplot " + Curves(kSensors, 5, "") +
          "\nset title 'Absolute trajectory error'\nset xlabel 'Length of the scan (s)'\n"
-         "set ylabel 'ATE (mm)'\nset key top left\nset yrange [0:*]\nset xrange [0:55]\n"
-         "plot " +
-         Curves(kSources, 10, "") + "\nunset multiplot";
+         "set ylabel 'ATE (mm)'\nset key top left\nset xrange [0:55]\n" +
+         fmt::format("set yrange [0:{}]\nplot ", 1.1 * greatest_ate_mm) + Curves(kSources, 10, "") +
+         "\nunset multiplot";
 }
 
 void Report(const StudyResults& results) {
@@ -285,7 +285,8 @@ void Report(const StudyResults& results) {
   WriteTable(results.folder, results.stem + "_recall", RecallTable(measured));
   WriteTable(results.folder, results.stem + "_sensors", OtherSensorsTable(measured));
   WriteTable(results.folder, results.stem + "_poses", PoseTable(measured));
-  DrawPlot(results.folder, results.stem, {PlotData(measured), PlotCommands(), 6.8, 5.4});
+  DrawPlot(results.folder, results.stem,
+           {PlotData(measured), PlotCommands(GreatestOf(results.runs, "ate_mm", 20)), 6.8, 5.4});
 }
 
 }  // namespace
