@@ -172,11 +172,23 @@ class OptionReader : public OptionVisitor {
   const toml::table* table_ = nullptr;
 };
 
+// TOML has no control characters but tabs and line ends; toml++ asserts that it gets none.
+void RefuseControlCharacters(const std::string& text, const std::string& name) {
+  const auto found = std::find_if(text.begin(), text.end(), [](unsigned char c) {
+    return (c < 0x20 && c != '\t' && c != '\n' && c != '\r') || c == 0x7f;
+  });
+  if (found != text.end()) {
+    ThrowUsage(fmt::format("{}: not valid TOML: it holds the control character {:#x}", name,
+                           static_cast<int>(*found)));
+  }
+}
+
 Source ParseFile(const std::filesystem::path& path) {
   std::ifstream stream(path);
   std::stringstream text;
   text << stream.rdbuf();
   if (!stream) ThrowUsage(fmt::format("{}: this config file cannot be read", path.string()));
+  RefuseControlCharacters(text.str(), path.string());
   try {
     return {toml::parse(text.str()), path.string(), true};
   } catch (const toml::parse_error& error) {
@@ -187,6 +199,7 @@ Source ParseFile(const std::filesystem::path& path) {
 
 Source ParseAssignment(const std::string& assignment) {
   const std::string name = "--set " + assignment;
+  RefuseControlCharacters(assignment, name);
   try {
     return {toml::parse(assignment), name, false};
   } catch (const toml::parse_error&) {
