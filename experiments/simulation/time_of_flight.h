@@ -32,8 +32,8 @@ class TimeOfFlightSensor : public DepthSensor {
   uint64_t seed_;
 };
 
-/// An Azure Kinect in its narrow unbinned mode, with the V2's frequencies and filters. The noise is
-/// set so that its standard deviation at 3.5 m stays below the 17 mm of Tolgyessy et al. 2021.
+/// An Azure Kinect in its narrow unbinned mode, with the V2's frequencies, filters and noise: that
+/// stays below the 17 mm at 3.5 m of Tolgyessy et al. 2021.
 TimeOfFlightOptions AzureKinect();
 
 }  // namespace curvefusion

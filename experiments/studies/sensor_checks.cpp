@@ -19,7 +19,7 @@ using Kind = SensorMeasurement::Kind;
 using Figures = std::map<std::string, double>;
 
 constexpr double kAny = std::numeric_limits<double>::infinity();
-constexpr int kCheckedLength = 750;  // frames: the pose sources were fitted at this length
+constexpr int kCheckedLength = 750;  // frames, for which the fitted accuracies hold
 
 SensorMeasurement Wall(const std::string& sensor, double distance) {
   return {.kind = Kind::kWall, .subject = sensor, .distance = distance};
@@ -112,7 +112,7 @@ void AddTimeOfFlight(std::vector<SensorCheck>& checks) {
   checks.push_back({Wires("kinect_v2", 1, 5), "flying", 0.1, kAny, CheckBasis::kPredicted,
                     "flying pixels must appear"});
   for (const double z : {1.0, 2.0, 3.5}) {
-    checks.push_back({Wall("azure_kinect", z), "sigma_mm", 0, 17, CheckBasis::kFitted,
+    checks.push_back({Wall("azure_kinect", z), "sigma_mm", 0, 17, CheckBasis::kParameter,
                       "Tolgyessy 2021: at most 17 mm"});
     checks.push_back({Wall("azure_kinect", z), "bias_mm", 0, 11, CheckBasis::kPredicted,
                       "Tolgyessy 2021: below 11 mm"});

@@ -259,22 +259,22 @@ std::string PlotCommands(double greatest_ate_mm) {
   for (size_t i = 0; i < RecallDistances().size(); ++i) {
     prototype += fmt::format(", data index {} using 1:5 with lines dashtype 3 lt {}", i + 1, i + 1);
   }
-  return "set datafile missing '?'\nset key noenhanced\n"
-         "set multiplot layout 2,2 margins 0.08,0.98,0.08,0.95 spacing 0.10,0.15\n"
+  return "set datafile missing '?'\nset key noenhanced samplen 1.5 font ',7'\n"
+         "set multiplot layout 2,2 margins 0.11,0.98,0.12,0.94 spacing 0.12,0.20\n"
          "set title 'Kinect V1: noise before a wall'\nset xlabel 'Distance (m)'\n"
          "set ylabel 'Standard deviation (mm)'\nset key top left\nset yrange [0:*]\n"
          "set xrange [0.7:2.5]\n"
          "plot data index 0 using 1:2:3:4 with yerrorbars lt 1 title 'simulated', "
          "1.425*x*x with lines lt 2 title 'Khoshelham 2012', "
          "1.2+1.9*(x-0.4)**2 with lines lt 3 title 'Nguyen 2012'\n"
-         "set title 'Kinect V1: recall of wires (dotted: prototype)'\n"
+         "set title 'Kinect V1: recall (dotted: prototype)'\n"
          "set xlabel 'Diameter (mm)'\nset ylabel 'Recall'\nset key bottom right\n"
          "set yrange [0:1.05]\nset xrange [0:12.5]\n"
          "plot " +
          Curves(RecallDistances(), 1, " m") + prototype +
          "\nset title 'Recall of wires at 0.7 m by sensor'\nplot " + Curves(kSensors, 5, "") +
          "\nset title 'Absolute trajectory error'\nset xlabel 'Length of the scan (s)'\n"
-         "set ylabel 'ATE (mm)'\nset key top left\nset xrange [0:55]\n" +
+         "set ylabel 'ATE (mm)'\nset key at graph 0.99,0.42\nset xrange [0:55]\n" +
          fmt::format("set yrange [0:{}]\nplot ", 1.1 * greatest_ate_mm) + Curves(kSources, 10, "") +
          "\nunset multiplot";
 }
