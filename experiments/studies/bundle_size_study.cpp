@@ -138,7 +138,7 @@ ColorImage Picture(const SkeletonGraph& graph, const ObservedPoints& points,
                         framing.scale);
 }
 
-// What skeletons (aligned) and surfaces (as they lie, by the middle frame) are compared in.
+// What skeletons and surfaces are compared in, both aligned.
 void AddCommonFigures(const std::string& kind, const std::string& pieces, Figures& figures) {
   const auto copy = [&](const std::string& from, const char* to) {
     const auto found = figures.find(from);
@@ -158,8 +158,8 @@ RunOutcome RunVolume(const RunInput& input, const Sequence& bundle, const Skelet
   const Framing framing = FramingOf(truth);
   WritePng(input.folder / "mesh.png",
            DrawMesh(mesh, framing.view, framing.bounds, kPicture, kPicture, framing.scale));
-  RunOutcome outcome{!mesh.triangles.empty(), EvaluationFigures(Evaluate({}, &mesh, truth))};
-  AddCommonFigures("raw.surface", "mesh.components", outcome.figures);
+  RunOutcome outcome{!mesh.triangles.empty(), EvaluationFigures(EvaluateMesh(mesh, truth))};
+  AddCommonFigures("aligned.surface", "mesh.components", outcome.figures);
   return outcome;
 }
 
