@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdio>
 #include <memory>
 #include <string>
 #include <vector>
@@ -20,7 +21,7 @@ namespace {
 constexpr int kRunsFailed = 1;
 
 struct ExperimentArguments {
-  std::string name;
+  std::vector<std::string> names;
   std::filesystem::path output;
   std::string profile = "both";
   std::string split = "train";
@@ -48,15 +49,17 @@ void PrintPlan(const StudyPlan& plan, bool remeasure) {
   }
 }
 
-int PrintOutcome(const StudyResults& results) {
+int PrintOutcome(const StudyResults& results, bool quiet) {
   int failed = 0;
   for (const StudyRun& run : results.runs) {
     if (run.outcome != "failed") continue;
     ++failed;
     fmt::print(stderr, "failed: {}: {}\n", run.folder.string(), run.message);
   }
-  fmt::print("Wrote {} (.csv, .tex, .md, .png, .pdf)\n",
-             (results.folder / results.stem).string() + "*");
+  if (!quiet) {
+    fmt::print("Wrote {} (.csv, .tex, .md, .png, .pdf)\n",
+               (results.folder / results.stem).string() + "*");
+  }
   return failed > 0 ? kRunsFailed : 0;
 }
 
@@ -72,18 +75,46 @@ StudyResults RunOrTellHowToGoOn(const Study& study, const StudyRequest& request,
   }
 }
 
-int RunExperiment(const ExperimentArguments& arguments) {
-  const Study study = StudyNamed(arguments.name);
-  const StudyRequest request = RequestOf(arguments);
+int RunOne(const Study& study, const StudyRequest& request, const ExperimentArguments& arguments) {
   const StudyPlan plan = PlanStudy(study, request, arguments.output);
-  MakeOutputFolder(arguments.output);
-  if (!arguments.run.quiet) PrintPlan(plan, arguments.runner.remeasure);
-  const ThreadLimit limit(arguments.run.threads);
+  if (!arguments.run.quiet) {
+    fmt::print("{}: ", study.name);
+    PrintPlan(plan, arguments.runner.remeasure);
+    std::fflush(stdout);  // before the progress, which goes to the other stream
+  }
   ProgressPrinter printer = MakeProgressPrinter(arguments.run.quiet);
   const StudyResults results =
       RunOrTellHowToGoOn(study, request, arguments, InterruptibleProgress(printer));
   printer.Finish();
-  return PrintOutcome(results);
+  return PrintOutcome(results, arguments.run.quiet);
+}
+
+// "all" leaves out those that choose constants: they are not figures but work on them.
+std::vector<Study> StudiesOf(const std::vector<std::string>& names) {
+  std::vector<Study> studies;
+  for (const std::string& name : names) {
+    if (name != "all") {
+      studies.push_back(StudyNamed(name));
+      continue;
+    }
+    for (const Study& study : AllStudies()) {
+      if (!study.tunes_parameters) studies.push_back(study);
+    }
+  }
+  return studies;
+}
+
+int RunExperiment(const ExperimentArguments& arguments) {
+  const StudyRequest request = RequestOf(arguments);
+  const std::vector<Study> studies = StudiesOf(arguments.names);
+  for (const Study& study : studies) PlanStudy(study, request, arguments.output);  // refuses early
+  MakeOutputFolder(arguments.output);
+  const ThreadLimit limit(arguments.run.threads);
+  int exit_code = 0;
+  for (const Study& study : studies) {
+    exit_code = std::max(exit_code, RunOne(study, request, arguments));
+  }
+  return exit_code;
 }
 
 std::string StudyList() {
@@ -120,7 +151,7 @@ void AddExperimentCommand(CLI::App& app, int& exit_code) {
   CLI::App* command =
       app.add_subcommand("experiment", "Run a study of the paper on simulated scans");
   const auto arguments = std::make_shared<ExperimentArguments>();
-  command->add_option("NAME", arguments->name, "The study, see below")->required();
+  command->add_option("NAME", arguments->names, "Studies, see below, or all")->required();
   command
       ->add_option("-o,--output", arguments->output,
                    "Folder for scans, runs, tables and figures; finished runs in it are kept")
@@ -135,7 +166,7 @@ void AddExperimentCommand(CLI::App& app, int& exit_code) {
   AddRunOptions(*command, arguments->run);
   command->footer(StudyList() +
                   "Example:\n  curvefusion experiment objects -o studies --quick\n"
-                  "  curvefusion experiment objects -o studies --profile best --remeasure\n"
+                  "  curvefusion experiment all -o studies --remeasure\n"
                   "  curvefusion experiment inter-wire -o studies --seeds 1 --set "
                   "fusion.overlap_distance=0.008");
   command->callback([arguments, &exit_code] { exit_code = RunExperiment(*arguments); });

@@ -138,7 +138,7 @@ ColorImage Picture(const SkeletonGraph& graph, const ObservedPoints& points,
                         framing.scale);
 }
 
-// What skeletons and surfaces are compared in.
+// What skeletons and surfaces are compared in, both aligned.
 void AddCommonFigures(const std::string& kind, const std::string& pieces, Figures& figures) {
   const auto copy = [&](const std::string& from, const char* to) {
     const auto found = figures.find(from);
@@ -158,8 +158,8 @@ RunOutcome RunVolume(const RunInput& input, const Sequence& bundle, const Skelet
   const Framing framing = FramingOf(truth);
   WritePng(input.folder / "mesh.png",
            DrawMesh(mesh, framing.view, framing.bounds, kPicture, kPicture, framing.scale));
-  RunOutcome outcome{!mesh.triangles.empty(), EvaluationFigures(Evaluate({}, &mesh, truth))};
-  AddCommonFigures("raw.surface", "mesh.components", outcome.figures);
+  RunOutcome outcome{!mesh.triangles.empty(), EvaluationFigures(EvaluateMesh(mesh, truth))};
+  AddCommonFigures("aligned.surface", "mesh.components", outcome.figures);
   return outcome;
 }
 
@@ -173,7 +173,7 @@ RunOutcome RunSkeleton(const RunInput& input, const Sequence& scan, const Sequen
   WritePng(input.folder / "points.png", Picture({}, result.points, framing));
   WritePng(input.folder / "skeleton.png", Picture(result.skeleton, {}, framing));
   RunOutcome outcome = EvaluateAndKeep(result.skeleton, input);
-  AddCommonFigures("raw.curves", "components", outcome.figures);
+  AddCommonFigures("aligned.curves", "components", outcome.figures);
   return outcome;
 }
 
@@ -186,13 +186,14 @@ RunOutcome Run(const RunInput& input) {
                                               : RunSkeleton(input, scan, bundle, truth);
 }
 
-const std::vector<TableColumn> kColumns = {{"F5", "F5"},
-                                           {"F2", "F2"},
-                                           {"recall at 5 mm", "recall"},
-                                           {"precision at 5 mm", "precision"},
-                                           {"junction recall", "raw.junctions_10mm.recall"},
-                                           {"junction precision", "raw.junctions_10mm.precision"},
-                                           {"pieces", "pieces", 0}};
+const std::vector<TableColumn> kColumns = {
+    {"F5", "F5"},
+    {"F2", "F2"},
+    {"recall at 5 mm", "recall"},
+    {"precision at 5 mm", "precision"},
+    {"junction recall", "aligned.junctions_10mm.recall"},
+    {"junction precision", "aligned.junctions_10mm.precision"},
+    {"pieces", "pieces", 0}};
 
 struct Panel {
   const char* title;
@@ -200,34 +201,27 @@ struct Panel {
 };
 constexpr Panel kPanels[] = {{"F at 5 mm", "F5"},
                              {"F at 2 mm", "F2"},
-                             {"Junction recall", "raw.junctions_10mm.recall"},
+                             {"Junction recall", "aligned.junctions_10mm.recall"},
                              {"Pieces (truth: 1)", "pieces"}};
 
-// A block a method: number of frames, then median, least and greatest of every panel.
-std::string PlotData(const std::vector<RunGroup>& groups, const std::vector<RunGroup>& methods) {
-  std::string data;
-  for (const RunGroup& method : methods) {
-    const std::string name = method.labels.front().second;
-    data += "# " + name + "\n";
-    for (const RunGroup& group : groups) {
-      if (LabelOf(group.labels, "method") != name) continue;
-      data += LabelOf(group.labels, "frames");
-      for (const Panel& panel : kPanels) data += " " + SpreadData(group, panel.figure);
-      data += "\n";
-    }
-    data += "\n\n";
-  }
-  return data;
+std::vector<std::string> PanelFigures() {
+  std::vector<std::string> figures;
+  for (const Panel& panel : kPanels) figures.emplace_back(panel.figure);
+  return figures;
 }
 
-std::string PlotCommands(const std::vector<RunGroup>& methods, double most_pieces) {
+std::string PlotCommands(const std::vector<RunGroup>& methods, const std::vector<RunGroup>& sizes,
+                         double most_pieces) {
+  std::vector<std::string> ticks;
+  for (const RunGroup& size : sizes) ticks.push_back(size.labels.front().second);
   std::string commands =
-      "set datafile missing '?'\nset logscale x\nset xrange [0.8:400]\n"
-      "set xtics (1, 4, 10, 30, 80, 300)\nset xlabel 'Frames in the bundle' offset 0,0.4\n"
+      fmt::format("set xrange [0.8:{}*1.3]\nset xtics ({})\n", ticks.back(),
+                  fmt::join(ticks, ", ")) +
+      "set datafile missing '?'\nset logscale x\nset xlabel 'Frames in the bundle' offset 0,0.4\n"
       "set object 1 rectangle from first 10,graph 0 to first 80,graph 1 behind fillcolor rgb "
       "'#F3F3F3' fillstyle solid noborder\n"
       "set multiplot layout 2,2 margins 0.07,0.985,0.11,0.88 spacing 0.09,0.20\n"
-      "set key at screen 0.5,0.985 center top horizontal\n";
+      "set key at screen 0.5,0.985 center top horizontal maxrows 1\n";
   int column = 2;
   for (const Panel& panel : kPanels) {
     const bool is_count = std::string(panel.figure) == "pieces";
@@ -289,7 +283,9 @@ void Report(const StudyResults& results) {
   WriteTable(results.folder, results.stem + "_objects",
              MedianTable(GroupRuns(results.runs, {"object", "method", "frames"}), kColumns));
   DrawPlot(results.folder, results.stem,
-           {PlotData(sizes, methods), PlotCommands(methods, GreatestOf(results.runs, "pieces", 10)),
+           {SpreadBlocks(sizes, "method", "frames", PanelFigures()),
+            PlotCommands(methods, GroupRuns(results.runs, {"frames"}),
+                         GreatestOf(results.runs, "pieces", 10)),
             6.5, 4.2});
   for (const RunGroup& object : GroupRuns(results.runs, {"object"})) {
     DrawPictures(results, object, methods);

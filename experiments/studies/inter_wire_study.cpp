@@ -122,22 +122,6 @@ Table SmallestSpacings(const std::vector<RunGroup>& groups, const std::vector<Ru
   return table;
 }
 
-// A block a profile: spacing, then median, least and greatest of wires found and of F5.
-std::string PlotData(const std::vector<RunGroup>& groups, const std::vector<RunGroup>& profiles) {
-  std::string data;
-  for (const RunGroup& profile : profiles) {
-    data += "# " + profile.labels.front().second + "\n";
-    for (const RunGroup& group : groups) {
-      if (LabelOf(group.labels, "profile") != profile.labels.front().second) continue;
-      data += fmt::format("{} {} {}\n", LabelOf(group.labels, "spacing"),
-                          SpreadData(group, "wires.components"),
-                          SpreadData(group, "wires.aligned.curves.5mm.f"));
-    }
-    data += "\n\n";
-  }
-  return data;
-}
-
 std::string PlotCommands(const std::vector<RunGroup>& profiles, double most_wires) {
   const auto curves = [&](int column) {
     std::vector<std::string> parts;
@@ -170,7 +154,8 @@ void Report(const StudyResults& results) {
   WriteTable(results.folder, results.stem, MedianTable(groups, kColumns));
   WriteTable(results.folder, results.stem + "_smallest", SmallestSpacings(groups, profiles));
   DrawPlot(results.folder, results.stem,
-           {PlotData(groups, profiles),
+           {SpreadBlocks(groups, "profile", "spacing",
+                         {"wires.components", "wires.aligned.curves.5mm.f"}),
             PlotCommands(profiles, GreatestOf(results.runs, "wires.components", 7)), 6.5, 2.8});
 }
 

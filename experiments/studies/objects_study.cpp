@@ -89,20 +89,10 @@ constexpr Panel kPanels[] = {{"F at 5 mm, aligned", "aligned.curves.5mm.f"},
                              {"Junction recall", "aligned.junctions_10mm.recall"},
                              {"Junction precision", "aligned.junctions_10mm.precision"}};
 
-// A block a profile, a row an object: name, then median, least and greatest of every panel.
-std::string PlotData(const std::vector<RunGroup>& groups, const std::vector<RunGroup>& profiles) {
-  std::string data;
-  for (const RunGroup& profile : profiles) {
-    data += "# " + profile.labels.front().second + "\n";
-    for (const RunGroup& group : groups) {
-      if (LabelOf(group.labels, "profile") != profile.labels.front().second) continue;
-      data += LabelOf(group.labels, "object");
-      for (const Panel& panel : kPanels) data += " " + SpreadData(group, panel.figure);
-      data += "\n";
-    }
-    data += "\n\n";
-  }
-  return data;
+std::vector<std::string> PanelFigures() {
+  std::vector<std::string> figures;
+  for (const Panel& panel : kPanels) figures.emplace_back(panel.figure);
+  return figures;
 }
 
 // Medians as bars, with lines from the least to the greatest value.
@@ -118,7 +108,8 @@ std::string PlotCommands(const std::vector<RunGroup>& profiles, size_t objects) 
   for (const Panel& panel : kPanels) {
     const bool first = column == 2;
     commands += fmt::format("set title '{}' offset 0,-0.6\n", panel.title);
-    commands += first ? "set key at screen 0.5,0.985 center top horizontal\n" : "unset key\n";
+    commands +=
+        first ? "set key at screen 0.5,0.985 center top horizontal maxrows 1\n" : "unset key\n";
     std::vector<std::string> parts = {"data index 0 using 0:(0):xtic(1) with points pointsize 0"};
     for (size_t i = 0; i < profiles.size(); ++i) {
       const double shift = (static_cast<double>(i) - (profiles.size() - 1) / 2.) * 0.38;
@@ -138,8 +129,8 @@ void Report(const StudyResults& results) {
   WriteTable(results.folder, results.stem, MedianTable(groups, kColumns));
   WriteTable(results.folder, results.stem + "_junctions", PooledJunctions(results.runs));
   DrawPlot(results.folder, results.stem,
-           {PlotData(groups, profiles), PlotCommands(profiles, groups.size() / profiles.size()),
-            6.5, 4.2});
+           {SpreadBlocks(groups, "profile", "object", PanelFigures()),
+            PlotCommands(profiles, groups.size() / profiles.size()), 6.5, 4.2});
 }
 
 }  // namespace

@@ -43,6 +43,13 @@ std::string Joined(const std::vector<std::string>& cells, const std::string& sep
   return fmt::format("{}", fmt::join(cells, separator));
 }
 
+// "median least greatest".
+std::string SpreadData(const RunGroup& group, const std::string& figure) {
+  const std::optional<Spread> spread = SpreadOf(group, figure);
+  if (!spread) return "? ? ?";
+  return fmt::format("{} {} {}", spread->median, spread->least, spread->greatest);
+}
+
 }  // namespace
 
 std::vector<RunGroup> GroupRuns(const std::vector<StudyRun>& runs,
@@ -83,10 +90,22 @@ double GreatestOf(const std::vector<StudyRun>& runs, const std::string& figure, 
   return greatest;
 }
 
-std::string SpreadData(const RunGroup& group, const std::string& figure) {
-  const std::optional<Spread> spread = SpreadOf(group, figure);
-  if (!spread) return "? ? ?";
-  return fmt::format("{} {} {}", spread->median, spread->least, spread->greatest);
+std::string SpreadBlocks(const std::vector<RunGroup>& groups, const std::string& block_label,
+                         const std::string& row_label, const std::vector<std::string>& figures) {
+  std::vector<std::string> names;
+  std::vector<std::string> blocks;
+  for (const RunGroup& group : groups) {
+    const std::string name = LabelOf(group.labels, block_label);
+    const auto place = std::find(names.begin(), names.end(), name) - names.begin();
+    if (place == static_cast<std::ptrdiff_t>(names.size())) {
+      names.push_back(name);
+      blocks.push_back("# " + name + "\n");
+    }
+    blocks[place] += LabelOf(group.labels, row_label);
+    for (const std::string& figure : figures) blocks[place] += " " + SpreadData(group, figure);
+    blocks[place] += "\n";
+  }
+  return Joined(blocks, "\n\n");
 }
 
 std::string SpreadText(const std::optional<Spread>& spread, int decimals, double scale) {

@@ -36,8 +36,11 @@ double SumOf(const RunGroup& group, const std::string& figure);
 /// gnuplot cannot choose where no run has a value.
 double GreatestOf(const std::vector<StudyRun>& runs, const std::string& figure, double least);
 
-/// "median least greatest" for a data file of gnuplot; "? ? ?" for none.
-std::string SpreadData(const RunGroup& group, const std::string& figure);
+/// Data for gnuplot: a block (gnuplot's `index`) for each value of `block_label`, in it a row for
+/// each group with that value: its `row_label`, then median, least and greatest of every figure,
+/// "?" for those that no run has.
+std::string SpreadBlocks(const std::vector<RunGroup>& groups, const std::string& block_label,
+                         const std::string& row_label, const std::vector<std::string>& figures);
 
 /// A figure of a standard table.
 struct TableColumn {

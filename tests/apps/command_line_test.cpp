@@ -18,7 +18,8 @@ using testing::HasSubstr;
 TEST_F(CommandLine, HelpAndVersionAreDone) {
   EXPECT_EQ(Run("--help").exit_code, 0);
   EXPECT_EQ(Run("--version").exit_code, 0);
-  for (const char* command : {"reconstruct", "check", "contract", "mesh", "graph", "config"}) {
+  for (const char* command :
+       {"reconstruct", "check", "contract", "mesh", "graph", "config", "experiment"}) {
     const Outcome help = Run(std::string(command) + " --help");
     EXPECT_EQ(help.exit_code, 0) << command;
     EXPECT_THAT(help.output, HasSubstr(std::string("Example:\n  curvefusion ") + command));
@@ -77,6 +78,9 @@ TEST_F(CommandLine, WrongUsageIsTwo) {
   EXPECT_EQ(Run("reconstruct scan -o out --no-such-option").exit_code, 2);
   EXPECT_EQ(Run("config --set volume.voxel_size=99").exit_code, 2);
   EXPECT_EQ(Run("config --profile papper").exit_code, 2);
+  EXPECT_EQ(Run("experiment objects objekts -o out").exit_code, 2);
+  EXPECT_EQ(Run("experiment objects -o out --set volume.voxel_size=99").exit_code, 2);
+  EXPECT_FALSE(fs::exists(folder_ / "out"));  // refused before anything is begun
   const Outcome mistyped = Run("reconstrut scan -o out");
   EXPECT_EQ(mistyped.exit_code, 2);
   EXPECT_THAT(mistyped.output, HasSubstr("did you mean reconstruct?"));

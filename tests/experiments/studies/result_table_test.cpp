@@ -21,13 +21,22 @@ TEST(ResultTable, MedianAndEndsOverSeeds) {
   EXPECT_EQ(spread.least, 1);
   EXPECT_EQ(spread.greatest, 3);
   EXPECT_EQ(SumOf(groups[0], "f"), 6);
-  EXPECT_EQ(SpreadData(groups[1], "f"), "7 7 7");
-  EXPECT_EQ(SpreadData(groups[1], "other"), "? ? ?");
 }
 
 TEST(ResultTable, MedianOfAnEvenNumberLiesBetweenTheMiddleTwo) {
   const std::vector<StudyRun> runs = {RunOf("a", 1, {{"f", 1}}), RunOf("a", 2, {{"f", 4}})};
   EXPECT_EQ(SpreadOf(GroupRuns(runs, {"object"})[0], "f")->median, 2.5);
+}
+
+TEST(ResultTable, BlocksForGnuplot) {
+  std::vector<StudyRun> runs = {RunOf("a", 1, {{"f", 1}}), RunOf("b", 1, {{"f", 2}})};
+  runs.push_back(runs[0]);
+  runs[2].labels[1].second = "paper";
+  runs[2].figures = {{"other", 4}};
+  EXPECT_EQ(SpreadBlocks(GroupRuns(runs, {"object", "profile"}), "profile", "object", {"f"}),
+            "# best\na 1 1 1\nb 2 2 2\n\n\n# paper\na ? ? ?\n");
+  EXPECT_EQ(GreatestOf(runs, "f", 0.5), 2);
+  EXPECT_EQ(GreatestOf(runs, "none", 0.5), 0.5);
 }
 
 TEST(ResultTable, SpreadsAsText) {
