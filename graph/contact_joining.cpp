@@ -140,7 +140,8 @@ class VertexFinder {
 
 }  // namespace
 
-void JoinContacts(SkeletonGraph& graph, const std::vector<Contact>& contacts, double threshold) {
+void JoinContacts(SkeletonGraph& graph, const std::vector<Contact>& contacts, double threshold,
+                  JoinSelection selection) {
   OccupiedParts occupied;
   std::vector<LocationPair> places;
   for (const Contact* contact : ByRank(contacts)) {
@@ -149,7 +150,7 @@ void JoinContacts(SkeletonGraph& graph, const std::vector<Contact>& contacts, do
       return occupied.Meets(part.edge, part.low, part.high);
     });
     if (!is_free) continue;
-    if (contact->overlap)
+    if (contact->overlap && selection == JoinSelection::kApart)
       for (const Part& part : parts) occupied.Add(part.edge, part.low, part.high);
     const std::vector<LocationPair> joined = PlacesToJoin(*contact, threshold);
     places.insert(places.end(), joined.begin(), joined.end());

@@ -15,6 +15,8 @@ namespace {
 
 // Stretches of contact with less than so many thresholds between them along both edges are one.
 constexpr double kStretchGap = 3;
+// Lines that are within rounding of each other for so many times its size lie on one another.
+constexpr double kCollinearExtent = 1e6;
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
 // Where a contact of two curves lies: arc lengths on both.
@@ -230,7 +232,7 @@ std::vector<Stretch> UnitedStretches(std::vector<Stretch> stretches, double gap)
   return united;
 }
 
-Contact ToContact(const SegmentTable& table, const Stretch& stretch, double radius) {
+Contact ToContact(const SegmentTable& table, const Stretch& stretch, double overlap_extent) {
   const auto place = [&](const Arcs& arcs) -> LocationPair {
     return {{table.edges[stretch.curves[0]], arcs[0]}, {table.edges[stretch.curves[1]], arcs[1]}};
   };
@@ -244,8 +246,7 @@ Contact ToContact(const SegmentTable& table, const Stretch& stretch, double radi
   contact.last_gap = Gap(table, stretch.curves, stretch.last);
   double extent = 0;
   for (const Interval& interval : stretch.extent) extent += interval.high - interval.low;
-  // Two lines that cross at the angle of arms that have parted within the reach.
-  contact.overlap = extent > 2 * kConnectedReach * radius;
+  contact.overlap = extent > overlap_extent;
   return contact;
 }
 
@@ -261,10 +262,14 @@ std::vector<Contact> FindContacts(const SkeletonGraph& graph, double threshold) 
   const SegmentTable table(graph);
   const std::vector<SegmentPair> pairs = SegmentPairsInContact(table, threshold);
   const double radius = std::max(threshold, table.Resolution());
+  // Two lines that cross at the angle of arms that have parted within the reach; where only lines
+  // that have a point in common are in contact, lines that have more.
+  const double overlap_extent =
+      radius > threshold ? kCollinearExtent * radius : 2 * kConnectedReach * radius;
   std::vector<Contact> contacts;
   for (const Stretch& stretch :
        UnitedStretches(Stretches(table, pairs, threshold, radius), kStretchGap * radius))
-    contacts.push_back(ToContact(table, stretch, radius));
+    contacts.push_back(ToContact(table, stretch, overlap_extent));
   return contacts;
 }
 

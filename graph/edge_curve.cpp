@@ -130,7 +130,7 @@ void ResampleGraph(SkeletonGraph& graph, double step) {
     SkeletonEdge edge = Resampled(graph.edge(id), step);
     RemoveRepeatedPoints(edge);  // where the curve runs back over itself
     // A closed curve shorter than two steps would become a point and back.
-    if (edge.nodes[0] == edge.nodes[1] && edge.points.size() < 4) continue;
+    if (edge.points.front() == edge.points.back() && edge.points.size() < 4) continue;
     SetEdgeCurve(graph, id, std::move(edge));
   }
 }

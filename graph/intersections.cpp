@@ -107,7 +107,8 @@ class Resolution {
     }
     const Counts before = CountsOf(graph_);
     ++rounds_.joining;
-    JoinContacts(graph_, contacts, scale_);
+    JoinContacts(graph_, contacts, scale_,
+                 scale_ > threshold_ ? JoinSelection::kAll : JoinSelection::kApart);
     Tidy(graph_, scale_);
     const Counts after = CountsOf(graph_);
     const bool is_stall = after.nodes == before.nodes && after.edges == before.edges &&

@@ -29,14 +29,14 @@ double SizeOf(const LinearGap& way) {
 }
 
 void AddIfShort(const LinearGap& way, double reach, std::vector<LinearGap>& ways) {
-  if (LeastOf(way) < reach + kMargin * (reach + SizeOf(way))) ways.push_back(way);
+  if (LeastOf(way) <= reach + kMargin * (reach + SizeOf(way))) ways.push_back(way);
 }
 
 // Whether a segment is so near to an end of its curve that a way over the node there may be short.
 bool MayReachNode(const SegmentTable& table, int k, double reach) {
   const double length = table.Length(table.curves[k]);
   const double limit = reach + kMargin * (reach + length);
-  return table.arcs[k] < limit || length - table.arcs[k + 1] < limit;
+  return table.arcs[k] <= limit || length - table.arcs[k + 1] <= limit;
 }
 
 void AddWaysOverNodes(const SegmentTable& table, const SegmentPair& pair, double reach,

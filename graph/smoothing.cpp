@@ -76,7 +76,8 @@ SampledEdge Sampled(const SkeletonEdge& edge, const SmoothingOptions& options) {
   }
   sampled.corners.pop_back();
   // A closed curve shorter than three steps would become a point and back.
-  if (edge.nodes[0] == edge.nodes[1] && sampled.edge.points.size() < 4) return {edge, {}};
+  if (edge.points.front() == edge.points.back() && sampled.edge.points.size() < 4)
+    return {edge, {}};
   return sampled;
 }
 

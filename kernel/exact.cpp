@@ -112,15 +112,18 @@ std::optional<Parameters<FT>> ClosestOnLines(const Offset<FT>& offset) {
   return Parameters<FT>{s, t};
 }
 
-// Whether parameters lie in a polygon that is given counter-clockwise.
+// Whether parameters lie in a polygon that is given counter-clockwise. Nothing lies in one without
+// area: its sides are all there is of it.
 template <class FT>
 bool IsInside(const ParameterPolygon<FT>& polygon, const Parameters<FT>& p) {
+  FT doubled_area(0);
   for (size_t i = 0; i < polygon.size(); ++i) {
     const Parameters<FT>& a = polygon[i];
     const Parameters<FT>& b = polygon[(i + 1) % polygon.size()];
     if ((b.s - a.s) * (p.t - a.t) - (b.t - a.t) * (p.s - a.s) < FT(0)) return false;
+    doubled_area += a.s * b.t - a.t * b.s;
   }
-  return !polygon.empty();
+  return doubled_area > FT(0);
 }
 
 // The nearest parameters on one side of a polygon.

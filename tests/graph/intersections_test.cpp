@@ -118,6 +118,47 @@ TEST(ResolveIntersections, AnAcuteForkIsZippedUp) {
   EXPECT_EQ(CountDegree(resolved, 3), 1);
 }
 
+TEST(ResolveIntersections, AHairpinWithLongLegsIsZippedUp) {
+  SkeletonGraph graph;
+  graph.AddPolyline({{0, 0, 0}, {0.1, 0, 0}, {0.1, 0.002, 0}, {0, 0.002, 0}});
+  const SkeletonGraph resolved = Resolved(graph);
+  EXPECT_EQ(resolved.edge_count(), 1);
+  EXPECT_NEAR(resolved.TotalLength(), 0.1, 0.002);  // half the turn at most
+}
+
+TEST(ResolveIntersections, ACurveThatRunsBackOverItselfBecomesSimple) {
+  for (const double threshold : {0.0, kThreshold}) {
+    SkeletonGraph graph;
+    graph.AddPolyline({{0, 0, 0}, {0.1, 0, 0}, {0.05, 0, 0}, {0.05, 0.1, 0}});
+    ResolveIntersections(graph, threshold);
+    EXPECT_EQ(graph.edge_count(), 3);
+    EXPECT_EQ(CountDegree(graph, 3), 1);
+    EXPECT_NEAR(graph.TotalLength(), 0.2, 1e-9);
+  }
+}
+
+TEST(ResolveIntersections, ThousandsThroughOnePointMeetThere) {
+  constexpr int kLines = 1000;
+  SkeletonGraph graph;
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < kLines; ++i) {
+    const Vec3 tip = Vec3(normal(random), normal(random), normal(random)).normalized();
+    graph.AddPolyline({-tip, tip});
+  }
+  const ResolutionRounds rounds = ResolveIntersections(graph, 1e-6);
+  EXPECT_TRUE(Violations(graph, 1e-6).empty());
+  EXPECT_EQ(graph.ComponentCount(), 1);
+  EXPECT_EQ(CountDegree(graph, 1), 2 * kLines);
+  EXPECT_EQ(rounds.dropping, 0);
+}
+
+TEST(ResolveIntersections, ABadThresholdIsRejected) {
+  SkeletonGraph graph;
+  EXPECT_THROW(ResolveIntersections(graph, -1), Error);
+  EXPECT_THROW(ResolveIntersections(graph, NAN), Error);
+}
+
 // Any soup of polylines: hundreds of tiny fragments, random walks, needles, bundles of nearly equal
 // curves. It must end, be valid and idempotent.
 TEST(ResolveIntersections, RandomSoupsEndValid) {

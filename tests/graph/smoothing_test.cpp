@@ -1,9 +1,8 @@
-#include "graph/graph_smoother.h"
-
 #include <gtest/gtest.h>
 
 #include <random>
 
+#include "graph/graph_smoother.h"
 #include "graph/validate.h"
 #include "tests/graph/graph_fixtures.h"
 

@@ -37,6 +37,41 @@ TEST(Exact, CollinearSegmentsThatOverlapIntersect) {
   EXPECT_FALSE(Intersect({{0, 0, 0}, {2, 0, 0}}, {{2 + 4 * kUlp, 0, 0}, {3, 0, 0}}));
 }
 
+TEST(Exact, SegmentsFromOnePointOverlapWhereTheyHaveOneDirection) {
+  const Vec3 common(0.1, 0.2, 0.3);
+  const Vec3 u(1, 2, -3);
+  EXPECT_TRUE(Overlap({0, 0, 0}, u, 2 * u));
+  EXPECT_FALSE(Overlap({0, 0, 0}, u, -u));
+  EXPECT_FALSE(Overlap({0, 0, 0}, u, u + Vec3(0, 0, 8 * kUlp)));
+  EXPECT_TRUE(Overlap(common, common + Vec3(0.5, 0, 0), common + Vec3(0.25, 0, 0)));
+}
+
+// Two arms at a right angle, both parametrised by the distance from their common point: the
+// nearest points of which the distances sum to at least 2 lie at 1 on both.
+TEST(Exact, NearnessBeyondAGapIsDecidedAtTheRightPlace) {
+  const Segment s{{0, 0, 0}, {4, 0, 0}};
+  const Segment t{{0, 0, 0}, {0, 4, 0}};
+  const std::vector<LinearGap> gaps = {{0, 4, 0, 4}};
+  const double distance = std::sqrt(2.0);
+  EXPECT_TRUE(AreWithinBeyond(s, t, std::nextafter(distance, 2.0), gaps, 2));
+  EXPECT_FALSE(AreWithinBeyond(s, t, std::nextafter(distance, 1.0), gaps, 2));
+  const ClosestParameters at = ClosestPointsBeyond(s, t, gaps, 2);
+  EXPECT_NEAR(at.s, 0.25, 1e-12);
+  EXPECT_NEAR(at.t, 0.25, 1e-12);
+  EXPECT_FALSE(AreWithinBeyond(s, t, 100, gaps, 8.5));  // no points are that far apart
+  EXPECT_TRUE(AreWithinBeyond(s, t, std::sqrt(32.0) + 1e-12, gaps, 8));
+  EXPECT_TRUE(AreWithinBeyond(s, t, 0, {}, 0));
+}
+
+// Only the far ends of both are as far apart as asked for: a single corner of what is possible.
+TEST(Exact, ASingleFarPairOfPointsIsNotTakenForAll) {
+  const Segment s{{0, 0, 0}, {1, 0, 0}};
+  const Segment t{{1, 0, 0}, {2, 0, 0}};
+  const std::vector<LinearGap> gaps = {{0, -1, 1, 2}};
+  EXPECT_FALSE(AreWithinBeyond(s, t, 1, gaps, 2));
+  EXPECT_TRUE(AreWithinBeyond(s, t, 2, gaps, 2));
+}
+
 // Brute force: the least distance over a fine grid of both segments.
 TEST(Exact, AgreesWithADenseSearch) {
   std::mt19937 random(1);
