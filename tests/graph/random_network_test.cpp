@@ -7,7 +7,6 @@
 
 #include <cstdlib>
 #include <functional>
-#include <map>
 #include <string>
 
 #include "graph/canonical_form.h"
@@ -20,7 +19,6 @@
 #include "graph/merge.h"
 #include "graph/smoothing.h"
 #include "graph/validate.h"
-#include "kernel/disjoint_sets.h"
 #include "tests/graph/contact_oracle.h"
 #include "tests/graph/random_networks.h"
 
@@ -48,21 +46,6 @@ std::string CheckContacts(const SkeletonGraph& graph, double threshold) {
   return "";
 }
 
-// Number of pieces that hang together by nodes or by contacts.
-int ComponentsWithContacts(const SkeletonGraph& graph, double threshold) {
-  const SegmentTable table(graph);
-  DisjointSets curves(table.edges.size());
-  for (const SegmentPair& pair : SegmentPairsInContact(table, threshold))
-    curves.Unite(table.curves[pair.s], table.curves[pair.t]);
-  std::map<NodeId, int> curve_of_node;
-  for (int i = 0; i < static_cast<int>(table.nodes.size()); ++i)
-    for (const NodeId node : table.nodes[i])
-      curves.Unite(i, curve_of_node.try_emplace(node, i).first->second);
-  int count = 0;
-  for (int i = 0; i < static_cast<int>(table.nodes.size()); ++i) count += curves.Root(i) == i;
-  return count;
-}
-
 std::string CheckResolution(const RandomNetwork& network, uint64_t seed) {
   SkeletonGraph resolved = network.graph;
   ResolveIntersections(resolved, network.threshold);
@@ -70,11 +53,6 @@ std::string CheckResolution(const RandomNetwork& network, uint64_t seed) {
   if (!fault.empty()) return "resolved: " + fault;
   if (!AllPairsInContact(resolved, network.threshold).empty())
     return "resolved: the oracle finds a contact";
-  // Above zero, making two curves one may move them away from a third.
-  if (network.threshold == 0 &&
-      resolved.ComponentCount() >
-          ComponentsWithContacts(WithoutPoints(network.graph), network.threshold))
-    return "resolving tears apart what hung together";
   const std::string text = SkeletonToJson(resolved);
   SkeletonGraph again = resolved;
   ResolveIntersections(again, network.threshold);
