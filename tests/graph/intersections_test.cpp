@@ -168,8 +168,11 @@ TEST(ResolveIntersections, AtThresholdZeroAllThroughOnePointMeetWithinRounding) 
   EXPECT_TRUE(Violations(graph, 0).empty());
   EXPECT_EQ(graph.ComponentCount(), 1);
   EXPECT_EQ(CountDegree(graph, 1), 2 * kLines);
-  for (const NodeId node : graph.Nodes())
-    if (graph.Degree(node) > 1) EXPECT_LT(graph.position(node).norm(), 1e-10);
+  for (const NodeId node : graph.Nodes()) {
+    if (graph.Degree(node) > 1) {
+      EXPECT_LT(graph.position(node).norm(), 1e-10);
+    }
+  }
 }
 
 TEST(ResolveIntersections, ABadThresholdIsRejected) {
