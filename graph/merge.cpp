@@ -90,17 +90,17 @@ SkeletonEdge MeanEdge(const SkeletonEdge& a, SkeletonEdge b) {
 
 // Every two edges with the same two nodes, by ascending handles.
 std::vector<std::pair<EdgeId, EdgeId>> EdgesOfSameNodes(const SkeletonGraph& graph) {
-  std::map<std::array<NodeId, 2>, std::vector<EdgeId>> edges_of_nodes;
+  std::vector<std::pair<std::array<NodeId, 2>, EdgeId>> edges;
+  edges.reserve(graph.edge_count());
   for (const EdgeId id : graph.Edges()) {
-    std::array<NodeId, 2> nodes = graph.edge(id).nodes;
-    std::sort(nodes.begin(), nodes.end());
-    edges_of_nodes[nodes].push_back(id);
+    const auto [low, high] = std::minmax(graph.edge(id).nodes[0], graph.edge(id).nodes[1]);
+    edges.push_back({{low, high}, id});
   }
+  std::sort(edges.begin(), edges.end());
   std::vector<std::pair<EdgeId, EdgeId>> pairs;
-  for (const auto& entry : edges_of_nodes)
-    for (size_t i = 0; i < entry.second.size(); ++i)
-      for (size_t j = i + 1; j < entry.second.size(); ++j)
-        pairs.emplace_back(entry.second[i], entry.second[j]);
+  for (size_t i = 0; i < edges.size(); ++i)
+    for (size_t j = i + 1; j < edges.size() && edges[j].first == edges[i].first; ++j)
+      pairs.emplace_back(edges[i].second, edges[j].second);
   std::sort(pairs.begin(), pairs.end());
   return pairs;
 }

@@ -133,7 +133,8 @@ TEST(ResolveIntersections, ACurveThatRunsBackOverItselfBecomesSimple) {
     ResolveIntersections(graph, threshold);
     EXPECT_EQ(graph.edge_count(), 3);
     EXPECT_EQ(CountDegree(graph, 3), 1);
-    EXPECT_NEAR(graph.TotalLength(), 0.2, 1e-9);
+    // The curve bends to the junction, which may lie a threshold off.
+    EXPECT_NEAR(graph.TotalLength(), 0.2, std::max(1e-9, threshold));
   }
 }
 
@@ -151,6 +152,27 @@ TEST(ResolveIntersections, ThousandsThroughOnePointMeetThere) {
   EXPECT_EQ(graph.ComponentCount(), 1);
   EXPECT_EQ(CountDegree(graph, 1), 2 * kLines);
   EXPECT_EQ(rounds.dropping, 0);
+}
+
+// Lines at small angles have their crossings rounded to different points.
+TEST(ResolveIntersections, AtThresholdZeroAllThroughOnePointMeetWithinRounding) {
+  constexpr int kLines = 60;
+  SkeletonGraph graph;
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < kLines; ++i) {
+    const Vec3 tip(normal(random), normal(random), normal(random));
+    graph.AddPolyline({-tip, tip});
+  }
+  ResolveIntersections(graph, 0);
+  EXPECT_TRUE(Violations(graph, 0).empty());
+  EXPECT_EQ(graph.ComponentCount(), 1);
+  EXPECT_EQ(CountDegree(graph, 1), 2 * kLines);
+  for (const NodeId node : graph.Nodes()) {
+    if (graph.Degree(node) > 1) {
+      EXPECT_LT(graph.position(node).norm(), 1e-10);
+    }
+  }
 }
 
 TEST(ResolveIntersections, ABadThresholdIsRejected) {
