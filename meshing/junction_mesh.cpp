@@ -83,11 +83,13 @@ std::optional<TriangleMesh> OpenAtCutRings(TriangleMesh mesh, const Junction& ju
   return mesh;
 }
 
-// The triangles that meet others once the coordinates are rounded in millimetres. In metres the
-// whole surface is examined at its end; what does not collide here hardly ever does there.
-std::vector<std::pair<int, int>> Collisions(TriangleMesh mesh) {
-  for (Vec3f& v : mesh.vertices) v = (v.cast<double>() / kMillimetre).cast<float>();
-  return FindSelfIntersections(mesh);
+// The triangles that meet others, in metres or once the coordinates are rounded in millimetres.
+std::vector<std::pair<int, int>> Collisions(const TriangleMesh& mesh) {
+  std::vector<std::pair<int, int>> collisions = FindSelfIntersections(mesh);
+  TriangleMesh millimetres = mesh;
+  for (Vec3f& v : millimetres.vertices) v = (v.cast<double>() / kMillimetre).cast<float>();
+  for (const auto& pair : FindSelfIntersections(millimetres)) collisions.push_back(pair);
+  return collisions;
 }
 
 // Cleaning makes sheets collide that pass each other closely: there it is done more finely at
