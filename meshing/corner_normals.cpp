@@ -1,5 +1,6 @@
 #include "meshing/corner_normals.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "kernel/disjoint_sets.h"
@@ -19,6 +20,22 @@ std::vector<Vec3> AreaNormals(const TriangleMesh& mesh) {
         (mesh.vertices[b].cast<double>() - origin).cross(mesh.vertices[c].cast<double>() - origin));
   }
   return normals;
+}
+
+// The angle of a triangle at a corner; less where the triangle is so thin that rounding may turn
+// its normal.
+double Weight(const TriangleMesh& mesh, int face, int k) {
+  constexpr double kThin = 0.01;  // height over longest edge
+  const auto at = [&](int i) {
+    return Vec3(mesh.vertices[mesh.triangles[face][(k + i) % 3]].cast<double>());
+  };
+  const Vec3 u = at(1) - at(0);
+  const Vec3 v = at(2) - at(0);
+  const double twice_area = u.cross(v).norm();
+  const double longest = std::max({u.norm(), v.norm(), (v - u).norm()});
+  if (longest <= 0) return 0;
+  const double slimness = twice_area / (longest * longest);
+  return std::atan2(twice_area, u.dot(v)) * std::min(1.0, slimness / kThin);
 }
 
 // Joins the corners on both sides of every edge that is no crease.
@@ -56,7 +73,7 @@ CornerNormals ComputeCornerNormals(const TriangleMesh& mesh, double crease_angle
       index = static_cast<int>(sums.size());
       sums.push_back(Vec3::Zero());
     }
-    sums[index] += face_normals[corner / 3];
+    sums[index] += Weight(mesh, corner / 3, corner % 3) * face_normals[corner / 3].normalized();
     result.of_corner[corner / 3][corner % 3] = index;
   }
   for (const Vec3& sum : sums) {

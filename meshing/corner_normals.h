@@ -14,7 +14,9 @@ struct CornerNormals {
 
 /// Normals that are smooth across edges whose triangles turn by less than `crease_angle` (radians)
 /// and break at the others, as at the seams where tubes meet. Corners of one vertex that are joined
-/// by smooth edges share a normal, the mean of their triangles' by area. O(n log n).
+/// by smooth edges share a normal, the mean of their triangles' by angle, which does not depend on
+/// how flat facets are divided; triangles too thin to have a trustworthy normal count less. O(n log
+/// n).
 CornerNormals ComputeCornerNormals(const TriangleMesh& mesh, double crease_angle);
 
 }  // namespace curvefusion

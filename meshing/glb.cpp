@@ -18,9 +18,9 @@ namespace curvefusion {
 
 namespace {
 
-// Facets of tubes turn by 22.5 degrees (16 sides) and by up to 45 where a wire bends; tubes that
-// meet turn by more, except where one leaves the other at a small angle.
-constexpr double kCreaseAngle = 46 * std::numbers::pi / 180;
+// Facets of tubes and their domes turn by 22.5 degrees (16 sides); what turns by more is a seam
+// between tubes, or a kink of the wire.
+constexpr double kCreaseAngle = 30 * std::numbers::pi / 180;
 
 // A mesh as a graphics card takes it: one normal a vertex, so vertices on creases are repeated.
 struct ShadedMesh {

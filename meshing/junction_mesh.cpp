@@ -9,6 +9,7 @@
 #include "kernel/geometry.h"
 #include "meshing/hashed_number.h"
 #include "meshing/junction_union.h"
+#include "meshing/junction_wrap.h"
 #include "meshing/self_intersections.h"
 #include "meshing/union_cleaning.h"
 
@@ -152,10 +153,9 @@ std::optional<TriangleMesh> CleanSoundly(const UnionMesh& united, const Junction
   return std::nullopt;
 }
 
-std::optional<TriangleMesh> Attempt(const Junction& junction, const std::map<Place, int>& rings,
-                                    int attempt, uint64_t seed) {
-  const std::optional<UnionMesh> united =
-      UniteSolids(PerturbedStubs(junction, rings, attempt, seed));
+// What is left to do for the union of a junction's stubs.
+std::optional<TriangleMesh> Finished(const std::optional<UnionMesh>& united,
+                                     const Junction& junction, const std::map<Place, int>& rings) {
   if (!united) return std::nullopt;
   std::optional<TriangleMesh> clean = CleanSoundly(*united, junction);
   if (!clean) return std::nullopt;
@@ -164,11 +164,17 @@ std::optional<TriangleMesh> Attempt(const Junction& junction, const std::map<Pla
 
 }  // namespace
 
-JunctionMesh MeshJunction(const Junction& junction, int max_attempts, uint64_t seed) {
+JunctionMesh MeshJunction(const Junction& junction, const JunctionMeshOptions& options,
+                          uint64_t seed) {
   const std::map<Place, int> rings = RingsByPlace(junction);
   JunctionMesh result;
-  while (!result.surface && result.attempts < max_attempts) {
-    result.surface = Attempt(junction, rings, result.attempts++, seed);
+  while (!result.surface && result.attempts < options.max_attempts) {
+    const auto united = UniteSolids(PerturbedStubs(junction, rings, result.attempts++, seed));
+    result.surface = Finished(united, junction, rings);
+  }
+  if (!result.surface && options.last_resort) {
+    result.surface = Finished(WrapJunction(junction), junction, rings);
+    result.wrapped = result.surface.has_value();
   }
   return result;
 }

@@ -77,9 +77,10 @@ UnionMesh InCanonicalOrder(const UnionMesh& mesh) {
   return sorted;
 }
 
-bool Unite(ExactMesh& a, ExactMesh& b, ExactMesh& united) {
+// Unites b with a, in a.
+bool Unite(ExactMesh& a, ExactMesh& b) {
   try {
-    return CGAL::Polygon_mesh_processing::corefine_and_compute_union(a, b, united);
+    return CGAL::Polygon_mesh_processing::corefine_and_compute_union(a, b, a);
   } catch (const std::exception&) {
     return false;  // CGAL's way to say that a solid intersects itself
   }
@@ -113,9 +114,8 @@ std::optional<UnionMesh> UniteSolids(const std::vector<TriangleMesh>& solids) {
   while (round.size() > 1) {
     std::vector<ExactMesh> next_round;
     for (size_t i = 0; i + 1 < round.size(); i += 2) {
-      ExactMesh united;
-      if (!Unite(round[i], round[i + 1], united)) return std::nullopt;
-      next_round.push_back(std::move(united));
+      if (!Unite(round[i], round[i + 1])) return std::nullopt;
+      next_round.push_back(std::move(round[i]));
     }
     if (round.size() % 2 == 1) next_round.push_back(std::move(round.back()));
     round = std::move(next_round);

@@ -43,6 +43,16 @@ bool FoldedOver(const Point& a, const Point& b, const Point& c, const Point& d) 
          CGAL::coplanar_orientation(a, b, c, d) == CGAL::POSITIVE;
 }
 
+// Whether the last two corners of `t` lie strictly on one side of the plane of `s`. Triangles that
+// share their first corner then meet nowhere else; nearly all neighbours do so.
+bool OnOneSide(const TriangleMesh& mesh, const std::array<int, 3>& s, const std::array<int, 3>& t) {
+  const Point a = At(mesh, s[0]);
+  const Point b = At(mesh, s[1]);
+  const Point c = At(mesh, s[2]);
+  const CGAL::Orientation side = CGAL::orientation(a, b, c, At(mesh, t[1]));
+  return side != CGAL::COPLANAR && side == CGAL::orientation(a, b, c, At(mesh, t[2]));
+}
+
 bool Intersect(const TriangleMesh& mesh, int i, int j) {
   std::array<int, 3> s = mesh.triangles[i];
   std::array<int, 3> t = mesh.triangles[j];
@@ -50,6 +60,7 @@ bool Intersect(const TriangleMesh& mesh, int i, int j) {
     case 0:
       return CGAL::do_intersect(TriangleAt(mesh, i), TriangleAt(mesh, j));
     case 1:
+      if (OnOneSide(mesh, s, t) || OnOneSide(mesh, t, s)) return false;
       return CGAL::do_intersect(Kernel::Segment_3(At(mesh, s[1]), At(mesh, s[2])),
                                 TriangleAt(mesh, j)) ||
              CGAL::do_intersect(Kernel::Segment_3(At(mesh, t[1]), At(mesh, t[2])),

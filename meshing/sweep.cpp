@@ -10,7 +10,11 @@ namespace curvefusion {
 
 namespace {
 
-constexpr int kDomeRings = 4;          // of 16 sides: steps of 22.5 degrees in both directions
+constexpr int kDomeRings = 4;  // of 16 sides: steps of 22.5 degrees in both directions
+// Of the radius: a dome of so few rings has the volume of a hemisphere when its pole lies so high
+// and its inner rings are so wide.
+constexpr double kDomeHeight = 1.0214;
+constexpr double kDomeWidth = 1.0125;
 constexpr double kTaperLength = 0.35;  // of the radius
 constexpr double kTaperPart = 0.3;     // at most, of the segment
 
@@ -106,13 +110,13 @@ class RingWriter {
       const int ring = towards_pole ? step : kDomeRings - step;
       const double latitude = std::numbers::pi / 2 * ring / kDomeRings;
       RingFrame frame = rim;
-      frame.centre += radius * corner_radius_ * std::sin(latitude) * outward;
-      AddRing(frame, radius * std::cos(latitude));
+      frame.centre += radius * kDomeHeight * std::sin(latitude) * outward;
+      AddRing(frame, radius * kDomeWidth * std::cos(latitude));
     }
   }
 
-  Vec3f Pole(const RingFrame& rim, const Vec3& outward, double radius) const {
-    return (rim.centre + radius * corner_radius_ * outward).cast<float>();
+  static Vec3f Pole(const RingFrame& rim, const Vec3& outward, double radius) {
+    return (rim.centre + radius * kDomeHeight * outward).cast<float>();
   }
 
   void MarkPoint() { rings_.ring_of_point.push_back(rings_.ring_count); }

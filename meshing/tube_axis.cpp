@@ -14,16 +14,6 @@ constexpr double kFoldMargin = 1.15;
 // Where the radius changes faster than this per length, the tube is a jump and no cone.
 constexpr double kMaxRadiusSlope = 0.5;
 
-// How far point k lies from the chord between points a and b, in radii of point k; the radius
-// counts like a coordinate.
-double ChordDeviation(const TubeAxis& axis, size_t a, size_t k, size_t b) {
-  const double t = ClosestParameter(axis.points[a], axis.points[b], axis.points[k]);
-  const Vec3 on_chord = axis.points[a] + t * (axis.points[b] - axis.points[a]);
-  const double radius_on_chord = axis.radii[a] + t * (axis.radii[b] - axis.radii[a]);
-  const double offset = (axis.points[k] - on_chord).norm();
-  return std::max(offset, std::abs(axis.radii[k] - radius_on_chord)) / axis.radii[k];
-}
-
 // Douglas-Peucker: the indices to keep, ascending.
 std::vector<size_t> PointsWithinTolerance(const TubeAxis& axis, double tolerance) {
   const size_t n = axis.points.size();
@@ -146,6 +136,14 @@ TubeAxis WithoutRepeatedPoints(const TubeAxis& axis) {
 }
 
 }  // namespace
+
+double ChordDeviation(const TubeAxis& axis, size_t a, size_t k, size_t b) {
+  const double t = ClosestParameter(axis.points[a], axis.points[b], axis.points[k]);
+  const Vec3 on_chord = axis.points[a] + t * (axis.points[b] - axis.points[a]);
+  const double radius_on_chord = axis.radii[a] + t * (axis.radii[b] - axis.radii[a]);
+  const double offset = (axis.points[k] - on_chord).norm();
+  return std::max(offset, std::abs(axis.radii[k] - radius_on_chord)) / axis.radii[k];
+}
 
 TubeAxis SimplifyAxis(const TubeAxis& axis, const AxisOptions& options) {
   const TubeAxis distinct = WithoutRepeatedPoints(axis);

@@ -21,6 +21,10 @@ struct AxisOptions {
   double max_turn = 0.785;       ///< radians, at one point of a swept tube
 };
 
+/// How far point k lies from the chord between points a and b, in radii of point k; the radius
+/// counts like a coordinate.
+double ChordDeviation(const TubeAxis& axis, size_t a, size_t k, size_t b);
+
 /// The fewest points that follow `axis` (position and radius) within the tolerance
 /// (Douglas-Peucker), thinned to the least spacing and, within the wider tolerance, until no tube
 /// along them has to be cut for a kink. Both ends are kept bit for bit; points equal to their

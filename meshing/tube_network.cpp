@@ -108,8 +108,11 @@ TubeBranch Remnant(const TubeBranch& branch, int node_count) {
   const auto farthest = std::max_element(points.begin(), points.end(), [&](auto& p, auto& q) {
     return (p - points[0]).norm() < (q - points[0]).norm();
   });
-  const double radius = *std::max_element(branch.axis.radii.begin(), branch.axis.radii.end());
-  const double length = std::max((*farthest - points[0]).norm(), kLeastLength * radius);
+  const double true_radius = *std::max_element(branch.axis.radii.begin(), branch.axis.radii.end());
+  const double true_length = (*farthest - points[0]).norm();
+  const double length = std::max(true_length, kLeastLength * true_radius);
+  // As much thinner as keeps the volume of what is nearly a ball.
+  const double radius = true_radius - (length - true_length) / 4;
   const Vec3 direction = (*farthest - points[0]).normalized();
   return {{branch.nodes[0], node_count},
           {{points[0], points[0] + length * direction}, {radius, radius}}};

@@ -16,6 +16,8 @@ constexpr double kPreferThrough = 0.98;
 // The disc of a flat end keeps this part of the radius of the ball that covers it: clear of the
 // ball's facets, and meeting them at an angle at which intersections are well conditioned.
 constexpr double kCoveredPart = 0.92;
+// In radii: a tube that runs through a node straight on within this needs no ring there.
+constexpr double kStraightJoint = 0.04;
 
 // The links of a network: which end continues in which, at which turn.
 struct Chaining {
@@ -129,13 +131,23 @@ Chaining LinkBranches(const TubeNetwork& network, double max_turn) {
   return chaining;
 }
 
-// Appends a branch, entered at `from.side`; the point it shares with the path so far is averaged.
-void AppendBranch(const TubeNetwork& network, BranchEnd from, TubeAxis& axis) {
-  TubeAxis piece = network.branches[from.branch].axis;
+// Drops the point at which two branches were joined where the tube runs straight through: a ring
+// there would double the facets that meet the other tubes.
+void DropStraightJoint(size_t joint, TubeAxis& axis) {
+  if (joint == 0 || ChordDeviation(axis, joint - 1, joint, joint + 1) > kStraightJoint) return;
+  axis.points.erase(axis.points.begin() + static_cast<std::ptrdiff_t>(joint));
+  axis.radii.erase(axis.radii.begin() + static_cast<std::ptrdiff_t>(joint));
+}
+
+// Appends a branch, entered at `from.side`, with points at the spacing of rings; the point it
+// shares with the path so far is averaged or dropped.
+void AppendBranch(const TubeNetwork& network, BranchEnd from, double ring_spacing, TubeAxis& axis) {
+  TubeAxis piece = SubdivideAxis(network.branches[from.branch].axis, ring_spacing);
   if (from.side == 1) {
     std::reverse(piece.points.begin(), piece.points.end());
     std::reverse(piece.radii.begin(), piece.radii.end());
   }
+  const size_t joint = axis.points.empty() ? 0 : axis.points.size() - 1;
   if (!axis.points.empty()) {
     axis.radii.back() = (axis.radii.back() + piece.radii.front()) / 2;
     piece.points.erase(piece.points.begin());
@@ -143,16 +155,17 @@ void AppendBranch(const TubeNetwork& network, BranchEnd from, TubeAxis& axis) {
   }
   axis.points.insert(axis.points.end(), piece.points.begin(), piece.points.end());
   axis.radii.insert(axis.radii.end(), piece.radii.begin(), piece.radii.end());
+  DropStraightJoint(joint, axis);
 }
 
 // Follows the links from an end, which is a tube's end or lies on a ring without ends.
 TubePath FollowLinks(const TubeNetwork& network, const Chaining& chaining, BranchEnd start,
-                     std::vector<char>& used) {
+                     double ring_spacing, std::vector<char>& used) {
   TubePath path;
   BranchEnd entry = start;
   while (true) {
     used[entry.branch] = 1;
-    AppendBranch(network, entry, path.axis);
+    AppendBranch(network, entry, ring_spacing, path.axis);
     const BranchEnd exit{entry.branch, 1 - entry.side};
     entry = chaining.next[exit.branch][exit.side];
     if (entry.branch < 0) {
@@ -181,10 +194,8 @@ std::vector<TubePath> ChainTubes(const TubeNetwork& network, double max_turn, do
     for (int branch = 0; branch < static_cast<int>(network.branches.size()); ++branch) {
       for (int side = 0; side < 2; ++side) {
         if (used[branch] || (!rings && chaining.next[branch][side].branch >= 0)) continue;
-        paths.push_back(FollowLinks(network, chaining, {branch, side}, used));
-        TubePath& path = paths.back();
-        path.axis = SubdivideAxis(path.axis, ring_spacing);
-        if (path.closed) RemoveRepeatedEnd(path.axis);
+        paths.push_back(FollowLinks(network, chaining, {branch, side}, ring_spacing, used));
+        if (paths.back().closed) RemoveRepeatedEnd(paths.back().axis);
       }
     }
   }

@@ -26,7 +26,8 @@ struct TubePath {
 /// Chains branches that run straight on through a node (by less than `max_turn` radians, with about
 /// the same radius, without folding) and says how the others end there: the thickest tube at a node
 /// carries a ball of its radius, all other ends lie flat inside that ball, so their union leaves no
-/// gap. Rings are at most `ring_spacing` radii apart.
+/// gap. Rings are at most
+/// `ring_spacing` radii apart, twice as far at nodes that a tube runs straight through.
 std::vector<TubePath> ChainTubes(const TubeNetwork& network, double max_turn, double ring_spacing);
 
 /// Cuts a path in two at an inner point: the first part ends rounded there, the second flat inside

@@ -83,21 +83,26 @@ void AppendJunction(const Junction& junction, const JunctionMesh& part, Assembly
     assembly.failure_place = place;
     return;
   }
-  if (part.attempts > 1) {
+  if (part.wrapped) {
+    assembly.fallbacks.push_back({place, static_cast<int>(junction.stubs.size()), part.attempts,
+                                  "wrapped: crotches and gaps narrower than two thirds of the "
+                                  "radius are closed there",
+                                  true});
+  } else if (part.attempts > 1) {
     assembly.fallbacks.push_back({place, static_cast<int>(junction.stubs.size()), part.attempts,
                                   "moved vertices by a few thousandths of the radius"});
   }
   AppendMesh(*part.surface, assembly.mesh);
 }
 
-Assembly Assemble(const TubeLayout& layout, const TubeOptions& options) {
+Assembly Assemble(const TubeLayout& layout, const JunctionMeshOptions& options) {
   const int64_t count = static_cast<int64_t>(layout.groups.size());
   std::vector<Junction> junctions(layout.groups.size());
   std::vector<JunctionMesh> parts(layout.groups.size());
   ParallelFor(0, count, 1, [&](int64_t i) {
     if (layout.groups[i].size() == 1) return;
     junctions[i] = JunctionOf(layout, layout.groups[i]);
-    parts[i] = MeshJunction(junctions[i], options.attempts, static_cast<uint64_t>(i));
+    parts[i] = MeshJunction(junctions[i], options, static_cast<uint64_t>(i));
   });
   Assembly assembly;
   for (int64_t i = 0; i < count; ++i) {
@@ -138,7 +143,7 @@ TubeMesh BuildTubes(const SkeletonGraph& graph, const TubeOptions& options) {
   if (graph.empty()) return tubes;
   for (int turn = 0;; ++turn) {
     const TubeLayout layout = LayOutTubes(graph, options, static_cast<uint64_t>(turn));
-    Assembly assembly = Assemble(layout, options);
+    Assembly assembly = Assemble(layout, {options.attempts, turn + 1 == kTurns});
     const Vec3& place = assembly.failure_place;
     if (assembly.failure.empty()) {
       tubes.surface = *ToSurfaceMesh(assembly.mesh);

@@ -63,7 +63,7 @@ TEST_F(CommandLine, MeshWritesEveryFormatWithAnyRadii) {
   };
   const double pi = 3.14159265;
   const auto capsule = [&](double r) { return pi * r * r * (10 + 4.0 / 3 * r); };
-  // The domes are polyhedra (.3 % of the whole); a cone has more volume than its mean cylinder.
+  // Six digits are printed; a cone has more volume than its mean cylinder.
   EXPECT_NEAR(volume("--radius-from edge"), capsule(0.4) + capsule(0.2), 0.02);
   EXPECT_NEAR(volume("--radius-from global"), 2 * capsule(0.2), 0.01);
   EXPECT_NEAR(volume("--radius 3"), 2 * capsule(0.3), 0.02);

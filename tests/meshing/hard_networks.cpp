@@ -246,6 +246,35 @@ SkeletonGraph NoisyNetwork(Random& random) {
   return graph;
 }
 
+// A stem with loops that begin and end in one of its nodes.
+SkeletonGraph SelfLoops(Random& random) {
+  SkeletonGraph graph;
+  const double radius = Uniform(random, 1.5, 4) * kMm;
+  const NodeId foot = graph.AddNode(Vec3::Zero());
+  const NodeId top = graph.AddNode(Uniform(random, 2, 12) * radius * Direction(random));
+  AddStraight(graph, foot, top, radius);
+  for (int i = 0; i < Integer(random, 1, 4); ++i) {
+    const NodeId node = Integer(random, 0, 1) ? foot : top;
+    const Vec3 u = Direction(random);
+    const double size = Uniform(random, 0.5, 8) * radius;
+    Polyline circle = Arc(graph.position(node) - size * u, u, u.unitOrthogonal(), size, 0, 2 * kPi,
+                          Integer(random, 3, 48));
+    circle.front() = circle.back() = graph.position(node);
+    AddTube(graph, node, node, circle, radius);
+  }
+  return graph;
+}
+
+// One edge, from next to nothing to longer than the tube is thick.
+SkeletonGraph PointLike(Random& random) {
+  SkeletonGraph graph;
+  const Vec3 place(Uniform(random, -1, 1), Uniform(random, -1, 1), Uniform(random, -1, 1));
+  const double radius = Uniform(random, 1, 6) * kMm;
+  const double length = std::pow(10, Uniform(random, -9, 0.5)) * radius;
+  AddCurve(graph, {place, place + length * Direction(random)}, radius);
+  return graph;
+}
+
 using Generator = SkeletonGraph (*)(Random&);
 const std::map<std::string, Generator>& Generators() {
   static const std::map<std::string, Generator> generators = {{"star", Star},
@@ -259,6 +288,8 @@ const std::map<std::string, Generator>& Generators() {
                                                               {"loops", Loops},
                                                               {"coplanar_grid", CoplanarGrid},
                                                               {"coil", Coil},
+                                                              {"self_loops", SelfLoops},
+                                                              {"point", PointLike},
                                                               {"noisy", NoisyNetwork}};
   return generators;
 }
@@ -275,7 +306,9 @@ const std::vector<std::string>& HardKinds() {
 }
 
 SkeletonGraph RandomHardGraph(const std::string& kind, uint64_t seed) {
-  Random random(seed * 1000003 + std::hash<std::string>()(kind) % 1000);
+  uint64_t hash = 0xcbf29ce484222325ULL;  // FNV-1a: the same everywhere
+  for (const char c : kind) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
+  Random random(hash + seed);
   return Generators().at(kind)(random);
 }
 

@@ -51,7 +51,9 @@ std::vector<Kernel::Weighted_point_3> BallsAlong(const SkeletonGraph& graph, dou
   return balls;
 }
 
-Topology AlphaTopology(const SkeletonGraph& graph, double scale) {
+}  // namespace
+
+Topology TopologyOfTubes(const SkeletonGraph& graph, double scale) {
   const auto balls = BallsAlong(graph, scale);
   AlphaShape shape(balls.begin(), balls.end(), 0);
   Topology topology;
@@ -84,14 +86,8 @@ Topology AlphaTopology(const SkeletonGraph& graph, double scale) {
   return topology;
 }
 
-}  // namespace
-
-std::optional<Topology> TopologyOfTubes(const SkeletonGraph& graph) {
-  const Topology topology = AlphaTopology(graph, 1);
-  if (AlphaTopology(graph, 0.97) == topology && AlphaTopology(graph, 1.03) == topology) {
-    return topology;
-  }
-  return std::nullopt;
+bool HasGrazingContact(const SkeletonGraph& graph) {
+  return TopologyOfTubes(graph, 0.98) != TopologyOfTubes(graph, 1.02);
 }
 
 SurfaceDeviation DeviationFromTubes(const TriangleMesh& mesh, const SkeletonGraph& graph) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 
 #include "graph/skeleton_graph.h"
 #include "kernel/triangle_mesh.h"
@@ -11,15 +10,18 @@ namespace curvefusion {
 /// What the union of a skeleton's tubes is, found without meshing: a tube is the union of all balls
 /// of the local radius about the points of its edges. Every edge must have radii.
 
-/// Euler characteristic and components of the union, from a weighted alpha complex of balls every
-/// tenth of a radius. Nothing where the answer depends on 3 % of the radius: then tubes nearly
-/// touch or a hole is about to close.
+/// Euler characteristic and components of the union of tubes `scale` times as thick, from a
+/// weighted alpha complex of balls every tenth of a radius.
 struct Topology {
   int64_t euler = 0;
   int64_t components = 0;
   bool operator==(const Topology&) const = default;
 };
-std::optional<Topology> TopologyOfTubes(const SkeletonGraph& graph);
+Topology TopologyOfTubes(const SkeletonGraph& graph, double scale = 1);
+
+/// Whether the topology depends on 2 % of the radius: tubes nearly touch or a hole is about to
+/// close.
+bool HasGrazingContact(const SkeletonGraph& graph);
 
 /// The greatest distance of a vertex of the mesh from the surface of its nearest tube, outwards and
 /// inwards, in radii of that tube.
