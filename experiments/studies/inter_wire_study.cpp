@@ -2,9 +2,6 @@
 // than 17 mm" (CurveFusion 4, Effect of inter-wire distance).
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <map>
-
 #include "capture/sequence.h"
 #include "experiments/metrics/evaluation_files.h"
 #include "experiments/metrics/truth.h"
