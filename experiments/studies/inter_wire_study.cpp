@@ -2,9 +2,6 @@
 // than 17 mm" (CurveFusion 4, Effect of inter-wire distance).
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <map>
-
 #include "capture/sequence.h"
 #include "experiments/metrics/evaluation_files.h"
 #include "experiments/metrics/truth.h"
@@ -137,11 +134,11 @@ std::string PlotCommands(const std::vector<RunGroup>& profiles, double most_wire
          "set arrow 1 from first 17,graph 0 to first 17,graph 1 nohead dashtype 2 lc rgb "
          "'#666666'\n"
          "set label 1 'paper: 17 mm' at first 17.6,graph 0.06 right font ',7' tc rgb '#666666'\n"
-         "set multiplot layout 1,2 margins 0.07,0.99,0.16,0.90 spacing 0.09,0\n"
+         "set multiplot layout 1,2 margins 0.07,0.99,0.16,0.83 spacing 0.09,0\n"
          "set title 'Separate curves at the wires'\n" +
          fmt::format("set yrange [0:{}]\n", most_wires + 0.5) +
          "set arrow 2 from graph 0,first 6 to graph 1,first 6 nohead dashtype 3 lc rgb '#666666'\n"
-         "set key bottom left\n" +
+         "set key at screen 0.5,0.985 center top horizontal maxrows 1\n" +
          curves(2) +
          "unset arrow 2\nset arrow 2 from graph 0,first 0.95 to graph 1,first 0.95 nohead dashtype "
          "3 lc rgb '#666666'\nset title 'F at 5 mm, aligned'\nset yrange [0:1.05]\nunset key\n" +
