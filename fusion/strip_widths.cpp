@@ -14,6 +14,7 @@ namespace {
 constexpr int kRounds = 3;                  // colour from widths, widths from colour
 constexpr double kClearWidths = 1.5;        // another strand must be farther away
 constexpr int kHalfLengthPx = 4;            // of the stretch that a profile is averaged over
+constexpr double kMaxShare = 0.9;           // wider ones were cut off by what there is room for
 constexpr int64_t kGrain = 16;              // samples looked at by one task
 constexpr double kMaxCenterSpreadPx = 1.5;  // from the strips around on the same edge
 constexpr size_t kConsistencyReach = 3;     // strips before and behind one on its edge
@@ -128,7 +129,9 @@ std::vector<FoundStrip> FindStrips(const ColorImage& image, int frame,
     StripProfile profile = ReadProfile(image, sample, half_width_px, kHalfLengthPx);
     const double search_px = std::min(options.search_px, 0.5 * sample.clearance_px);
     const auto position = FindStrip(profile, search_px, max_width_px, options.min_contrast);
-    if (position) found[i] = {frame, sample, std::move(profile), *position};
+    if (position && position->width_px <= kMaxShare * max_width_px) {
+      found[i] = {frame, sample, std::move(profile), *position};
+    }
   });
   std::erase_if(found, [](const FoundStrip& strip) { return strip.position.width_px <= 0; });
   return KeepConsistent(found);
