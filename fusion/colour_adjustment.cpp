@@ -202,7 +202,10 @@ ColourAdjustment AdjustToColours(const SkeletonGraph& skeleton, const Sequence& 
   const CurvePoseState state =
       RunRounds(sequence, curves, frames, options.axis_depth, problem, result);
   result.skipped = ReasonToSkip(result);
-  if (!result.skipped.empty()) return result;
+  if (!result.skipped.empty()) {
+    result.color_shift_px.setZero();
+    return result;
+  }
   CurveVertices moved = curves;
   moved.positions = state.positions;
   result.skeleton = WithVertices(skeleton, moved, options.vertex_step);

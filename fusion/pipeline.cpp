@@ -229,6 +229,8 @@ void RefineInColour(const Sequence& given, RunContext& run, Reconstruction& resu
   for (size_t i = 0; i < result.sequence.frames.size(); ++i) {
     result.sequence.frames[i].T_world_camera = adjusted.T_world_camera[i];
   }
+  result.sequence.color_camera.cx += adjusted.color_shift_px.x();
+  result.sequence.color_camera.cy += adjusted.color_shift_px.y();
   ReportAdjustment(adjusted, run.log);
   run.observer.OnProgress("colour adjustment", 1, 1);
   run.observer.OnGraph("adjusted", result.skeleton);

@@ -70,7 +70,7 @@ struct Reconstruction {
   ObservedPoints points;     ///< the points the skeleton was made from
   double global_radius = 0;  ///< the paper's one radius for all, metres; 0 = not measurable
   /// The sequence with its poses corrected by the registration of frames and the adjustment to
-  /// colours (as given otherwise).
+  /// colours, which corrects the colour camera's principal point too (as given otherwise).
   Sequence sequence;
   std::vector<StageReport> stages;
   std::vector<std::string> warnings;  ///< what the user should know, a sentence each

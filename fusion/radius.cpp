@@ -76,6 +76,12 @@ Agreement Agree(const std::vector<double>& diameters, const RadiusOptions& optio
   return agreement;
 }
 
+double LowerQuartile(std::vector<double> values) {
+  const auto quarter = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 4);
+  std::nth_element(values.begin(), quarter, values.end());
+  return *quarter;
+}
+
 // The diameter of an edge: that of its wire, unless the edge's own strips clearly tell another.
 Agreement ChooseAgreement(const Agreement& own, const Agreement& wire) {
   const bool differs = std::abs(own.diameter - wire.diameter) > kAgreement * wire.diameter;
@@ -95,6 +101,14 @@ void Summarize(const SkeletonGraph& skeleton, const RadiusOptions& options,
   }
   estimate.global_radius = 0.5 * (options.strip_model ? Agree(all, options).diameter
                                                       : MostProminent(all, options.histogram_bin));
+  std::vector<double> radii_of_wires;
+  for (const auto& [wire, diameters] : by_wire) {
+    const Agreement agreed = Agree(diameters, options);
+    if (agreed.count >= options.min_strips) radii_of_wires.push_back(0.5 * agreed.diameter);
+  }
+  estimate.unmeasured_radius = options.per_wire && !radii_of_wires.empty()
+                                   ? LowerQuartile(std::move(radii_of_wires))
+                                   : estimate.global_radius;
   for (const EdgeId edge : skeleton.Edges()) {
     Agreement agreed = Agree(by_edge[edge], options);
     if (options.per_wire) {
@@ -139,10 +153,12 @@ void AssignRadii(const RadiusEstimate& estimate, const RadiusOptions& options,
     if (!skeleton.HasEdge(own.edge)) continue;
     const bool use_own = options.per_edge && own.radius > 0;
     const SkeletonEdge& edge = skeleton.edge(own.edge);
-    skeleton.SetCurve(
-        own.edge, edge.points,
-        std::vector<double>(edge.points.size(), use_own ? own.radius : estimate.global_radius),
-        edge.observations);
+    skeleton.SetCurve(own.edge, edge.points,
+                      std::vector<double>(edge.points.size(),
+                                          use_own ? own.radius
+                                                  : (options.per_edge ? estimate.unmeasured_radius
+                                                                      : estimate.global_radius)),
+                      edge.observations);
   }
 }
 
@@ -192,7 +208,7 @@ void VisitOptions(RadiusOptions& options, OptionVisitor& visitor) {
                  "Colour distance of a strip to both of its sides in the strip model."},
                 options.min_contrast);
   visitor.Visit(
-      {"min_strips", "", 1, 100000, "An edge with fewer agreeing strips gets the global radius."},
+      {"min_strips", "", 1, 100000, "An edge with fewer agreeing strips is not measured."},
       options.min_strips);
 }
 

@@ -45,7 +45,11 @@ struct EdgeRadius {
 
 /// Radii of a wire object.
 struct RadiusEstimate {
-  double global_radius = 0;        ///< the most prominent value, metres; 0 = not measurable
+  double global_radius = 0;  ///< the most prominent value, metres; 0 = not measurable
+  /// What edges without enough strips are given, metres: with options.per_wire the lower quartile
+  /// of the wires' radii, for thin wires stand close together and hide one another; else the global
+  /// one.
+  double unmeasured_radius = 0;
   std::vector<EdgeRadius> edges;   ///< one per edge, ascending
   std::vector<StripWidth> strips;  ///< every accepted strip, by frame, edge and arc length
 };
@@ -61,8 +65,8 @@ struct RadiusEstimate {
 RadiusEstimate EstimateRadius(const SkeletonGraph& skeleton, const Sequence& sequence,
                               const std::vector<int>& frames, const RadiusOptions& options);
 
-/// Sets the radius at every vertex: each edge's own with options.per_edge, the global one
-/// otherwise and where an edge has none. Does nothing where nothing was measured at all
+/// Sets the radius at every vertex: each edge's own with options.per_edge (unmeasured_radius where
+/// it has none), the global one otherwise. Does nothing where nothing was measured at all
 /// (estimate.global_radius == 0).
 void AssignRadii(const RadiusEstimate& estimate, const RadiusOptions& options,
                  SkeletonGraph& skeleton);

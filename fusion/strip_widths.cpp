@@ -14,6 +14,7 @@ namespace {
 constexpr int kRounds = 3;                  // colour from widths, widths from colour
 constexpr double kClearWidths = 1.5;        // another strand must be farther away
 constexpr int kHalfLengthPx = 4;            // of the stretch that a profile is averaged over
+constexpr double kMinRoomPx = 4;            // less would cut wires off and take the rest for all
 constexpr int64_t kGrain = 16;              // samples looked at by one task
 constexpr double kMaxCenterSpreadPx = 1.5;  // from the strips around on the same edge
 constexpr size_t kConsistencyReach = 3;     // strips before and behind one on its edge
@@ -123,7 +124,7 @@ std::vector<FoundStrip> FindStrips(const ColorImage& image, int frame,
     // The window ends where the next strand, moved by the same pose error, would come in.
     const double max_width_px = std::min(options.max_diameter / sample.metres_per_px,
                                          sample.clearance_px - kStripMarginPx - 1);
-    if (max_width_px < 2) return;
+    if (max_width_px < kMinRoomPx) return;
     const double half_width_px = options.search_px + 0.5 * max_width_px + kStripMarginPx + 1;
     StripProfile profile = ReadProfile(image, sample, half_width_px, kHalfLengthPx);
     const double search_px = std::min(options.search_px, 0.5 * sample.clearance_px);

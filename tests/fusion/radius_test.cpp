@@ -144,16 +144,19 @@ TEST_F(RadiusTest, NothingToMeasureIsNoError) {
   EXPECT_EQ(EstimateRadius(Skeleton(Vec3::Zero()), MakeSequence(), {}, {}).global_radius, 0);
 }
 
-TEST(AssignRadiiTest, EdgesWithoutAValueGetTheGlobalOne) {
+TEST(AssignRadiiTest, EdgesWithoutAValueGetThatOfThinWires) {
   SkeletonGraph skeleton;
   const EdgeId measured = skeleton.AddPolyline({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}});
   const EdgeId unmeasured = skeleton.AddPolyline({{0, 1, 0}, {1, 1, 0}});
   RadiusEstimate estimate;
-  estimate.global_radius = 0.002;
+  estimate.global_radius = 0.004;
+  estimate.unmeasured_radius = 0.002;
   estimate.edges = {{measured, 0.003, 0, 9}, {unmeasured, 0, 0, 0}};
   AssignRadii(estimate, {}, skeleton);
   EXPECT_EQ(skeleton.edge(measured).radii, std::vector<double>(3, 0.003));
   EXPECT_EQ(skeleton.edge(unmeasured).radii, std::vector<double>(2, 0.002));
+  AssignRadii(estimate, {.per_edge = false}, skeleton);
+  EXPECT_EQ(skeleton.edge(measured).radii, std::vector<double>(3, 0.004));
 }
 
 SkeletonGraph ReadCurves(const std::filesystem::path& path, std::vector<double>& diameters) {
