@@ -9,6 +9,7 @@
 
 #include "apps/commands/command.h"
 #include "apps/output_folder.h"
+#include "experiments/studies/regression_check.h"
 #include "experiments/studies/studies.h"
 #include "experiments/studies/study_runner.h"
 #include "kernel/error.h"
@@ -19,10 +20,13 @@ namespace curvefusion {
 namespace {
 
 constexpr int kRunsFailed = 1;
+constexpr int kFellBehindBaseline = 1;
 
 struct ExperimentArguments {
   std::vector<std::string> names;
   std::filesystem::path output;
+  std::filesystem::path baseline;
+  double tolerance = 0.02;
   std::string profile = "both";
   std::string split = "train";
   StudyRequest request;
@@ -63,6 +67,15 @@ int PrintOutcome(const StudyResults& results, bool quiet) {
   return failed > 0 ? kRunsFailed : 0;
 }
 
+int PrintComparison(const std::vector<StudyRun>& before, const StudyResults& results,
+                    double tolerance) {
+  const RegressionCheck check = CompareWithBaseline(before, results.runs, tolerance);
+  fmt::print("{}{}\n", MarkdownTable(check.table),
+             check.fell ? fmt::format("Worse than the baseline by more than {}", tolerance)
+                        : fmt::format("No worse than the baseline by more than {}", tolerance));
+  return check.fell ? kFellBehindBaseline : 0;
+}
+
 // What an interrupted study leaves is worth more than other commands' nothing.
 StudyResults RunOrTellHowToGoOn(const Study& study, const StudyRequest& request,
                                 const ExperimentArguments& arguments, const Progress& progress) {
@@ -77,6 +90,8 @@ StudyResults RunOrTellHowToGoOn(const Study& study, const StudyRequest& request,
 
 int RunOne(const Study& study, const StudyRequest& request, const ExperimentArguments& arguments) {
   const StudyPlan plan = PlanStudy(study, request, arguments.output);
+  std::vector<StudyRun> baseline;
+  if (!arguments.baseline.empty()) baseline = ReadBaseline(study, request, arguments.baseline);
   if (!arguments.run.quiet) {
     fmt::print("{}: ", study.name);
     PrintPlan(plan, arguments.runner.remeasure);
@@ -86,7 +101,9 @@ int RunOne(const Study& study, const StudyRequest& request, const ExperimentArgu
   const StudyResults results =
       RunOrTellHowToGoOn(study, request, arguments, InterruptibleProgress(printer));
   printer.Finish();
-  return PrintOutcome(results, arguments.run.quiet);
+  const int outcome = PrintOutcome(results, arguments.run.quiet);
+  if (baseline.empty()) return outcome;
+  return std::max(outcome, PrintComparison(baseline, results, arguments.tolerance));
 }
 
 // "all" leaves out those that choose constants: they are not figures but work on them.
@@ -140,9 +157,14 @@ void AddRequestOptions(CLI::App& command, ExperimentArguments& arguments) {
   command
       .add_option(
           "--set", arguments.request.assignments,
-          "A setting of the reconstruction as section.key=value; may be given several times")
+          "A setting of the reconstruction as section.key=value; may be given several times; "
+          "sweep takes values separated by commas")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command
+      .add_option("--objects", arguments.request.objects,
+                  "Objects of the studies objects, ablation and sweep, separated by commas")
+      ->delimiter(',');
 }
 
 }  // namespace
@@ -163,12 +185,22 @@ void AddExperimentCommand(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(1, 64));
   command->add_flag("--remeasure", arguments->runner.remeasure,
                     "Measure again what another revision of this program has measured");
+  command->add_option("--baseline", arguments->baseline,
+                      "Folder of an earlier call: compares the same runs and exits with 1 where a "
+                      "figure is worse by more than the tolerance");
+  command
+      ->add_option("--tolerance", arguments->tolerance,
+                   "Of shares and of millimetres of diameter; otherwise 0.02")
+      ->check(CLI::Range(0.0, 1.0));
   AddRunOptions(*command, arguments->run);
   command->footer(StudyList() +
                   "Example:\n  curvefusion experiment objects -o studies --quick\n"
                   "  curvefusion experiment all -o studies --remeasure\n"
                   "  curvefusion experiment inter-wire -o studies --seeds 1 --set "
-                  "fusion.overlap_distance=0.008");
+                  "fusion.overlap_distance=0.008\n"
+                  "  curvefusion experiment sweep -o sweep --set bundle.min_frames=1,2,3 --objects "
+                  "cage,cat --seeds 1\n"
+                  "  curvefusion experiment sweep -o now --objects cage,cat --baseline before");
   command->callback([arguments, &exit_code] { exit_code = RunExperiment(*arguments); });
 }
 

@@ -10,26 +10,14 @@ namespace curvefusion {
 
 namespace {
 
-constexpr int kFrames = 150;
-constexpr int kQuickFrames = 60;
-
-std::vector<std::string> ObjectsOf(const StudyRequest& request) {
-  if (request.quick) return {"cat", "deco"};
-  return {"dish", "cage", "cat", "deco", "hanger", "rack", "chair", "wine"};
-}
-
 std::vector<StudyCase> Cases(const StudyRequest& request) {
   std::vector<StudyCase> cases;
   for (const std::string& object : ObjectsOf(request)) {
     for (const uint64_t seed : SeedsOf(request)) {
-      SimulationOptions scan;
-      scan.object = object;
-      scan.seed = seed;
-      scan.frames = request.quick ? kQuickFrames : kFrames;
       for (const Profile profile : request.profiles) {
         cases.push_back({{{"object", object}, {"profile", ProfileName(profile)}},
                          seed,
-                         scan,
+                         ObjectScan(request, object, seed),
                          CaseConfig(request, profile)});
       }
     }

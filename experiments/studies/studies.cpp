@@ -6,7 +6,8 @@
 namespace curvefusion {
 
 std::vector<Study> AllStudies() {
-  return {ObjectsStudy(), BundleSizeStudy(), InterWireStudy(), SensorValidationStudy()};
+  return {ObjectsStudy(),          BundleSizeStudy(), InterWireStudy(),
+          SensorValidationStudy(), AblationStudy(),   SweepStudy()};
 }
 
 Study StudyNamed(const std::string& name) {

@@ -7,7 +7,7 @@
 
 namespace curvefusion {
 
-/// Every study, in the order in which the paper has them.
+/// Every study: those of the paper in its order, then those of the method's settings.
 std::vector<Study> AllStudies();
 
 /// The study of that name. Throws Error(kUsage) naming the nearest one.
@@ -18,5 +18,7 @@ Study ObjectsStudy();
 Study BundleSizeStudy();
 Study InterWireStudy();
 Study SensorValidationStudy();
+Study AblationStudy();
+Study SweepStudy();
 
 }  // namespace curvefusion

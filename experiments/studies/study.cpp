@@ -1,11 +1,17 @@
 #include "experiments/studies/study.h"
 
+#include <algorithm>
 #include <cctype>
+
+#include "kernel/error.h"
+#include "kernel/options.h"
 
 namespace curvefusion {
 
 namespace {
 
+constexpr int kFrames = 150;
+constexpr int kQuickFrames = 60;
 constexpr int kSeeds = 3;
 constexpr uint64_t kFirstTrainSeed = 1;
 constexpr uint64_t kFirstTestSeed = 101;
@@ -20,6 +26,29 @@ std::vector<uint64_t> SeedsOf(const StudyRequest& request) {
   std::vector<uint64_t> seeds;
   for (int i = 0; i < count; ++i) seeds.push_back(first + static_cast<uint64_t>(i));
   return seeds;
+}
+
+std::vector<std::string> ObjectsOf(const StudyRequest& request) {
+  if (request.objects.empty()) {
+    if (request.quick) return {"cat", "deco"};
+    return {"dish", "cage", "cat", "deco", "hanger", "rack", "chair", "wine"};
+  }
+  const std::vector<std::string> known = ObjectNames();
+  for (const std::string& object : request.objects) {
+    if (std::find(known.begin(), known.end(), object) != known.end()) continue;
+    throw Error(ErrorKind::kUsage, "there is no object " + object + "; did you mean " +
+                                       NearestName(object, known) + "?");
+  }
+  return request.objects;
+}
+
+SimulationOptions ObjectScan(const StudyRequest& request, const std::string& object,
+                             uint64_t seed) {
+  SimulationOptions scan;
+  scan.object = object;
+  scan.seed = seed;
+  scan.frames = request.quick ? kQuickFrames : kFrames;
+  return scan;
 }
 
 Config CaseConfig(const StudyRequest& request, Profile profile,

@@ -29,10 +29,19 @@ struct StudyRequest {
   int seeds = 0;  ///< how many; 0 = 3, or 1 of a quick study
   Split split = Split::kTrain;
   std::vector<std::string> assignments;  ///< "section.key=value" for the config of every case
+  std::vector<std::string> objects;      ///< of studies of the paper's objects; empty = theirs
 };
 
 /// The seeds a request asks for.
 std::vector<uint64_t> SeedsOf(const StudyRequest& request);
+
+/// The objects a request asks for: otherwise the paper's eight, or two of a quick study. Throws
+/// Error(kUsage) naming the nearest one for an object that cannot be simulated.
+std::vector<std::string> ObjectsOf(const StudyRequest& request);
+
+/// The scan of an object that studies of the paper's objects look at: a Kinect V1 with the poses of
+/// ORB-SLAM2, 150 frames, or 60 of a quick study.
+SimulationOptions ObjectScan(const StudyRequest& request, const std::string& object, uint64_t seed);
 
 /// The config of a case: the profile's, with the request's assignments, then `more`.
 Config CaseConfig(const StudyRequest& request, Profile profile,

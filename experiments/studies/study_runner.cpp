@@ -32,11 +32,6 @@ Figures FiniteOnly(Figures figures) {
   return figures;
 }
 
-fs::path RunFolder(const Study& study, const StudyRequest& request, const fs::path& folder,
-                   const StudyCase& study_case) {
-  return folder / "runs" / StudyStem(study, request) / CaseName(study_case);
-}
-
 void CheckNames(const Study& study, const std::vector<StudyCase>& cases) {
   std::set<std::string> names;
   for (const StudyCase& study_case : cases) {
@@ -221,6 +216,11 @@ void StudyRunner::RecordFailure(size_t index, const std::string& message) {
 
 std::string StudyStem(const Study& study, const StudyRequest& request) {
   return study.name + "_" + SplitName(request.split) + (request.quick ? "_quick" : "");
+}
+
+fs::path RunFolder(const Study& study, const StudyRequest& request, const fs::path& folder,
+                   const StudyCase& study_case) {
+  return folder / "runs" / StudyStem(study, request) / CaseName(study_case);
 }
 
 StudyPlan PlanStudy(const Study& study, const StudyRequest& request, const fs::path& folder) {

@@ -32,6 +32,10 @@ StudyPlan PlanStudy(const Study& study, const StudyRequest& request,
 /// quick, so that none is taken for another.
 std::string StudyStem(const Study& study, const StudyRequest& request);
 
+/// Where the files of a run are kept.
+std::filesystem::path RunFolder(const Study& study, const StudyRequest& request,
+                                const std::filesystem::path& folder, const StudyCase& study_case);
+
 /// Measures what is not finished yet, then writes the runs as CSV and calls the study's report.
 /// Files: scans/KEY (simulated scans, shared by all studies in `folder`), runs/STEM/CASE/ (run.json
 /// and what the study keeps), STEM.csv, and what the report writes. A run appears under its name

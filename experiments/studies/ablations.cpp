@@ -1,0 +1,173 @@
+#include "experiments/studies/ablations.h"
+
+namespace curvefusion {
+
+namespace {
+
+// Steps up to the points of bundles, CurveFusion 3.1.
+std::vector<Ablation> OfSegmentation() {
+  return {
+      {"volume stride", {"volume.stride=1"}, "Time: large surfaces are seen often enough."},
+      {"volume grid",
+       {"volume.voxel_size=0.005"},
+       "Time and memory: the volume holds large surfaces only."},
+      {"coarse rendering",
+       {"segmentation.render_divisor=1"},
+       "Time: the rendering shows large surfaces only."},
+      {"front distance",
+       {"segmentation.front_distance=0"},
+       "Surfaces are noisier than their mean model; both profiles need it."},
+      {"rendering required",
+       {"segmentation.accept_where_nothing_rendered=true"},
+       "Where nothing is rendered there is no surface to subtract; both profiles need it.",
+       {"segmentation.front_distance"}},
+      {"silhouette margin",
+       {"segmentation.silhouette_margin_px=0"},
+       "Block matching fattens the silhouettes of large surfaces."},
+      {"neighbours", {"segmentation.min_neighbours=0"}, "Lone pixels are noise."},
+      {"bundle grid",
+       {"bundle.voxel_size=0.005", "ghosts.core_points=12"},
+       "Finer points; the density of DBSCAN goes with the grid."},
+      {"frames per point", {"bundle.min_frames=1"}, "Noise does not come back at the same place."},
+      {"edge tolerance",
+       {"ghosts.tolerance_px=0"},
+       "Colour edges are blurred and shifted against depth."},
+      {"verified outline",
+       {"ghosts.verified_outline=0"},
+       "Chance hits inside a ghost do not verify it."}};
+}
+
+// From bundles to one set of points.
+std::vector<Ablation> OfRegistration() {
+  return {{"trusted bundles",
+           {"registration.min_inliers=0"},
+           "A bundle that fits the curves badly keeps its pose."},
+          {"frame registration", {"registration.rounds=0"}, "Frames drift within a bundle."},
+          {"point to line",
+           {"registration.point_to_line=false"},
+           "Curves seen in part slide along each other instead of sticking."},
+          {"fewer pairs",
+           {"registration.max_points=2000", "registration.max_iterations=40"},
+           "Time: registration needs few points and iterations."},
+          {"axis depth",
+           {"registration.axis_depth=0"},
+           "A depth camera sees the near side of a wire, not its axis."},
+          {"noise metric",
+           {"registration.min_linearity=0"},
+           "Depth noise larger than the wires blurs curves along the viewing rays."},
+          {kCarriedPoints,
+           {"registration.carry_points=false"},
+           "All points contracted once, on the ridges of their density, instead of fused skeletons "
+           "of bundles.",
+           {"registration.carried_voxel_size", "ridge_projection", "curve_network", "free_ends",
+            "junction_refinement", "ridge_skeleton"}}};
+}
+
+// Steps from points to curves.
+std::vector<Ablation> OfRidges() {
+  return {{"kernel by thickness",
+           {"ridge_projection.sigma_per_thickness=0"},
+           "A thin kernel splits thick wires into strands.",
+           {"ridge_projection.max_sigma"}},
+          {"ridge strength",
+           {"ridge_projection.min_relative_strength=0", "ridge_projection.min_local_strength=0"},
+           "Weak ridges lie beyond an end, beside a wire, or are outliers.",
+           {"ridge_projection.strength_radius"}},
+          {"ridge elongation",
+           {"ridge_projection.max_elongation=100"},
+           "False ridges lie between parallel wires."},
+          {"links along ridges",
+           {"curve_network.direction_penalty=0"},
+           "Links across the ridge join parallel wires."},
+          {"spurs", {"curve_network.min_spur=0"}, "Short dead ends are noise."},
+          {"closed gaps",
+           {"free_ends.max_gap=0", "free_ends.max_facing_gap=0", "free_ends.touch_distance=0"},
+           "Wires are not seen everywhere; CurveFusion leaves gaps open.",
+           {"free_ends"}},
+          {"straight tips",
+           {"free_ends.tip_length=0"},
+           "At the very end of a wire its ridge turns sideways."},
+          {"placed junctions",
+           {"junction_refinement.reach=0.001"},
+           "The kernel blurs junctions; they lie where the lines of their branches meet.",
+           {"junction_refinement.inner_radius", "junction_refinement.fit_length"}},
+          {"merged junctions",
+           {"junction_refinement.merge_distance=0", "junction_refinement.min_distance=0"},
+           "The kernel tears a crossing into junctions of fewer branches.",
+           {"junction_refinement.max_residual"}},
+          {"fragments",
+           {"ridge_skeleton.fragment_length=0", "ridge_skeleton.min_component=0"},
+           "Short pieces are noise."},
+          {"curve smoothing",
+           {"ridge_skeleton.smoothing_length=0"},
+           "Details shorter than the kernel are noise."}};
+}
+
+// Fusion of skeletons, CurveFusion 3.3.
+std::vector<Ablation> OfFusion() {
+  std::vector<Ablation> ablations = {
+      {"moved bundles",
+       {"fusion.move_partial=true"},
+       "The result stays in the frame of the first bundle."},
+      {"kept neighbours",
+       {"fusion.keep_neighbours=false"},
+       "Wires nearer than the overlap distance stay apart."},
+      {"weights by sight",
+       {"fusion.weights_by_observation=false"},
+       "The paper's weights favour what was seen first."},
+      {"opened cycles",
+       {"fusion.min_cycle_length=0"},
+       "Spurs that touch a neighbouring branch make short cycles."},
+      {"fusion point to line",
+       {"fusion_alignment.point_to_line=false"},
+       "Curves seen in part slide along each other instead of sticking."},
+      {"fewer fusion pairs",
+       {"fusion_alignment.sample_step=0.001", "fusion_alignment.max_points=20000",
+        "fusion_alignment.max_iterations=100"},
+       "Time: alignment needs few points and iterations."},
+      {"held ends",
+       {"smoothing.hold_free_ends=false"},
+       "Repeated smoothing wears curved ends off."},
+      {"kept corners",
+       {"smoothing.corner_angle=3.141592653589793"},
+       "Smoothing rounds sharp bends off."},
+      {"kept curvature", {"smoothing.keep_curvature=false"}, "Bends shrink with every smoothing."}};
+  for (Ablation& ablation : ablations) ablation.of_fusion = true;
+  return ablations;
+}
+
+// What colour images tell of finished curves.
+std::vector<Ablation> OfColours() {
+  return {{"colour adjustment",
+           {"colour_adjustment.enabled=false"},
+           "Colour images show curves and poses to a tenth of a pixel.",
+           {"colour_adjustment"}},
+          {"strip model",
+           {"radius.strip_model=false"},
+           "Widths between edges are biased by blur and shade.",
+           {"radius.search_px"}},
+          {"radius per edge", {"radius.per_edge=false"}, "Objects have wires of several widths."},
+          {"radius per wire",
+           {"radius.per_wire=false"},
+           "Between near junctions too few strips are free of other wires."}};
+}
+
+}  // namespace
+
+std::vector<Ablation> Ablations() {
+  std::vector<Ablation> all;
+  for (const auto& step :
+       {OfSegmentation(), OfRegistration(), OfRidges(), OfFusion(), OfColours()}) {
+    all.insert(all.end(), step.begin(), step.end());
+  }
+  return all;
+}
+
+std::vector<FixedDeviation> FixedDeviations() {
+  const std::string in_how = "the deviation is in how it is done, in both profiles alike";
+  return {{"segmentation.extra_dilation", "0 in both profiles: not in use"},
+          {"l1_contraction.sample_spacing", in_how},
+          {"l1_contraction.repulsion", in_how}};
+}
+
+}  // namespace curvefusion
