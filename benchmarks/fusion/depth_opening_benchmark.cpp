@@ -14,7 +14,7 @@ void BM_OpenDepth(benchmark::State& state) {
   for (int i = 0; i < kFrames; ++i) frames.push_back(RenderDepth(Room(), camera, PoseOfFrame(i)));
   int frame = 0;
   for (auto _ : state) {
-    benchmark::DoNotOptimize(OpenDepth(frames[frame], camera, {}));
+    benchmark::DoNotOptimize(OpenDepth(frames[frame], camera, {}, {}));
     frame = (frame + 1) % kFrames;
   }
 }

@@ -164,7 +164,8 @@ void AddPart(const WireCurve& curve, const Stop& from, const Stop& to, SkeletonG
   for (int round = 0; round < rounds; ++round) {
     for (size_t i = round; i < curve.points.size(); ++i) {
       const double at = cumulative[i] + round * cumulative.back();
-      if (at > from.arc_length + kClear && at < to.arc_length - kClear) {
+      if (at > from.arc_length + kClear && at < to.arc_length - kClear &&
+          curve.points[i] != edge.points.back()) {  // shapes joined end to end repeat a point
         edge.points.push_back(curve.points[i]);
       }
     }

@@ -131,7 +131,9 @@ TEST(Tubes, RandomHardNetworks) {
   }
   // Kinks as small as noise are smoothed within .15 r: holes and contacts of that size may come out
   // either way (docs/meshing.md has the figures).
-  if (!only) EXPECT_LE(wrong_topology, networks / 50);
+  if (!only) {
+    EXPECT_LE(wrong_topology, networks / 50);
+  }
 }
 
 }  // namespace
