@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -26,6 +27,13 @@ void VisitOptions(DepthOpeningOptions& options, OptionVisitor& visitor) {
                  "A step of the rendering's depth above that is an edge, unless the surface is as "
                  "steep beside it. CurveFusion 3.1 gives no value."},
                 options.discontinuity);
+  visitor.Visit({"solid_depth", "m", 0, 0.1,
+                 "Deviation: what frames saw through so far behind its rendering is no large "
+                 "surface but a grille; 0 = not asked."},
+                options.solid_depth);
+  visitor.Visit({"min_solidity", "", 0, 1,
+                 "Deviation: of a large surface no smaller share of frames ends at it than that."},
+                options.min_solidity);
   visitor.Visit({"discontinuity_noise", "1/m", 0, 0.1,
                  "Steps up to that times depth squared are noise. Khoshelham 2012 for the Kinect."},
                 options.noise_quadratic);
@@ -224,26 +232,41 @@ float LeastDepth(const DepthImage& depth) {
   return least;
 }
 
-// 1 where a disc of the radius around the pixel keeps within its surface.
-MaskImage Erode(const DepthImage& depth, const Image<uint8_t>& links, const MetricScale& scale,
-                double radius) {
-  SurfaceDistance to_edge(links);
+// Takes from `eroded` what lies within the radius of a source pixel of the same surface.
+template <typename IsSource>
+void ErodeFrom(const IsSource& is_source, const DepthImage& depth, const Image<uint8_t>& links,
+               const MetricScale& scale, double radius, MaskImage& eroded) {
+  SurfaceDistance to_source(links);
   const float greatest_reach = scale.Pixels(radius, LeastDepth(depth)) + 1;
   for (int v = 0; v < depth.height(); ++v) {
     for (int u = 0; u < depth.width(); ++u) {
-      if (links(u, v) & kNearEdge) to_edge.AddSource(u, v, greatest_reach);
+      if (is_source(u, v)) to_source.AddSource(u, v, greatest_reach);
     }
   }
-  to_edge.Propagate();
-  MaskImage eroded(depth.width(), depth.height(), 0);
+  to_source.Propagate();
   for (int v = 0; v < depth.height(); ++v) {
     for (int u = 0; u < depth.width(); ++u) {
-      if (!(depth(u, v) > 0)) continue;
-      // The edge itself runs half a pixel outside of the centre of the last pixel.
+      if (!eroded(u, v)) continue;
+      // An edge runs half a pixel outside of the centre of the last pixel.
       const float reach = std::max(0.0f, scale.Pixels(radius, depth(u, v)) - 0.5f);
-      eroded(u, v) = static_cast<float>(to_edge.Squared(u, v)) >= reach * reach;
+      eroded(u, v) = static_cast<float>(to_source.Squared(u, v)) >= reach * reach;
     }
   }
+}
+
+// 1 where a disc of the radius around the pixel keeps within its surface, and one of half the
+// radius within what nothing was seen through: lone solid places of a grille go.
+MaskImage Erode(const DepthImage& depth, const DepthImage& solidity, const Image<uint8_t>& links,
+                const MetricScale& scale, const DepthOpeningOptions& options) {
+  MaskImage eroded(depth.width(), depth.height(), 0);
+  for (int v = 0; v < depth.height(); ++v) {
+    for (int u = 0; u < depth.width(); ++u) eroded(u, v) = depth(u, v) > 0;
+  }
+  const auto is_edge = [&](int u, int v) { return (links(u, v) & kNearEdge) != 0; };
+  ErodeFrom(is_edge, depth, links, scale, options.radius, eroded);
+  if (solidity.size() == 0) return eroded;
+  const auto is_open = [&](int u, int v) { return solidity(u, v) < options.min_solidity; };
+  ErodeFrom(is_open, depth, links, scale, options.radius / 2, eroded);
   return eroded;
 }
 
@@ -272,7 +295,7 @@ DepthImage DilateBack(const DepthImage& depth, const Image<uint8_t>& links,
 }  // namespace
 
 DepthImage OpenDepth(const DepthImage& rendering, const PinholeCamera& camera,
-                     const DepthOpeningOptions& options) {
+                     const DepthImage& solidity, const DepthOpeningOptions& options) {
   if (rendering.width() != camera.width || rendering.height() != camera.height) {
     throw Error(ErrorKind::kBadInput,
                 fmt::format("depth rendering of {} x {} pixels does not fit its camera of {} x {}",
@@ -280,7 +303,8 @@ DepthImage OpenDepth(const DepthImage& rendering, const PinholeCamera& camera,
   }
   const SurfaceLinks surface(rendering, camera, options);
   const MetricScale scale(camera);
-  const MaskImage eroded = Erode(rendering, surface.links(), scale, options.radius);
+  assert(solidity.size() == 0 || solidity.size() == rendering.size());
+  const MaskImage eroded = Erode(rendering, solidity, surface.links(), scale, options);
   return DilateBack(rendering, surface.links(), scale, options.radius + options.extra_dilation,
                     eroded);
 }

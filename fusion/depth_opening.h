@@ -21,6 +21,11 @@ struct DepthOpeningOptions {
   /// 1/m, 0 to 0.1: steps up to that times depth squared are noise (3.5 standard deviations of a
   /// Kinect V1, Khoshelham 2012).
   double noise_quadratic = 0.005;
+  /// Metres, 0 to 0.1: what was seen through so far behind its surface is none; 0 = not asked. A
+  /// wire is thinner, a box thicker.
+  double solid_depth = 0;
+  /// 0 to 1: less solid there means seen through.
+  double min_solidity = 0.5;
 };
 void VisitOptions(DepthOpeningOptions& options, OptionVisitor& visitor);
 
@@ -31,11 +36,13 @@ void VisitOptions(DepthOpeningOptions& options, OptionVisitor& visitor);
 /// back. The far side is no edge, the surface goes on behind: between two wires nothing of the wall
 /// is lost. Neither is the border of the image. Where nothing was rendered there is free space
 /// beyond reach or a gap in the scan; it counts as far, so that wires before it go, and gaps do no
-/// harm to surfaces because dilation restores them. Distances are Euclidean in pixels, taken to
+/// harm to surfaces because dilation restores them. What `solidity` (SolidityBehind; empty = all
+/// solid) says was seen through does not outlast erosion either: a grille may look like a surface
+/// from one side. Distances are Euclidean in pixels, taken to
 /// metres by each pixel's depth, and run within one surface only, never across a discontinuity.
 /// Throws Error(kBadInput) for a rendering of another size than the camera's.
 /// Cost: linear in pixels.
 DepthImage OpenDepth(const DepthImage& rendering, const PinholeCamera& camera,
-                     const DepthOpeningOptions& options);
+                     const DepthImage& solidity, const DepthOpeningOptions& options);
 
 }  // namespace curvefusion

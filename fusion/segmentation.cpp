@@ -23,8 +23,13 @@ SegmentedFrame SegmentFrame(const Sequence& sequence, int frame, const TsdfVolum
   SegmentedFrame segmented;
   segmented.depth = LoadDepth(sequence, frame);
   const PinholeCamera small = sequence.depth_camera.Scaled(1.0 / options.render_divisor);
-  const DepthImage rendering = volume.Raycast(small, sequence.frames[frame].T_world_camera);
-  const DepthImage kept = OpenDepth(rendering, small, options.opening);
+  const RigidTransform& T_world_camera = sequence.frames[frame].T_world_camera;
+  const DepthImage rendering = volume.Raycast(small, T_world_camera);
+  const double solid_depth = options.opening.solid_depth;
+  const DepthImage solidity =
+      solid_depth > 0 ? volume.SolidityBehind(rendering, small, T_world_camera, solid_depth)
+                      : DepthImage();
+  const DepthImage kept = OpenDepth(rendering, small, solidity, options.opening);
   segmented.mask = ImageDifferenceSet(segmented.depth, rendering, kept, options.difference);
   const MaskImage edges = ColourEdges(LoadColor(sequence, frame), options.edges);
   segmented.on_edge =

@@ -10,6 +10,7 @@
 
 #include "fusion/marching_cubes.h"
 #include "fusion/raycast.h"
+#include "fusion/space_behind.h"
 #include "fusion/surface_cells.h"
 #include "fusion/tsdf_integration.h"
 #include "fusion/voxel_blocks.h"
@@ -151,6 +152,19 @@ DepthImage TsdfVolume::Raycast(const PinholeCamera& camera,
   CheckPose(T_world_camera);
   return RaycastBlocks(impl_->grid, impl_->SurfaceBlocks(), impl_->scale.voxel_size, camera,
                        T_world_camera);
+}
+
+DepthImage TsdfVolume::SolidityBehind(const DepthImage& rendering, const PinholeCamera& camera,
+                                      const RigidTransform& T_world_camera, double distance) const {
+  if (distance >= impl_->scale.truncation) {
+    throw Error(ErrorKind::kUsage,
+                fmt::format("the volume stores distances up to {} m behind surfaces: "
+                            "segmentation.solid_depth = {} m must be less, or "
+                            "volume.truncation_voxels larger",
+                            impl_->scale.truncation, distance));
+  }
+  return curvefusion::SolidityBehind(impl_->grid, impl_->scale, rendering, camera, T_world_camera,
+                                     distance);
 }
 
 TriangleMesh TsdfVolume::ExtractMesh() const {

@@ -53,6 +53,11 @@ class TsdfVolume {
   /// no surface. Throws Error(kBadInput) for a pose that is not finite.
   DepthImage Raycast(const PinholeCamera& camera, const RigidTransform& T_world_camera) const;
 
+  /// How solid it is `distance` metres behind the surfaces of a rendering (SolidityBehind). Throws
+  /// Error(kUsage) for a distance that is not less than the truncation.
+  DepthImage SolidityBehind(const DepthImage& rendering, const PinholeCamera& camera,
+                            const RigidTransform& T_world_camera, double distance) const;
+
   /// Marching-cubes mesh of the zero crossing where it was observed; open where unobserved,
   /// otherwise manifold, oriented towards the observed free space.
   TriangleMesh ExtractMesh() const;

@@ -50,7 +50,7 @@ TEST_P(DepthOpening, RemovesAThinBarAndKeepsAThickOneWhole) {
       const int margin = angle == 0 ? 0 : static_cast<int>(0.045 * camera.fx / z);
       const DepthImage thin =
           RenderDepth(Union(Bar(0.01, 0.036, z, angle), Wall(1.4)), camera, kOrigin);
-      const DepthImage opened_thin = OpenDepth(thin, camera, {});
+      const DepthImage opened_thin = OpenDepth(thin, camera, {}, {});
       EXPECT_EQ(CountDifferences(
                     opened_thin, [&](int u, int v) { return thin(u, v) < 1.2f ? 0 : thin(u, v); },
                     margin),
@@ -60,7 +60,7 @@ TEST_P(DepthOpening, RemovesAThinBarAndKeepsAThickOneWhole) {
           RenderDepth(Union(Bar(0.01, 0.044, z, angle), Wall(1.4)), camera, kOrigin);
       EXPECT_EQ(
           CountDifferences(
-              OpenDepth(thick, camera, {}), [&](int u, int v) { return thick(u, v); }, margin),
+              OpenDepth(thick, camera, {}, {}), [&](int u, int v) { return thick(u, v); }, margin),
           0)
           << z << " " << angle;
     }
@@ -73,9 +73,42 @@ TEST_P(DepthOpening, LosesNothingOfTheWallBetweenWires) {
   for (int i = -10; i <= 10; ++i) scene = Union(scene, Bar(0.03 * i, 0.012, 0.7));
   const DepthImage rendering = RenderDepth(scene, camera, kOrigin);
   EXPECT_EQ(
-      CountDifferences(OpenDepth(rendering, camera, {}),
+      CountDifferences(OpenDepth(rendering, camera, {}, {}),
                        [&](int u, int v) { return rendering(u, v) < 0.8f ? 0 : rendering(u, v); }),
       0);
+}
+
+TEST_P(DepthOpening, RemovesAGrilleThatLooksLikeASurfaceButForItsSolidity) {
+  const PinholeCamera camera = KinectCamera(GetParam());
+  const DepthAlongRay scene = Union(Bar(0, 0.2, 0.7), Wall(1.0));
+  const DepthImage rendering = RenderDepth(scene, camera, kOrigin);
+  const auto is_bar = [&](int u, int v) { return rendering(u, v) < 0.8f; };
+  DepthImage solidity(camera.width, camera.height, 1);
+  for (int v = 0; v < camera.height; ++v) {
+    for (int u = 0; u < camera.width; ++u) {
+      // Every twentieth pixel was never seen through.
+      if (is_bar(u, v) && (u + 7 * v) % 20 != 0) solidity(u, v) = 0.2f;
+    }
+  }
+  EXPECT_EQ(CountDifferences(OpenDepth(rendering, camera, solidity, {}),
+                             [&](int u, int v) { return is_bar(u, v) ? 0 : rendering(u, v); }),
+            0);
+}
+
+TEST_P(DepthOpening, KeepsTheRimOfASurfaceThatIsSeenThroughThere) {
+  const PinholeCamera camera = KinectCamera(GetParam());
+  const DepthImage rendering = RenderDepth(Union(Bar(0, 0.2, 0.7), Wall(1.0)), camera, kOrigin);
+  DepthImage solidity(camera.width, camera.height, 1);
+  for (int v = 0; v < camera.height; ++v) {
+    for (int u = 0; u < camera.width; ++u) {
+      const double x = camera.Unproject(u, v, 0.7).x();
+      if (rendering(u, v) < 0.8f && std::abs(x) > 0.092) solidity(u, v) = 0;
+    }
+  }
+  // 8 mm of rim and the 10 mm eroded beside it are less than the 20 mm of dilation.
+  EXPECT_EQ(CountDifferences(OpenDepth(rendering, camera, solidity, {}),
+                             [&](int u, int v) { return rendering(u, v); }),
+            0);
 }
 
 TEST_P(DepthOpening, LeavesSlantedPlanesWhole) {
@@ -94,7 +127,7 @@ TEST_P(DepthOpening, LeavesSlantedPlanesWhole) {
     // Where the cut meets the image's border it makes a corner, which opening rounds.
     EXPECT_EQ(
         CountDifferences(
-            OpenDepth(rendering, camera, {}), [&](int u, int v) { return rendering(u, v); }, 2),
+            OpenDepth(rendering, camera, {}, {}), [&](int u, int v) { return rendering(u, v); }, 2),
         0)
         << degrees;
   }
@@ -105,7 +138,7 @@ TEST_P(DepthOpening, KeepsTheEdgesOfABoxBeforeAWallAndRoundsItsCornersLittle) {
   const DepthAlongRay scene = Union(Box({-0.2, -0.1, 0.8}, {0.1, 0.15, 1.0}), Wall(1.3));
   const DepthImage rendering = RenderDepth(scene, camera, kOrigin);
   DepthOpeningOptions options;
-  const DepthImage opened = OpenDepth(rendering, camera, options);
+  const DepthImage opened = OpenDepth(rendering, camera, {}, options);
   // What an ideal opening rounds off each of the four corners of the front face.
   const double pixel = 0.8 / camera.fx;
   const double rounded = 4 * (1 - M_PI / 4) * std::pow(options.radius / pixel, 2);
@@ -122,7 +155,7 @@ TEST_P(DepthOpening, KeepsTheEdgesOfABoxBeforeAWallAndRoundsItsCornersLittle) {
     }
   }
   options.extra_dilation = 0.41 * options.radius;
-  EXPECT_EQ(CountDifferences(OpenDepth(rendering, camera, options),
+  EXPECT_EQ(CountDifferences(OpenDepth(rendering, camera, {}, options),
                              [&](int u, int v) { return rendering(u, v); }),
             0);
 }
@@ -133,10 +166,11 @@ TEST_P(DepthOpening, GapsDoNotHarmSurfacesAndWiresBeforeNothingGo) {
   for (int v = 20; v < camera.height; v += 60) {
     for (int u = 20; u < camera.width; u += 60) wall(u, v) = wall(u + 1, v) = 0;
   }
-  EXPECT_EQ(CountDifferences(OpenDepth(wall, camera, {}), [&](int u, int v) { return wall(u, v); }),
-            0);
+  EXPECT_EQ(
+      CountDifferences(OpenDepth(wall, camera, {}, {}), [&](int u, int v) { return wall(u, v); }),
+      0);
   const DepthImage wire = RenderDepth(Bar(0, 0.02, 0.8), camera, kOrigin);
-  EXPECT_EQ(CountDifferences(OpenDepth(wire, camera, {}), [](int, int) { return 0.0f; }), 0);
+  EXPECT_EQ(CountDifferences(OpenDepth(wire, camera, {}, {}), [](int, int) { return 0.0f; }), 0);
 }
 
 TEST_P(DepthOpening, WireOnABoxIsRemovedDownToItsRoot) {
@@ -148,7 +182,7 @@ TEST_P(DepthOpening, WireOnABoxIsRemovedDownToItsRoot) {
   };
   const DepthAlongRay box = Box({-0.2, -0.1, 0.8}, {0.0, 0.1, 1.0});
   const DepthImage rendering = RenderDepth(Union(Union(box, wire), Wall(1.3)), camera, kOrigin);
-  const DepthImage opened = OpenDepth(rendering, camera, {});
+  const DepthImage opened = OpenDepth(rendering, camera, {}, {});
   const int middle = static_cast<int>(std::lround(camera.cy));
   for (int u = 0; u < camera.width; ++u) {
     const double x = camera.Unproject(u, middle, 0.8).x();
@@ -166,12 +200,12 @@ TEST_P(DepthOpening, RadiusZeroAndEmptyRendering) {
   const DepthImage scene = RenderDepth(Union(Bar(0, 0.004, 0.7), Wall(1)), camera, kOrigin);
   DepthOpeningOptions options;
   options.radius = 0;
-  EXPECT_EQ(CountDifferences(OpenDepth(scene, camera, options),
+  EXPECT_EQ(CountDifferences(OpenDepth(scene, camera, {}, options),
                              [&](int u, int v) { return scene(u, v); }),
             0);
   const DepthImage nothing(camera.width, camera.height, 0);
-  EXPECT_EQ(CountDifferences(OpenDepth(nothing, camera, {}), [](int, int) { return 0.0f; }), 0);
-  EXPECT_THROW(OpenDepth(DepthImage(3, 3, 1), camera, {}), Error);
+  EXPECT_EQ(CountDifferences(OpenDepth(nothing, camera, {}, {}), [](int, int) { return 0.0f; }), 0);
+  EXPECT_THROW(OpenDepth(DepthImage(3, 3, 1), camera, {}, {}), Error);
 }
 
 INSTANTIATE_TEST_SUITE_P(Resolution, DepthOpening, ::testing::Values(0.5, 1.0),
@@ -190,7 +224,7 @@ TEST(DepthOpeningOfVolume, RemovesTheWiresThatTheVolumeCaught) {
   const PinholeCamera small = KinectCamera(0.5);
   const RigidTransform pose = LookAt({0.05, 0.02, 0}, {0, 0, 0.9});
   const DepthImage rendering = volume.Raycast(small, pose);
-  const DepthImage opened = OpenDepth(rendering, small, {});
+  const DepthImage opened = OpenDepth(rendering, small, {}, {});
   const DepthImage with_wires = RenderDepth(Union(background, wires), small, pose);
   const DepthImage without = RenderDepth(background, small, pose);
   int caught = 0, left = 0, kept = 0, lost = 0;

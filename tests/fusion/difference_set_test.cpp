@@ -36,14 +36,14 @@ TEST(ImageDifferenceSet, FindsTheWireTheVolumeMissed) {
 
 TEST(ImageDifferenceSet, FindsTheWireTheVolumeCaught) {
   const DepthImage rendering = WallWithWire();
-  const DepthImage kept = OpenDepth(rendering, kCamera, {});
+  const DepthImage kept = OpenDepth(rendering, kCamera, {}, {});
   const MaskImage mask = ImageDifferenceSet(WallWithWire(), rendering, kept, {});
   EXPECT_EQ(Count(mask), 4 * kCamera.height);
 }
 
 TEST(ImageDifferenceSet, BackgroundSeenPastARemovedPartIsNotThin) {
   const DepthImage rendering = WallWithWire();
-  const DepthImage kept = OpenDepth(rendering, kCamera, {});
+  const DepthImage kept = OpenDepth(rendering, kCamera, {}, {});
   EXPECT_EQ(Count(ImageDifferenceSet(DepthImage(160, 120, kWall), rendering, kept, {})), 0);
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <vector>
@@ -261,6 +262,28 @@ TEST(TsdfVolume, FlyingPixelIsCarved) {
   volume.Integrate(clean, camera, pose);
   volume.Integrate(clean, camera, pose);
   EXPECT_NEAR(volume.Raycast(camera, pose)(324, 244), 1.0, kVoxel / 4);
+}
+
+TEST(TsdfVolume, SolidityIsTheShareOfFramesThatEndThere) {
+  const PinholeCamera camera = KinectCamera(0.25);
+  const RigidTransform pose = RigidTransform::Identity();
+  const DepthImage near = RenderDepth(Plane(Vec3::UnitZ(), 1.0), camera, pose);
+  const DepthImage far = RenderDepth(Plane(Vec3::UnitZ(), 1.3), camera, pose);
+  TsdfVolume volume({});
+  for (int i = 0; i < 8; ++i) volume.Integrate(near, camera, pose);
+  const double distance = 0.015;  // of a truncation of 20 mm
+  const DepthImage solid = volume.SolidityBehind(near, camera, pose, distance);
+  volume.Integrate(far, camera, pose);
+  volume.Integrate(far, camera, pose);
+  const DepthImage grille = volume.SolidityBehind(near, camera, pose, distance);
+  const int u = camera.width / 2, v = camera.height / 2;
+  // The nearest voxel lies up to 2.5 mm off, a sixth of the distance.
+  EXPECT_NEAR(solid(u, v), 1.0, 0.17);
+  // Two of ten frames saw free space, a truncation in front of surfaces.
+  EXPECT_NEAR(grille(u, v), 0.8 * solid(u, v) - 0.2 * 20 / 15, 1e-3);
+  EXPECT_TRUE(std::isnan(volume.SolidityBehind(DepthImage(camera.width, camera.height, 0), camera,
+                                               pose, distance)(u, v)));
+  EXPECT_THROW(volume.SolidityBehind(near, camera, pose, 0.02), Error);
 }
 
 TEST(TsdfVolume, ExtentOfSeveralMetresWithNegativeCoordinates) {
