@@ -66,6 +66,9 @@ class ClosestPointAligner {
     UpdateGate();
     result.inlier_fraction = static_cast<double>(inliers_) / source_.points.size();
     result.rms = Rms();
+    result.center = Center();
+    result.information =
+        NormalEquations(result.center, 1).first / std::max(result.rms * result.rms, 1e-12);
     return result;
   }
 
@@ -136,10 +139,8 @@ class ClosestPointAligner {
     return inliers_ > 0 ? std::sqrt(sum / inliers_) : 0;
   }
 
-  // One Gauss-Newton step; returns how far it moves the samples.
-  double Step(RigidTransform& T) const {
-    const Vec3 center = Center();
-    const double scale = std::max(1e-6, Spread(center));
+  // Hessian and gradient for a rotation about `center`, in units of 1 / scale, and a translation.
+  std::pair<Mat6, Vec6> NormalEquations(const Vec3& center, double scale) const {
     Mat6 hessian = Mat6::Zero();
     Vec6 gradient = Vec6::Zero();
     for (size_t i = 0; i < pairs_.size(); ++i) {
@@ -156,6 +157,14 @@ class ClosestPointAligner {
       gradient += weight * jacobian.transpose() *
                   Residual(pair.target, moved_[i] - target_.points[pair.target]);
     }
+    return {hessian, gradient};
+  }
+
+  // One Gauss-Newton step; returns how far it moves the samples.
+  double Step(RigidTransform& T) const {
+    const Vec3 center = Center();
+    const double scale = std::max(1e-6, Spread(center));
+    const auto [hessian, gradient] = NormalEquations(center, scale);
     const Vec6 step = ObservableStep(hessian, gradient);
     const Vec3 rotation = step.head<3>() / scale;
     RigidTransform motion = RigidTransform::Identity();

@@ -29,6 +29,10 @@ struct AlignmentResult {
   double rms = 0;              ///< of those points' distances to the target's lines, metres
   bool converged = false;      ///< the motion came to rest on enough points
   int iterations = 0;
+  /// How well the pairs determine the motion: the normal matrix of their distances over rms^2 for a
+  /// rotation about `center` (radians) and a translation (metres), as if all were independent.
+  Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
+  Vec3 center = Vec3::Zero();  ///< mean of the source points after the motion
 };
 
 /// Aligns points to points that lie on lines. `target_tangents` holds unit tangents, one per target

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <optional>
 
 #include "kernel/parallel.h"
 #include "kernel/voxel_grid.h"
@@ -18,34 +17,23 @@ ObservedPoints Merged(const std::vector<ObservedPoints>& frames,
   return ResampleOnGrid(merged, voxel_size);
 }
 
-// The correction of a frame given a first one; nothing where it sees too little of the curves.
-std::optional<RigidTransform> RegisterFrame(const ObservedPoints& frame, const RigidTransform& T,
-                                            const RidgePoints& curves,
-                                            const AlignmentOptions& alignment,
-                                            const FrameRegistrationOptions& options) {
-  if (static_cast<int>(frame.size()) < options.min_points) return std::nullopt;
+// The correction of a frame given a first one; without information where it sees too little of the
+// curves.
+MeasuredCorrection RegisterFrame(const ObservedPoints& frame, const RigidTransform& T,
+                                 const RidgePoints& curves, const AlignmentOptions& alignment,
+                                 const FrameRegistrationOptions& options) {
+  MeasuredCorrection correction;
+  correction.T_registered_world = T;
+  if (static_cast<int>(frame.size()) < options.min_points) return correction;
   const AlignmentResult result = AlignPointsToPoints(
       Transformed(frame, T).positions, curves.positions, curves.directions, alignment);
-  if (result.inlier_fraction < options.min_inliers) return std::nullopt;
-  return result.T_target_source * T;
-}
-
-// Frames without a correction of their own take that of the one before, or the next one.
-int FillFromNeighbours(const std::vector<std::optional<RigidTransform>>& registered,
-                       std::vector<RigidTransform>& T) {
-  int count = 0;
-  std::optional<size_t> last;
-  for (size_t i = 0; i < registered.size(); ++i) {
-    if (registered[i]) {
-      T[i] = *registered[i];
-      ++count;
-      if (!last) std::fill(T.begin(), T.begin() + static_cast<std::ptrdiff_t>(i), T[i]);
-      last = i;
-    } else if (last) {
-      T[i] = T[*last];
-    }
-  }
-  return count;
+  // One frame on the wrong curves would draw its neighbours after it.
+  const double moved = (result.T_target_source.inverse() * result.center - result.center).norm();
+  if (result.inlier_fraction < options.min_inliers || moved > options.max_motion) return correction;
+  correction.T_registered_world = result.T_target_source * T;
+  correction.information = result.information;
+  correction.center = result.center;
+  return correction;
 }
 
 }  // namespace
@@ -62,24 +50,35 @@ void VisitOptions(FrameRegistrationOptions& options, OptionVisitor& visitor) {
   visitor.Visit({"frame_min_points", "points", 6, 100000,
                  "A frame with fewer points is not moved by itself."},
                 options.min_points);
+  visitor.Visit({"frame_max_motion", "m", 0, 1,
+                 "A frame that would move farther from its bundle is not moved by itself: the "
+                 "largest drift within a bundle."},
+                options.max_motion);
+  VisitOptions(options.drift, visitor);
 }
 
 RegisteredFrames RegisterFrames(const std::vector<ObservedPoints>& frames,
                                 const std::vector<RigidTransform>& start,
+                                const std::vector<Vec3>& cameras,
                                 const RidgeProjectionOptions& ridges,
                                 const AlignmentOptions& alignment,
                                 const FrameRegistrationOptions& options) {
-  assert(frames.size() == start.size());
+  assert(frames.size() == start.size() && frames.size() == cameras.size());
   RegisteredFrames result;
   result.T_registered_world = start;
   std::vector<RigidTransform>& T = result.T_registered_world;
   for (int round = 0; round < options.rounds; ++round) {
     const RidgePoints curves = ProjectToRidges(Merged(frames, T, options.voxel_size), ridges);
-    std::vector<std::optional<RigidTransform>> registered(frames.size());
+    std::vector<MeasuredCorrection> measured(frames.size());
     ParallelFor(0, static_cast<int64_t>(frames.size()), 1, [&](int64_t i) {
-      registered[i] = RegisterFrame(frames[i], T[i], curves, alignment, options);
+      measured[i] = RegisterFrame(frames[i], T[i], curves, alignment, options);
+      measured[i].camera = cameras[i];
     });
-    result.registered = FillFromNeighbours(registered, T);
+    result.registered = static_cast<int>(
+        std::count_if(measured.begin(), measured.end(),
+                      [](const MeasuredCorrection& m) { return !m.information.isZero(); }));
+    if (result.registered == 0) break;
+    T = SmoothCorrections(measured, options.drift);
   }
   if (!T.empty()) {
     const RigidTransform T_anchor = T.front().inverse();

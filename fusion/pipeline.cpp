@@ -155,6 +155,7 @@ std::pair<ObservedPoints, std::vector<RigidTransform>> RegisterBundles(const Seg
 // Registers single frames, whose points were moved to the axes of a first skeleton.
 RegisteredFrames RegisterFramesToCurves(const SegmentedScan& scan,
                                         const std::vector<RigidTransform>& T_registered_frame,
+                                        const std::vector<Vec3>& cameras,
                                         const SkeletonGraph& first, RunContext& run) {
   const StageLog::Timer timer(run.log, "registration");
   std::vector<ObservedPoints> on_axis;
@@ -164,12 +165,20 @@ RegisteredFrames RegisterFramesToCurves(const SegmentedScan& scan,
                                   T_registered_frame[i].inverse()));
   }
   RegisteredFrames registered =
-      RegisterFrames(on_axis, T_registered_frame, run.options.ridge.projection,
+      RegisterFrames(on_axis, T_registered_frame, cameras, run.options.ridge.projection,
                      run.options.registration, run.options.frames);
   run.observer.OnProgress("frame registration", 1, 1);
   run.log.Count("registration", "registered frames", registered.registered);
   run.log.Count("registration", "points", static_cast<double>(registered.points.size()));
   return registered;
+}
+
+std::vector<Vec3> CameraCenters(const Sequence& sequence) {
+  std::vector<Vec3> centers;
+  for (const SequenceFrame& frame : sequence.frames) {
+    centers.push_back(frame.T_world_camera.translation());
+  }
+  return centers;
 }
 
 void CorrectPoses(const std::vector<RigidTransform>& T_registered_world, Sequence& sequence) {
@@ -190,7 +199,8 @@ void ContractCarriedPoints(const SegmentedScan& scan, RunContext& run, Reconstru
     CorrectPoses(T_registered_frame, result.sequence);
     result.points = MoveToAxis(points, first, run.options.axis_depth);
   } else {
-    RegisteredFrames registered = RegisterFramesToCurves(scan, T_registered_frame, first, run);
+    RegisteredFrames registered = RegisterFramesToCurves(
+        scan, T_registered_frame, CameraCenters(result.sequence), first, run);
     CorrectPoses(registered.T_registered_world, result.sequence);
     result.points = std::move(registered.points);
   }
