@@ -106,7 +106,7 @@ std::string ChangesCommands(const std::vector<ChangeRow>& rows, double label_wid
     commands += fmt::format(
         "set title '{0}' offset 0,-0.6\nset xrange [-{1}:{1}]\nset xtics (-{2}, 0, {2})\n"
         "plot {3}{4}{5}\nunset ytics\n",
-        panel.title, range, TickBelow(range),
+        panel.title, range, TickBelow(0.8 * range),
         first ? "data using (0):1:ytic(2) with points pointsize 0, " : "",
         BarsOf(panel, column, range), CutValuesOf(panel, column, range, rows));
     ++column;

@@ -114,11 +114,15 @@ std::vector<CurvePoint> CurveOf(const std::vector<RunGroup>& groups) {
 
 struct Curve {
   const char* figure;
+  const char* title;
   int panel;
 };
-constexpr Curve kCurves[] = {{"F2 aligned", 0},          {"F5 aligned", 0},
-                             {"junction recall", 1},     {"junction precision", 1},
-                             {"diameter error (mm)", 2}, {"CPU s per 30 frames", 3}};
+constexpr Curve kCurves[] = {{"F2 aligned", "F at 2 mm", 0},
+                             {"F5 aligned", "F at 5 mm", 0},
+                             {"junction recall", "junction recall", 1},
+                             {"junction precision", "precision", 1},
+                             {"diameter error (mm)", "diameter error (mm)", 2},
+                             {"CPU s per 30 frames", "CPU s per 30 frames", 3}};
 constexpr int kPanels = 4;
 
 std::string Cell(const std::optional<double>& value) {
@@ -166,10 +170,9 @@ std::vector<std::string> CurvesOf(int panel, const std::vector<CurvePoint>& curv
     });
     if (kCurves[i].panel != panel || !has_values) continue;
     parts.push_back(fmt::format("data using 1:{} with linespoints linetype {} title '{}'", i + 2,
-                                line_type, kCurves[i].figure));
-    parts.push_back(
-        fmt::format("data using 1:{} with lines linetype {} linewidth 0.8 dashtype 2 title '{}'",
-                    i + 2 + count, line_type, line_type == 1 ? "default" : ""));
+                                line_type, kCurves[i].title));
+    parts.push_back(fmt::format("data using 1:{} with lines linetype {} linewidth 0.8 dashtype 2",
+                                i + 2 + count, line_type));
     ++line_type;
   }
   return parts;
@@ -179,10 +182,11 @@ std::string CurveCommands(const std::string& key, const std::vector<CurvePoint>&
   std::vector<double> ticks;
   for (const CurvePoint& point : curve) ticks.push_back(point.value);
   std::string commands = fmt::format(
-      "set datafile missing '?'\n{}set xtics ({})\nset xlabel '{}' noenhanced offset 0,0.4\n"
+      "set datafile missing '?'\n{}set xtics ({})\nset xlabel '{} (dashed: default)' noenhanced "
+      "offset 0,0.4\n"
       "set offsets 0,0,graph 0.08,0\n"
       "set multiplot layout 2,2 margins 0.075,0.985,0.11,0.93 spacing 0.10,0.22\n"
-      "set key at graph 0.5,1.13 center top horizontal maxrows 1 samplen 2.5\n",
+      "set key at graph 0.5,1.21 center top vertical samplen 2.5\n",
       ValueAxis(curve), fmt::join(ticks, ", "), key);
   for (int panel = 0; panel < kPanels; ++panel) {
     const std::vector<std::string> parts = CurvesOf(panel, curve);
