@@ -63,18 +63,18 @@ double TickBelow(double range) {
   return power;
 }
 
-// Bars to the better and to the worse, cut off where the panel ends.
+// Bars to the better and to the worse, cut off where the panel ends. gnuplot dies of some plots
+// without points, so that a row without a bar to one side has one of no length.
 std::string BarsOf(const Panel& panel, int column, double range) {
   const bool more_is_better = HeadlineFigures()[HeadlineIndex(panel.figure)].more_is_better;
-  const auto bars = [&](const char* condition, const std::string& end, int line_type) {
-    return fmt::format(
-        "data using (0):(${0} {1} 0 ? $1 : NaN):(0):(${0} {1} {2} ? {2} : "
-        "${0}):($1-0.36):($1+0.36) "
-        "with boxxyerror linetype {3}",
-        column, condition, end, line_type);
+  const auto bars = [&](const std::string& end, int line_type) {
+    return fmt::format("data using (0):1:(0):({}):($1-0.36):($1+0.36) with boxxyerror linetype {}",
+                       end, line_type);
   };
-  return bars(">", fmt::format("{}", range), more_is_better ? 2 : 1) + ", " +
-         bars("<", fmt::format("-{}", range), more_is_better ? 1 : 2);
+  const std::string to_right = fmt::format("${0} > {1} ? {1} : ${0} > 0 ? ${0} : 0", column, range);
+  const std::string to_left =
+      fmt::format("${0} < -{1} ? -{1} : ${0} < 0 ? ${0} : 0", column, range);
+  return bars(to_right, more_is_better ? 2 : 1) + ", " + bars(to_left, more_is_better ? 1 : 2);
 }
 
 // The values of bars that are cut off, written into them. gnuplot dies of labels without points:
@@ -106,7 +106,7 @@ std::string ChangesCommands(const std::vector<ChangeRow>& rows, double label_wid
     commands += fmt::format(
         "set title '{0}' offset 0,-0.6\nset xrange [-{1}:{1}]\nset xtics (-{2}, 0, {2})\n"
         "plot {3}{4}{5}\nunset ytics\n",
-        panel.title, range, TickBelow(range),
+        panel.title, range, TickBelow(0.8 * range),
         first ? "data using (0):1:ytic(2) with points pointsize 0, " : "",
         BarsOf(panel, column, range), CutValuesOf(panel, column, range, rows));
     ++column;

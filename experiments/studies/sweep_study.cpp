@@ -114,13 +114,16 @@ std::vector<CurvePoint> CurveOf(const std::vector<RunGroup>& groups) {
 
 struct Curve {
   const char* figure;
+  const char* title;
   int panel;
 };
-constexpr Curve kCurves[] = {{"F2 aligned", 0},          {"F5 aligned", 0},
-                             {"junction recall", 1},     {"junction precision", 1},
-                             {"diameter error (mm)", 2}, {"CPU s per 30 frames", 3}};
-constexpr const char* kPanelTitles[] = {"F, aligned", "Junctions", "Diameter error (mm)",
-                                        "CPU s per 30 frames"};
+constexpr Curve kCurves[] = {{"F2 aligned", "F at 2 mm", 0},
+                             {"F5 aligned", "F at 5 mm", 0},
+                             {"junction recall", "junction recall", 1},
+                             {"junction precision", "precision", 1},
+                             {"diameter error (mm)", "diameter error (mm)", 2},
+                             {"CPU s per 30 frames", "CPU s per 30 frames", 3}};
+constexpr int kPanels = 4;
 
 std::string Cell(const std::optional<double>& value) {
   return value ? fmt::format(" {}", *value) : " ?";
@@ -144,30 +147,52 @@ bool IsSpreadWide(const std::vector<CurvePoint>& curve) {
   return curve.front().value > 0 && curve.back().value > 20 * curve.front().value;
 }
 
+// A little more than the values span; gnuplot finds no range of its own where no run has a figure.
+std::string ValueAxis(const std::vector<CurvePoint>& curve) {
+  const double first = curve.front().value;
+  const double last = curve.back().value;
+  if (IsSpreadWide(curve)) {
+    return fmt::format("set logscale x\nset xrange [{}:{}]\n", first / 1.15, last * 1.15);
+  }
+  const double margin = 0.04 * (last - first);
+  return fmt::format("set xrange [{}:{}]\n", first - margin, last + margin);
+}
+
+// The curves of a panel and lines for the default; none where no run has such figures.
+std::vector<std::string> CurvesOf(int panel, const std::vector<CurvePoint>& curve) {
+  const int count = static_cast<int>(std::size(kCurves));
+  std::vector<std::string> parts;
+  int line_type = 1;
+  for (int i = 0; i < count; ++i) {
+    const size_t figure = HeadlineIndex(kCurves[i].figure);
+    const bool has_values = std::any_of(curve.begin(), curve.end(), [&](const CurvePoint& point) {
+      return point.figures[figure].has_value();
+    });
+    if (kCurves[i].panel != panel || !has_values) continue;
+    parts.push_back(fmt::format("data using 1:{} with linespoints linetype {} title '{}'", i + 2,
+                                line_type, kCurves[i].title));
+    parts.push_back(fmt::format("data using 1:{} with lines linetype {} linewidth 0.8 dashtype 2",
+                                i + 2 + count, line_type));
+    ++line_type;
+  }
+  return parts;
+}
+
 std::string CurveCommands(const std::string& key, const std::vector<CurvePoint>& curve) {
   std::vector<double> ticks;
   for (const CurvePoint& point : curve) ticks.push_back(point.value);
   std::string commands = fmt::format(
-      "set datafile missing '?'\n{}set xtics ({})\nset xlabel '{}' noenhanced offset 0,0.4\n"
-      "set offsets graph 0.04,graph 0.04,graph 0.08,graph 0.08\n"
+      "set datafile missing '?'\n{}set xtics ({})\nset xlabel '{} (dashed: default)' noenhanced "
+      "offset 0,0.4\n"
+      "set offsets 0,0,graph 0.08,0\n"
       "set multiplot layout 2,2 margins 0.075,0.985,0.11,0.93 spacing 0.10,0.22\n"
-      "set key bottom right\n",
-      IsSpreadWide(curve) ? "set logscale x\n" : "", fmt::join(ticks, ", "), key);
-  const int count = static_cast<int>(std::size(kCurves));
-  for (int panel = 0; panel < static_cast<int>(std::size(kPanelTitles)); ++panel) {
-    std::vector<std::string> parts;
-    int line_type = 1;
-    for (int i = 0; i < count; ++i) {
-      if (kCurves[i].panel != panel) continue;
-      parts.push_back(fmt::format("data using 1:{} with linespoints linetype {} title '{}'", i + 2,
-                                  line_type, kCurves[i].figure));
-      parts.push_back(
-          fmt::format("data using 1:{} with lines linetype {} linewidth 0.8 dashtype 2 title '{}'",
-                      i + 2 + count, line_type, line_type == 1 ? "default" : ""));
-      ++line_type;
-    }
-    commands += fmt::format("set title '{}' offset 0,-0.6\nset yrange [{}:*]\nplot {}\n",
-                            kPanelTitles[panel], panel < 2 ? "*" : "0", fmt::join(parts, ", "));
+      "set key at graph 0.5,1.21 center top vertical samplen 2.5\n",
+      ValueAxis(curve), fmt::join(ticks, ", "), key);
+  for (int panel = 0; panel < kPanels; ++panel) {
+    const std::vector<std::string> parts = CurvesOf(panel, curve);
+    if (parts.empty()) continue;
+    commands +=
+        fmt::format("set yrange [{}:*]\nplot {}\n", panel < 2 ? "*" : "0", fmt::join(parts, ", "));
   }
   return commands + "unset multiplot";
 }

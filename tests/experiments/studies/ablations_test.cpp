@@ -108,7 +108,6 @@ TEST(Ablations, OffIsWhatThePaperHas) {
     for (const std::string& assignment : ablation.off) {
       const std::string option = KeyOf(assignment);
       if (paper.at(option).value == best.at(option).value) continue;
-      // Registration is of points here, not of skeletons: the paper has no value for its cost.
       EXPECT_EQ(collector.options.at(option).value, paper.at(option).value) << assignment;
     }
   }

@@ -71,6 +71,10 @@ Study TinySweep() {
   return study;
 }
 
+StudyRun RunWith(const Figures& figures) {
+  return {{{"object", "cage"}, {"setting", "default"}}, 1, "done", "", "", {}, figures};
+}
+
 class Sweep : public testing::Test {
  protected:
   void SetUp() override {
@@ -84,6 +88,18 @@ class Sweep : public testing::Test {
 
   const fs::path folder_ = TemporaryPath("sweep");
 };
+
+// The profile alone, as for a baseline: nothing changes, and gnuplot must bear it.
+TEST_F(Sweep, OfNothingIsDrawnToo) {
+  fs::create_directories(folder_);
+  StudyResults results{folder_, "alone", {RunWith({{"aligned.curves.2mm.f", 0.9}})}};
+  EXPECT_NO_THROW(SweepStudy().report(results));
+  results.runs.push_back(results.runs[0]);
+  results.runs[1].labels[1].second = "bundle.min_frames=3";
+  results.runs.push_back(results.runs[0]);
+  results.runs[2].labels[1].second = "bundle.min_frames=4";
+  EXPECT_NO_THROW(SweepStudy().report(results));
+}
 
 TEST_F(Sweep, MeasuresDrawsAndComparesWithABaseline) {
   StudyRequest request = RequestFor({"registration.axis_depth=0,0.4"});
@@ -110,10 +126,6 @@ TEST_F(Sweep, MeasuresDrawsAndComparesWithABaseline) {
   EXPECT_THROW(ReadBaseline(TinySweep(), request, folder_), Error);
   request.seeds = 1;  // but not on the scan of the whole study
   EXPECT_THROW(ReadBaseline(SweepStudy(), request, folder_), Error);
-}
-
-StudyRun RunWith(const Figures& figures) {
-  return {{{"object", "cage"}, {"setting", "default"}}, 1, "done", "", "", {}, figures};
 }
 
 TEST(CompareWithBaseline, JudgesEachFigureInItsOwnDirection) {
