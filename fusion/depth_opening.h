@@ -24,8 +24,9 @@ struct DepthOpeningOptions {
   /// Metres, 0 to 0.1: what was seen through so far behind its surface is none; 0 = not asked. A
   /// wire is thinner, a box thicker.
   double solid_depth = 0;
-  /// 0 to 1: less solid there means seen through.
-  double min_solidity = 0.5;
+  /// 0 to 1: less solid there means seen through. Not far above 0: behind a table seen at a grazing
+  /// angle by some frames and from above by others it is a small share only, but not negative.
+  double min_solidity = 0.05;
 };
 void VisitOptions(DepthOpeningOptions& options, OptionVisitor& visitor);
 

@@ -33,6 +33,7 @@ PipelineOptions BestOptions() {
   options.volume.voxel_size = 0.01;
   options.volume_stride = 2;
   options.segmentation.render_divisor = 2;
+  options.segmentation.opening.solid_depth = 0.03;
   UseWorkableReading(options.segmentation.difference);
   options.segmentation.difference.silhouette_margin_px = 6;
   options.segmentation.difference.min_neighbours = 8;
