@@ -31,10 +31,11 @@ void VisitOptions(DepthOpeningOptions& options, OptionVisitor& visitor) {
                  "Deviation: what frames saw through so far behind its rendering is no large "
                  "surface but a grille; 0 = not asked."},
                 options.solid_depth);
-  visitor.Visit({"min_solidity", "", 0, 1,
-                 "Deviation: what is less solid there was seen through. 1 = solid, 0 and less = mostly "
-                 "seen through; grazing views of a surface come near 0."},
-                options.min_solidity);
+  visitor.Visit(
+      {"min_solidity", "", 0, 1,
+       "Deviation: what is less solid there was seen through. 1 = solid, 0 and less = mostly "
+       "seen through; grazing views of a surface come near 0."},
+      options.min_solidity);
   visitor.Visit({"discontinuity_noise", "1/m", 0, 0.1,
                  "Steps up to that times depth squared are noise. Khoshelham 2012 for the Kinect."},
                 options.noise_quadratic);
