@@ -34,8 +34,11 @@ void DensityField::Gather(const Vec3& p, Neighbours& neighbours) const {
       p, reach_, [&](int i, const Vec3& q) { neighbours.Add((q - p).cast<float>(), weights_[i]); });
 }
 
-KernelMoments DensityField::Moments(const Neighbours& neighbours, const Vec3& p) const {
+KernelMoments DensityField::Moments(const Neighbours& neighbours, const Vec3& p,
+                                    const Vec3& direction, double stretch) const {
   using Lanes = Neighbours::Lanes;
+  const Vec3f along = direction.cast<float>();
+  const float along_scale = static_cast<float>(1 - 1 / (stretch * stretch));
   const Vec3f at = (p - neighbours.origin_).cast<float>();
   const float scale = static_cast<float>(1 / (8 * sigma_ * sigma_));
   Lanes sum = Lanes::Zero(), x = sum, y = sum, z = sum;
@@ -44,7 +47,8 @@ KernelMoments DensityField::Moments(const Neighbours& neighbours, const Vec3& p)
     const Lanes dx = packet.x - at.x();
     const Lanes dy = packet.y - at.y();
     const Lanes dz = packet.z - at.z();
-    const Lanes squared = dx * dx + dy * dy + dz * dz;
+    const Lanes t_along = dx * along.x() + dy * along.y() + dz * along.z();
+    const Lanes squared = dx * dx + dy * dy + dz * dz - along_scale * t_along * t_along;
     const Lanes t = (1.0F - scale * squared).max(0.0F);
     const Lanes weight = packet.weight * (t * t) * (t * t);
     const Lanes wx = weight * dx;

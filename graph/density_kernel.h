@@ -51,8 +51,10 @@ class DensityField {
   /// All points that matter within the slack around p, into `neighbours` (overwritten).
   void Gather(const Vec3& p, Neighbours& neighbours) const;
 
-  /// The moments at p from gathered neighbours.
-  KernelMoments Moments(const Neighbours& neighbours, const Vec3& p) const;
+  /// The moments at p from gathered neighbours, by a kernel that is `stretch` times as long along a
+  /// unit direction as across it.
+  KernelMoments Moments(const Neighbours& neighbours, const Vec3& p,
+                        const Vec3& direction = Vec3::Zero(), double stretch = 1) const;
 
   double sigma() const { return sigma_; }
 

@@ -15,11 +15,15 @@ namespace curvefusion {
 
 namespace {
 
+// A piece that hangs at a junction is less likely to be noise than one on its own.
+constexpr double kAttachedFactor = 2;
+
 struct FreeEnd {
   NodeId node;
   EdgeId edge;
   Vec3 position;
   Vec3 outward;
+  double max_gap;  ///< farther it reaches in no direction
 };
 
 // A point on a curve that an end may be joined to.
@@ -51,8 +55,13 @@ FreeEnd MakeFreeEnd(const SkeletonGraph& graph, NodeId node, const FreeEndOption
   const Polyline points = PointsFrom(graph, node);
   const std::vector<double> arc_length = CumulativeLength(points);
   const Vec3 inner = PointAt(points, arc_length, options.fit_length);
-  return {node, graph.IncidentEdges(node)[0], points.front(),
-          (points.front() - inner).normalized()};
+  const EdgeId id = graph.IncidentEdges(node)[0];
+  const SkeletonEdge& edge = graph.edge(id);
+  const NodeId root = edge.nodes[0] == node ? edge.nodes[1] : edge.nodes[0];
+  const double factor = graph.Degree(root) >= 3 ? kAttachedFactor : 1;
+  return {
+      node, id, points.front(), (points.front() - inner).normalized(),
+      std::max(options.touch_distance, factor * options.max_gap_per_length * arc_length.back())};
 }
 
 std::vector<FreeEnd> FreeEnds(const SkeletonGraph& graph, const FreeEndOptions& options) {
@@ -90,28 +99,81 @@ NodeId NodeNear(const SkeletonGraph& graph, const CurvePoint& target, double dis
   return first <= last ? edge.nodes[0] : edge.nodes[1];
 }
 
+// Whether points were seen where no curve is.
+class GapEvidence {
+ public:
+  GapEvidence(const ObservedPoints& points, const FreeEndOptions& options)
+      : grid_(points.positions, options.evidence_radius),
+        is_empty_(points.empty()),
+        radius_(options.evidence_radius) {}
+
+  // The share of the way from a to b, but for what the ends themselves account for, along which
+  // points lie.
+  double Share(const Vec3& a, const Vec3& b) const {
+    const double length = (b - a).norm();
+    const int steps = static_cast<int>((length - 2 * radius_) / kStep);
+    if (is_empty_ || steps < 1) return 0;
+    int seen = 0;
+    for (int i = 0; i < steps; ++i) {
+      const Vec3 p = a + (radius_ + i * kStep) / length * (b - a);
+      bool has_points = false;
+      grid_.ForEachWithin(p, radius_, [&](int, const Vec3&) { has_points = true; });
+      seen += has_points ? 1 : 0;
+    }
+    return static_cast<double>(seen) / steps;
+  }
+
+ private:
+  static constexpr double kStep = 0.001;
+  PointGrid grid_;
+  bool is_empty_;
+  double radius_;
+};
+
+// Whether a point of a curve lies just behind a free end of it that looks the other way than `end`:
+// then the two ends belong together, and the end must not run into the side of the other's tip.
+bool IsBehindFacingEnd(const SkeletonGraph& graph, const FreeEnd& end, const CurvePoint& target,
+                       const std::vector<const FreeEnd*>& end_of_node,
+                       const FreeEndOptions& options) {
+  const SkeletonEdge& edge = graph.edge(target.edge);
+  return std::any_of(edge.nodes.begin(), edge.nodes.end(), [&](NodeId node) {
+    const FreeEnd* other = end_of_node[node];
+    return other != nullptr && node != end.node && other->outward.dot(end.outward) < 0 &&
+           (other->position - edge.points[target.index]).norm() < options.max_gap;
+  });
+}
+
 // What a join costs: its length over how far the end may reach in that direction; infinite where it
 // is not allowed.
 double JoinCost(const SkeletonGraph& graph, const FreeEnd& end, const CurvePoint& target,
-                const std::vector<const FreeEnd*>& end_of_node, const FreeEndOptions& options) {
+                const std::vector<const FreeEnd*>& end_of_node, const GapEvidence& evidence,
+                const FreeEndOptions& options) {
   constexpr double kForbidden = std::numeric_limits<double>::infinity();
   const Vec3 gap = graph.edge(target.edge).points[target.index] - end.position;
   const double length = gap.norm();
   const NodeId node = NodeNear(graph, target, options.snap_distance);
   if (node == end.node || length <= 0) return kForbidden;
   const FreeEnd* other = node >= 0 ? end_of_node[node] : nullptr;
+  if (other == nullptr && IsBehindFacingEnd(graph, end, target, end_of_node, options)) {
+    return kForbidden;
+  }
   double cosine = end.outward.dot(gap) / length;
   if (other != nullptr) cosine = std::min(cosine, -other->outward.dot(gap) / length);
   const double max_gap = other != nullptr ? options.max_facing_gap : options.max_gap;
   const double least = std::cos(other != nullptr ? options.max_facing_angle : options.max_angle);
   double reach = max_gap * (cosine - least) / (1 - least);
   if (cosine > 0) reach = std::max(reach, options.touch_distance);
+  if (other == nullptr && length > reach && length < reach * (1 + options.evidence_gain)) {
+    const Vec3& p = graph.edge(target.edge).points[target.index];
+    reach *= 1 + options.evidence_gain * evidence.Share(end.position, p);
+  }
+  reach = std::min({reach, end.max_gap, other != nullptr ? other->max_gap : kForbidden});
   if (length > reach || LoopLength(graph, end, target) < options.min_loop) return kForbidden;
   return length / reach;
 }
 
 std::vector<Join> CandidateJoins(const SkeletonGraph& graph, const std::vector<FreeEnd>& ends,
-                                 const FreeEndOptions& options) {
+                                 const GapEvidence& evidence, const FreeEndOptions& options) {
   std::vector<Vec3> positions;
   std::vector<CurvePoint> targets;
   for (const EdgeId id : graph.Edges()) {
@@ -129,12 +191,13 @@ std::vector<Join> CandidateJoins(const SkeletonGraph& graph, const std::vector<F
   for (const NodeId node : graph.Nodes()) {
     end_of_node.resize(std::max<size_t>(end_of_node.size(), node + 1), nullptr);
   }
-  const double reach = std::max(options.max_gap, options.max_facing_gap);
+  const double reach =
+      std::max((1 + options.evidence_gain) * options.max_gap, options.max_facing_gap);
   const PointGrid grid(positions, reach);
   std::vector<Join> joins;
   for (size_t e = 0; e < ends.size(); ++e) {
     grid.ForEachWithin(ends[e].position, reach, [&](int i, const Vec3&) {
-      const double cost = JoinCost(graph, ends[e], targets[i], end_of_node, options);
+      const double cost = JoinCost(graph, ends[e], targets[i], end_of_node, evidence, options);
       if (std::isfinite(cost)) {
         joins.push_back({cost, static_cast<int>(e), targets[i].edge, targets[i].index});
       }
@@ -146,10 +209,10 @@ std::vector<Join> CandidateJoins(const SkeletonGraph& graph, const std::vector<F
 
 // The cheapest joins such that each end is used once.
 std::vector<Join> SelectJoins(const SkeletonGraph& graph, const std::vector<FreeEnd>& ends,
-                              const FreeEndOptions& options) {
+                              const GapEvidence& evidence, const FreeEndOptions& options) {
   std::map<NodeId, char> used;
   std::vector<Join> selected;
-  for (const Join& join : CandidateJoins(graph, ends, options)) {
+  for (const Join& join : CandidateJoins(graph, ends, evidence, options)) {
     const NodeId from = ends[join.end].node;
     const NodeId to = NodeNear(graph, {join.edge, join.index}, options.snap_distance);
     if (used[from] || (to >= 0 && used[to])) continue;
@@ -173,6 +236,28 @@ Polyline WithStraightTip(const Polyline& points, double tip, double length) {
   return straight;
 }
 
+// A curve from a free end to a node: on in the end's direction, and in that of the node where it is
+// a free end too (cubic Hermite).
+Polyline BridgeCurve(const SkeletonGraph& graph, const FreeEnd& from, NodeId to,
+                     const FreeEnd* other) {
+  constexpr int kSegments = 12;
+  const Vec3& a = from.position;
+  const Vec3& b = graph.position(to);
+  if (other == nullptr) return {a, b};
+  const double length = (b - a).norm();
+  const Vec3 start = length * from.outward;
+  const Vec3 end = -length * other->outward;
+  Polyline curve{a};
+  for (int i = 1; i < kSegments; ++i) {
+    const double t = static_cast<double>(i) / kSegments;
+    const double u = 1 - t;
+    curve.push_back((1 + 2 * t) * u * u * a + t * u * u * start + (3 - 2 * t) * t * t * b -
+                    t * t * u * end);
+  }
+  curve.push_back(b);
+  return curve;
+}
+
 }  // namespace
 
 void VisitOptions(FreeEndOptions& options, OptionVisitor& visitor) {
@@ -182,6 +267,17 @@ void VisitOptions(FreeEndOptions& options, OptionVisitor& visitor) {
   visitor.Visit({"max_angle", "rad", 0.01, 1.6,
                  "Deviation: the angle at which an end reaches nothing any more."},
                 options.max_angle);
+  visitor.Visit({"max_gap_per_length", "", 0, 100,
+                 "Deviation: how far an end may reach over the length of its edge: short pieces "
+                 "are likelier to be noise."},
+                options.max_gap_per_length);
+  visitor.Visit({"evidence_gain", "", 0, 10,
+                 "Deviation: how much farther, over the gap, an end may reach for a curve where "
+                 "points lie all the way."},
+                options.evidence_gain);
+  visitor.Visit({"evidence_radius", "m", 0.0005, 0.05,
+                 "Deviation: points this near to the bridge lie in the gap."},
+                options.evidence_radius);
   visitor.Visit({"max_facing_gap", "m", 0, 0.1,
                  "Deviation: how far an end may reach for another end that faces it."},
                 options.max_facing_gap);
@@ -217,29 +313,35 @@ void StraightenTips(SkeletonGraph& graph, const FreeEndOptions& options) {
   }
 }
 
-void CloseFreeEnds(SkeletonGraph& graph, const FreeEndOptions& options) {
+void CloseFreeEnds(SkeletonGraph& graph, const FreeEndOptions& options,
+                   const ObservedPoints& points) {
   const std::vector<FreeEnd> ends = FreeEnds(graph, options);
-  const std::vector<Join> joins = SelectJoins(graph, ends, options);
-  std::vector<std::pair<NodeId, NodeId>> bridges;
-  std::map<EdgeId, std::map<int, std::vector<NodeId>, std::greater<>>> splits;
+  if (ends.empty()) return;
+  const std::vector<Join> joins = SelectJoins(graph, ends, GapEvidence(points, options), options);
+  std::map<NodeId, const FreeEnd*> end_of_node;
+  for (const FreeEnd& end : ends) end_of_node[end.node] = &end;
+  std::vector<std::pair<const FreeEnd*, NodeId>> bridges;
+  std::map<EdgeId, std::map<int, std::vector<const FreeEnd*>, std::greater<>>> splits;
   for (const Join& join : joins) {
     const NodeId node = NodeNear(graph, {join.edge, join.index}, options.snap_distance);
-    const NodeId from = ends[join.end].node;
+    const FreeEnd* from = &ends[join.end];
     if (node >= 0) bridges.emplace_back(from, node);
     if (node < 0) splits[join.edge][join.index].push_back(from);
   }
   // From the back of each edge to its front, so that the indices of the front part stay.
-  for (const auto& [edge, nodes_of_index] : splits) {
+  for (const auto& [edge, ends_of_index] : splits) {
     EdgeId front = edge;
-    for (const auto& [index, sources] : nodes_of_index) {
+    for (const auto& [index, sources] : ends_of_index) {
       const NodeId node = graph.SplitEdge(front, static_cast<size_t>(index));
       front = graph.IncidentEdges(node)[0];
-      for (const NodeId source : sources) bridges.emplace_back(source, node);
+      for (const FreeEnd* source : sources) bridges.emplace_back(source, node);
     }
   }
   for (const auto& [from, to] : bridges) {
-    if (graph.position(from) == graph.position(to)) continue;
-    graph.AddEdge({{from, to}, {graph.position(from), graph.position(to)}, {}, {}});
+    if (from->position == graph.position(to)) continue;
+    const auto other = end_of_node.find(to);
+    const FreeEnd* other_end = other == end_of_node.end() ? nullptr : other->second;
+    graph.AddEdge({{from->node, to}, BridgeCurve(graph, *from, to, other_end), {}, {}});
   }
   graph.DissolveDegree2Nodes();
 }

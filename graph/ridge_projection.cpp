@@ -29,6 +29,7 @@ struct RidgeSeed {
   Vec3 position;
   Vec3 direction = Vec3::Zero();
   double strength = 0;
+  double flatness = 0;    ///< 1 where the density is flat across, 0 where it is a thin line
   double elongation = 0;  ///< variance along the direction over that of a uniform curve
   int level = 0;
 };
@@ -85,14 +86,19 @@ void EqualizeCounts(ObservedPoints& points, double radius, double least_relative
   }
 }
 
+// The density with one kernel. Seeds move up to its width and see as far as it reaches stretched.
+DensityField MakeLevel(const ObservedPoints& points, double sigma, double stretch) {
+  return DensityField(points, sigma, (1 + kKernelSupport * (stretch - 1)) * sigma);
+}
+
 // The density at growing kernel widths; wide kernels need fewer points.
 std::vector<DensityField> MakeLevels(const ObservedPoints& points,
                                      const RidgeProjectionOptions& options) {
-  std::vector<DensityField> levels{
-      DensityField(points, options.kernel_sigma, options.kernel_sigma)};
+  std::vector<DensityField> levels{MakeLevel(points, options.kernel_sigma, options.stretch)};
   double sigma = kLevelRatio * options.kernel_sigma;
   for (; sigma < 1.01 * options.max_sigma; sigma *= kLevelRatio) {
-    levels.emplace_back(ResampleOnGrid(points, kCellPerSigma * sigma), sigma, sigma);
+    levels.push_back(
+        MakeLevel(ResampleOnGrid(points, kCellPerSigma * sigma), sigma, options.stretch));
   }
   return levels;
 }
@@ -111,7 +117,7 @@ std::vector<RidgeSeed> MakeSeeds(const ObservedPoints& points,
     const double wanted = options.sigma_per_thickness * thickness[i];
     size_t level = 0;
     while (level + 1 < levels.size() && levels[level].sigma() < wanted) ++level;
-    seeds.push_back({starts[i], Vec3::Zero(), 0, 0, static_cast<int>(level)});
+    seeds.push_back({starts[i], Vec3::Zero(), 0, 0, 0, static_cast<int>(level)});
   }
   return seeds;
 }
@@ -120,31 +126,61 @@ std::vector<RidgeSeed> MakeSeeds(const ObservedPoints& points,
 // the seed the principal direction keeps along the wire, but seeds must be near the ridge already.
 enum class MomentsAbout { kMean, kSeed };
 
-void ProjectSeed(const DensityField& field, MomentsAbout about, int iterations, RidgeSeed& seed,
+// The kernel's shape and use in one round of projections.
+struct ProjectionRound {
+  MomentsAbout about;
+  int iterations;
+  double stretch;
+};
+
+// Variances of the kernel along and across the ridge.
+Mat3 KernelCovariance(double sigma, const Vec3& direction, double stretch) {
+  return kKernelVariance * sigma * sigma *
+         (Mat3::Identity() + (stretch * stretch - 1) * direction * direction.transpose());
+}
+
+// The direction of the ridge from the spread of points behind the kernel. What the kernel
+// itself does to the spread is taken off, precisions being additive: a long kernel would otherwise
+// confirm whatever direction it has.
+void UpdateDirection(const Mat3& spread, const Mat3& kernel, double variance_across,
+                     RidgeSeed& seed) {
+  constexpr double kRegularization = 1e-4;
+  constexpr double kLeast = -0.9;
+  const Mat3 regular = spread + kRegularization * variance_across * Mat3::Identity();
+  const Mat3 precision = regular.inverse() - kernel.inverse();
+  Eigen::SelfAdjointEigenSolver<Mat3> solver;
+  solver.computeDirect((precision + precision.transpose()) / 2);
+  seed.direction = solver.eigenvectors().col(0);
+  seed.flatness = 1 / (1 + std::max(kLeast, variance_across * solver.eigenvalues()[1]));
+}
+
+void ProjectSeed(const DensityField& field, const ProjectionRound& round, RidgeSeed& seed,
                  DensityField::Neighbours& neighbours) {
-  const double usual_variance = kKernelVariance * field.sigma() * field.sigma();
+  const double variance_across = kKernelVariance * field.sigma() * field.sigma();
   field.Gather(seed.position, neighbours);
-  for (int iteration = 0; iteration < iterations; ++iteration) {
-    const KernelMoments moments = field.Moments(neighbours, seed.position);
+  for (int iteration = 0; iteration < round.iterations; ++iteration) {
+    const KernelMoments moments =
+        field.Moments(neighbours, seed.position, seed.direction, round.stretch);
     seed.strength = moments.weight;
     if (moments.weight <= 0) return;
+    const Mat3 kernel = KernelCovariance(field.sigma(), seed.direction, round.stretch);
     const Mat3 about_seed = moments.covariance + moments.mean * moments.mean.transpose();
-    Eigen::SelfAdjointEigenSolver<Mat3> solver;
-    solver.computeDirect(about == MomentsAbout::kSeed ? about_seed : moments.covariance);
-    seed.direction = solver.eigenvectors().col(2);
-    seed.elongation = seed.direction.dot(about_seed * seed.direction) / usual_variance;
+    UpdateDirection(round.about == MomentsAbout::kSeed ? about_seed : moments.covariance, kernel,
+                    variance_across, seed);
+    seed.elongation = seed.direction.dot(about_seed * seed.direction) /
+                      seed.direction.dot(kernel * seed.direction);
     const Vec3 step = moments.mean - seed.direction.dot(moments.mean) * seed.direction;
     seed.position += step;
     if (step.norm() < kConvergedStep) return;
   }
 }
 
-void ProjectSeeds(const std::vector<DensityField>& levels, MomentsAbout about, int iterations,
+void ProjectSeeds(const std::vector<DensityField>& levels, const ProjectionRound& round,
                   std::vector<RidgeSeed>& seeds) {
   ParallelChunks(0, static_cast<int64_t>(seeds.size()), kGrain, [&](int64_t first, int64_t last) {
     DensityField::Neighbours neighbours;
     for (int64_t i = first; i < last; ++i) {
-      ProjectSeed(levels[seeds[i].level], about, iterations, seeds[i], neighbours);
+      ProjectSeed(levels[seeds[i].level], round, seeds[i], neighbours);
     }
   });
 }
@@ -184,9 +220,10 @@ std::vector<double> UsualStrengths(const std::vector<RidgeSeed>& seeds, double r
   return usual;
 }
 
-// Drops what is no ridge: outliers, which are weaker than the ridge nearby, and saddles between two
-// wires, where the principal direction leads across, from one to the other.
-std::vector<RidgeSeed> TrueRidgeSeeds(const std::vector<RidgeSeed>& seeds,
+// Drops what is no ridge: outliers, which are weaker than the ridge nearby, saddles between two
+// wires, where the principal direction leads across, from one to the other, and sheets. In the
+// widest kernel a thick wire may look like a sheet.
+std::vector<RidgeSeed> TrueRidgeSeeds(const std::vector<RidgeSeed>& seeds, int widest_level,
                                       const RidgeProjectionOptions& options) {
   const std::vector<double> usual = UsualStrengths(seeds, options.strength_radius);
   std::vector<double> strengths;
@@ -196,11 +233,37 @@ std::vector<RidgeSeed> TrueRidgeSeeds(const std::vector<RidgeSeed>& seeds,
   for (size_t i = 0; i < seeds.size(); ++i) {
     const double strength = seeds[i].strength;
     if (strength > least && strength >= options.min_local_strength * usual[i] &&
-        seeds[i].elongation <= options.max_elongation) {
+        seeds[i].elongation <= options.max_elongation &&
+        (seeds[i].flatness <= options.max_flatness || seeds[i].level == widest_level)) {
       kept.push_back(seeds[i]);
     }
   }
   return kept;
+}
+
+// Ridges of the density that are not noise beside stronger wires. In the widest kernel the flanks
+// of a ridge may be the sides of its own thick wire.
+RidgePoints WiresOfTheirOwn(const ObservedPoints& points, const std::vector<RidgeSeed>& seeds,
+                            int widest_level, const RidgeContrastOptions& options) {
+  RidgePoints ridge;
+  for (const RidgeSeed& seed : seeds) {
+    ridge.positions.push_back(seed.position);
+    ridge.directions.push_back(seed.direction);
+    ridge.strengths.push_back(seed.strength);
+  }
+  const std::vector<char> stands_out =
+      StandsOut(points, ridge.positions, ridge.directions, options);
+  size_t kept = 0;
+  for (size_t i = 0; i < ridge.size(); ++i) {
+    if (!stands_out[i] && seeds[i].level != widest_level) continue;
+    ridge.positions[kept] = ridge.positions[i];
+    ridge.directions[kept] = ridge.directions[i];
+    ridge.strengths[kept++] = ridge.strengths[i];
+  }
+  ridge.positions.resize(kept);
+  ridge.directions.resize(kept);
+  ridge.strengths.resize(kept);
+  return ridge;
 }
 
 }  // namespace
@@ -239,10 +302,18 @@ void VisitOptions(RidgeProjectionOptions& options, OptionVisitor& visitor) {
                  "Deviation: ridge points weaker than this part of what is typical in their "
                  "neighbourhood lie beyond an end or beside a wire."},
                 options.min_local_strength);
+  visitor.Visit({"stretch", "", 1, 10,
+                 "Deviation: length of the kernel along a ridge over its width across: more points "
+                 "steady the curve without blending wires side by side."},
+                options.stretch);
+  visitor.Visit({"max_flatness", "", 0, 10,
+                 "Deviation: a ridge this flat across, 1 being as flat as a sheet, is none."},
+                options.max_flatness);
   visitor.Visit({"max_elongation", "", 1, 100,
                  "Deviation: greatest variance along a ridge, over that of a uniform curve; it is "
                  "larger between parallel wires."},
                 options.max_elongation);
+  VisitOptions(options.contrast, visitor);
 }
 
 ObservedPoints ShiftAlongRays(const ObservedPoints& points, double distance) {
@@ -259,21 +330,18 @@ ObservedPoints ShiftAlongRays(const ObservedPoints& points, const std::vector<do
 }
 
 RidgePoints ProjectToRidges(const ObservedPoints& points, const RidgeProjectionOptions& options) {
-  ObservedPoints usable = UsablePoints(points);
+  const ObservedPoints observed = UsablePoints(points);
+  ObservedPoints usable = observed;
   EqualizeCounts(usable, options.equalization_radius, options.least_relative_count);
   const std::vector<DensityField> levels = MakeLevels(usable, options);
   std::vector<RidgeSeed> seeds = MakeSeeds(usable, levels, options);
-  ProjectSeeds(levels, MomentsAbout::kMean, kGatheringIterations, seeds);
+  ProjectSeeds(levels, {MomentsAbout::kMean, kGatheringIterations, 1}, seeds);
   seeds = ThinOut(seeds, options.spacing / 2);
-  ProjectSeeds(levels, MomentsAbout::kSeed, options.iterations, seeds);
+  ProjectSeeds(levels, {MomentsAbout::kSeed, options.iterations, options.stretch}, seeds);
   seeds = ThinOut(seeds, options.spacing);
-  RidgePoints ridge;
-  for (const RidgeSeed& seed : TrueRidgeSeeds(seeds, options)) {
-    ridge.positions.push_back(seed.position);
-    ridge.directions.push_back(seed.direction);
-    ridge.strengths.push_back(seed.strength);
-  }
-  return ridge;
+  const int widest_level = static_cast<int>(levels.size()) - 1;
+  return WiresOfTheirOwn(observed, TrueRidgeSeeds(seeds, widest_level, options), widest_level,
+                         options.contrast);
 }
 
 }  // namespace curvefusion

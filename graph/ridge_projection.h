@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "graph/ridge_contrast.h"
 #include "kernel/geometry.h"
 #include "kernel/observed_points.h"
 #include "kernel/options.h"
@@ -18,10 +19,13 @@ struct RidgeProjectionOptions {
   double least_relative_count = 0.05;
   int iterations = 30;
   double spacing = 0.0015;
-  double min_relative_strength = 0.2;
+  double min_relative_strength = 0.05;
   double strength_radius = 0.01;
   double min_local_strength = 0.4;
   double max_elongation = 1.6;
+  double stretch = 2;
+  double max_flatness = 0.85;
+  RidgeContrastOptions contrast;
 };
 void VisitOptions(RidgeProjectionOptions& options, OptionVisitor& visitor);
 
@@ -44,8 +48,9 @@ ObservedPoints ShiftAlongRays(const ObservedPoints& points, const std::vector<do
 
 /// Subspace-constrained mean shift (Ozertem and Erdogmus 2011): moves points across the local
 /// principal direction only, until they lie on a ridge of the density, and thins them out. Kernels
-/// are wider where the wire is thick. Points that are not finite are ignored. The result does not
-/// depend on the number of threads. Costs O(n k) for k points within three kernel widths.
+/// are wider where the wire is thick, and longer along the ridge than across. Points that are not
+/// finite are ignored. The result does not depend on the number of threads. Costs O(n k) for k
+/// points within three kernel widths.
 RidgePoints ProjectToRidges(const ObservedPoints& points, const RidgeProjectionOptions& options);
 
 }  // namespace curvefusion

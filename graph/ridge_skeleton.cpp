@@ -88,7 +88,7 @@ SkeletonGraph ExtractRidgeSkeleton(const ObservedPoints& points, const RidgeOpti
   StraightenTips(graph, options.free_ends);
   // Ends that miss a junction in its blurred place may meet it in its right one.
   for (int round = 0; round < 2; ++round) {
-    CloseFreeEnds(graph, options.free_ends);
+    CloseFreeEnds(graph, options.free_ends, points);
     RefineJunctions(graph, options.junctions);
     DropShortLoops(graph, options.network.min_loop);
   }

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "graph/validate.h"
 #include "tests/graph/graph_fixtures.h"
 
@@ -64,6 +66,63 @@ TEST(CloseFreeEnds, LeavesEndsThatFaceNothing) {
   CloseFreeEnds(graph, {});
   EXPECT_EQ(graph.edge_count(), 3);
   EXPECT_EQ(graph.ComponentCount(), 3);
+}
+
+TEST(CloseFreeEnds, BridgesABendAlongItsCurve) {
+  // A wire that turns by 60 degrees about a radius of 40 mm, of which a stretch of 30 degrees is
+  // missing: 21 mm.
+  const auto at = [](double degrees) {
+    const double angle = degrees * M_PI / 180;
+    return Vec3(0.04 * std::sin(angle), 0.04 * std::cos(angle), 0);
+  };
+  SkeletonGraph graph;
+  Polyline before = StraightLine({-0.05, 0.04, 0}, {0, 0.04, 0});
+  for (double d = 1.5; d < 16; d += 1.5) before.push_back(at(d));
+  Polyline after;
+  for (double d = 45; d < 90; d += 1.5) after.push_back(at(d));
+  graph.AddPolyline(before);
+  graph.AddPolyline(after);
+  CloseFreeEnds(graph, {});
+  ASSERT_EQ(graph.edge_count(), 1);
+  // The middle of a straight bridge would lie 1.4 mm inside; directions are means over 15 mm.
+  double nearest = 1;
+  for (const Vec3& p : graph.edge(graph.Edges()[0]).points) {
+    nearest = std::min(nearest, (p - at(30)).norm());
+  }
+  EXPECT_LT(nearest, 1.2e-3);
+}
+
+TEST(CloseFreeEnds, ReachesFartherWherePointsWereSeen) {
+  const auto make = [] {
+    SkeletonGraph graph;
+    graph.AddPolyline(StraightLine({-0.05, 0, 0}, {0.05, 0, 0}));
+    graph.AddPolyline(StraightLine({0.01, 0.12, 0}, {0.01, 0.035, 0}));
+    return graph;
+  };
+  SkeletonGraph without = make();
+  CloseFreeEnds(without, {});
+  EXPECT_EQ(without.ComponentCount(), 2);
+  ObservedPoints points;
+  for (double y = 0.002; y < 0.035; y += 0.004) points.Add({0.011, y, 0.001}, Vec3::Zero(), 1);
+  SkeletonGraph with = make();
+  CloseFreeEnds(with, {}, points);
+  EXPECT_EQ(with.ComponentCount(), 1);
+}
+
+TEST(CloseFreeEnds, FacingEndsDoNotRunIntoEachOthersSides) {
+  SkeletonGraph graph;  // overlapping by 5 mm, 2 mm apart
+  graph.AddPolyline(StraightLine({0, 0, 0}, {0.055, 0, 0}));
+  graph.AddPolyline(StraightLine({0.1, 0.002, 0}, {0.05, 0.002, 0}));
+  CloseFreeEnds(graph, {});
+  EXPECT_EQ(CountDegree(graph, 3), 0);
+}
+
+TEST(CloseFreeEnds, ShortPiecesDoNotReachFar) {
+  SkeletonGraph graph;
+  graph.AddPolyline(StraightLine({-0.05, 0, 0}, {0.05, 0, 0}));
+  graph.AddPolyline(StraightLine({0.01, 0.03, 0}, {0.01, 0.02, 0}));
+  CloseFreeEnds(graph, {});
+  EXPECT_EQ(graph.ComponentCount(), 2);
 }
 
 TEST(CloseFreeEnds, MakesNoLoopShorterThanTheLeast) {

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include "kernel/geometry.h"
+#include "kernel/observed_points.h"
+#include "kernel/options.h"
+
+namespace curvefusion {
+
+/// When a ridge is noise beside stronger wires. Deviation: CurveFusion has no such test.
+struct RidgeContrastOptions {
+  double ball_radius = 0.004;
+  double flank_distance = 0.008;
+  double neighbourhood = 0.025;
+  double max_flank = 0.3;
+  double min_share = 0.3;
+};
+void VisitOptions(RidgeContrastOptions& options, OptionVisitor& visitor);
+
+/// For each place on a ridge of unit direction, whether it is a wire of its own: nearly as much was
+/// seen there as at the best place in the neighbourhood, or hardly anything on one of two opposite
+/// sides, whichever way across. Between wires the sensor scatters points that make weak ridges but
+/// fill both sides; a wire seen seldom has a clear side. What was seen of a place are the counts
+/// within a ball. directions.size() must be places.size(). Costs O(n k) for k points in a ball.
+std::vector<char> StandsOut(const ObservedPoints& points, const std::vector<Vec3>& places,
+                            const std::vector<Vec3>& directions,
+                            const RidgeContrastOptions& options);
+
+}  // namespace curvefusion
