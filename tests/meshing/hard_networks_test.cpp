@@ -127,7 +127,9 @@ TEST(Tubes, RandomHardNetworks) {
     tally.Print(kind);
     wrong_topology += tally.wrong_topology;
     networks += tally.networks;
-    EXPECT_LT(tally.volume_error / count, kind == "tight_bends" ? 0.02 : 0.005) << kind;
+    // Kinks of noise are smoothed within .15 r, which takes volume off.
+    const double greatest = kind == "tight_bends" ? 0.02 : kind == "noisy" ? 0.01 : 0.005;
+    EXPECT_LT(tally.volume_error / count, greatest) << kind;
   }
   // Kinks as small as noise are smoothed within .15 r: holes and contacts of that size may come out
   // either way (docs/meshing.md has the figures).
