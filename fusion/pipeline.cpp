@@ -261,6 +261,7 @@ Reconstruction ReconstructThinParts(const TsdfVolume& volume, const Sequence& se
   }
   RefineInColour(sequence, run, result);
   result.global_radius = AssignMeasuredRadii(run, result).global_radius;
+  DropThickParts(run.options.radius, result.skeleton);
   result.stages = run.log.stages();
   return result;
 }

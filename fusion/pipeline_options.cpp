@@ -45,6 +45,7 @@ PipelineOptions BestOptions() {
   options.registration.max_iterations = 12;
   options.axis_depth = 0.8;
   options.colour_adjustment.enabled = true;
+  options.radius.max_mean_diameter = 0.016;
   return options;
 }
 

@@ -11,6 +11,8 @@
 #include "fusion/strip_samples.h"
 #include "fusion/strip_widths.h"
 #include "fusion/wire_chains.h"
+#include "graph/curve_network.h"
+#include "kernel/polyline.h"
 
 namespace curvefusion {
 
@@ -162,6 +164,24 @@ void AssignRadii(const RadiusEstimate& estimate, const RadiusOptions& options,
   }
 }
 
+void DropThickParts(const RadiusOptions& options, SkeletonGraph& skeleton) {
+  if (options.max_mean_diameter == 0) return;
+  for (const std::vector<EdgeId>& part : ConnectedEdges(skeleton)) {
+    double length = 0;
+    double diameters = 0;  // times length
+    for (const EdgeId id : part) {
+      const SkeletonEdge& edge = skeleton.edge(id);
+      if (edge.radii.empty()) continue;
+      const double edge_length = Length(edge.points);
+      length += edge_length;
+      diameters += 2 * edge.radii.front() * edge_length;  // AssignRadii gives one to each edge
+    }
+    if (diameters <= options.max_mean_diameter * length) continue;
+    for (const EdgeId id : part) skeleton.RemoveEdge(id);
+  }
+  skeleton.RemoveIsolatedNodes();
+}
+
 void VisitOptions(RadiusOptions& options, OptionVisitor& visitor) {
   visitor.Visit(
       {"sample_step", "m", 0.0005, 0.1,
@@ -197,6 +217,10 @@ void VisitOptions(RadiusOptions& options, OptionVisitor& visitor) {
   visitor.Visit({"max_diameter", "m", 0.001, 0.2,
                  "Wider strips are no wires. CurveFusion 4 shows wires up to 12 mm."},
                 options.max_diameter);
+  visitor.Visit({"max_mean_diameter", "m", 0, 0.2,
+                 "Deviation: parts of the result that are thicker on average are no thin structure "
+                 "and are dropped; 0 = kept. CurveFusion 4 shows wires up to 12 mm."},
+                options.max_mean_diameter);
   visitor.Visit(
       {"luma_blur_px", "px", 0.1, 5,
        "Blur of luma in the strip model, standard deviation. Measured on simulated scans."},

@@ -20,6 +20,7 @@ struct RadiusOptions {
   bool per_wire = true;
   double search_px = 10;
   double max_diameter = 0.025;
+  double max_mean_diameter = 0;
   double luma_blur_px = 0.95;
   double chroma_blur_px = 1.4;
   double min_contrast = 15;
@@ -70,5 +71,9 @@ RadiusEstimate EstimateRadius(const SkeletonGraph& skeleton, const Sequence& seq
 /// (estimate.global_radius == 0).
 void AssignRadii(const RadiusEstimate& estimate, const RadiusOptions& options,
                  SkeletonGraph& skeleton);
+
+/// Removes connected parts that are on average thicker than options.max_mean_diameter: no thin
+/// structures but strips of larger surfaces that only some views show. Radii must be assigned.
+void DropThickParts(const RadiusOptions& options, SkeletonGraph& skeleton);
 
 }  // namespace curvefusion

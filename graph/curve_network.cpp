@@ -192,27 +192,32 @@ void DropShortLoops(SkeletonGraph& graph, double min_length) {
   graph.DissolveDegree2Nodes();
 }
 
-void DropSmallComponents(SkeletonGraph& graph, double min_length) {
-  std::vector<EdgeId> component;
+std::vector<std::vector<EdgeId>> ConnectedEdges(const SkeletonGraph& graph) {
+  std::vector<std::vector<EdgeId>> components;
   std::vector<char> visited;
+  const auto visit = [&](EdgeId id) {
+    visited.resize(std::max<size_t>(visited.size(), id + 1), 0);
+    if (visited[id]) return;
+    visited[id] = 1;
+    components.back().push_back(id);
+  };
   for (const EdgeId first : graph.Edges()) {
-    visited.resize(std::max<size_t>(visited.size(), first + 1), 0);
-    if (visited[first]) continue;
-    component.assign(1, first);
-    visited[first] = 1;
-    double length = 0;
-    for (size_t i = 0; i < component.size(); ++i) {
-      const SkeletonEdge& edge = graph.edge(component[i]);
-      length += Length(edge.points);
-      for (const NodeId node : edge.nodes) {
-        for (const EdgeId next : graph.IncidentEdges(node)) {
-          visited.resize(std::max<size_t>(visited.size(), next + 1), 0);
-          if (visited[next]) continue;
-          visited[next] = 1;
-          component.push_back(next);
-        }
+    components.emplace_back();
+    visit(first);
+    for (size_t i = 0; i < components.back().size(); ++i) {
+      for (const NodeId node : graph.edge(components.back()[i]).nodes) {
+        for (const EdgeId next : graph.IncidentEdges(node)) visit(next);
       }
     }
+    if (components.back().empty()) components.pop_back();
+  }
+  return components;
+}
+
+void DropSmallComponents(SkeletonGraph& graph, double min_length) {
+  for (const std::vector<EdgeId>& component : ConnectedEdges(graph)) {
+    double length = 0;
+    for (const EdgeId id : component) length += Length(graph.edge(id).points);
     if (length >= min_length) continue;
     for (const EdgeId id : component) graph.RemoveEdge(id);
   }

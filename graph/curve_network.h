@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "graph/ridge_projection.h"
 #include "graph/skeleton_graph.h"
 #include "kernel/options.h"
@@ -26,6 +28,9 @@ SkeletonGraph ConnectRidgePoints(const RidgePoints& ridge, const CurveNetworkOpt
 /// Removes loops shorter than `min_length` that hang at a junction, and of two edges between the
 /// same nodes that enclose so short a loop the longer one. Closed curves without a junction stay.
 void DropShortLoops(SkeletonGraph& graph, double min_length);
+
+/// The edges of each connected part of the graph, parts by their lowest edge.
+std::vector<std::vector<EdgeId>> ConnectedEdges(const SkeletonGraph& graph);
 
 /// Removes components whose edges are together shorter than `min_length`.
 void DropSmallComponents(SkeletonGraph& graph, double min_length);

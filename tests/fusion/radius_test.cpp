@@ -209,5 +209,28 @@ TEST(RadiusSharedData, Cubeframe) {
   }
 }
 
+TEST(DropThickParts, KeepsThickWiresOfThinObjects) {
+  SkeletonGraph skeleton;
+  std::vector<NodeId> nodes;
+  for (const Vec3& p :
+       {Vec3(0, 0, 0), Vec3(0.1, 0, 0), Vec3(0.4, 0, 0), Vec3(0, 1, 0), Vec3(0.1, 1, 0)}) {
+    nodes.push_back(skeleton.AddNode(p));
+  }
+  const auto add = [&](int from, int to, double radius) {
+    const std::array<NodeId, 2> ends = {nodes[from], nodes[to]};
+    return skeleton.AddEdge(
+        {ends, {skeleton.position(ends[0]), skeleton.position(ends[1])}, {radius, radius}, {}});
+  };
+  const EdgeId thick = add(0, 1, 0.01);
+  const EdgeId thin = add(1, 2, 0.002);
+  add(3, 4, 0.01);
+  RadiusOptions options;
+  DropThickParts(options, skeleton);
+  EXPECT_EQ(skeleton.edge_count(), 3);  // 0: any thickness
+  options.max_mean_diameter = 0.016;
+  DropThickParts(options, skeleton);
+  EXPECT_EQ(skeleton.Edges(), (std::vector<EdgeId>{thick, thin}));  // 8 mm on average
+}
+
 }  // namespace
 }  // namespace curvefusion
