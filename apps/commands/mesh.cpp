@@ -122,8 +122,10 @@ void AddMeshCommand(CLI::App& app, int& exit_code) {
                          "check a mesh");
   const auto arguments = std::make_shared<MeshArguments>();
   command
-      ->add_option("INPUT", arguments->input,
-                   "A skeleton.json; with --check and without -o, the mesh to check")
+      ->add_option(
+          "INPUT", arguments->input,
+          "A skeleton file (.json, .graphml, .swc, lines in .ply or .obj); with --check and "
+          "without -o, the mesh to check")
       ->required();
   command->add_option("-o,--output", arguments->output,
                       "A .ply, .obj, .stl, .glb or .3mf file to write");
