@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <utility>
 
+#include "kernel/quantile.h"
+
 namespace curvefusion {
 
 namespace {
 
-double Median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+double MedianOrZero(const std::vector<double>& values) {
+  return values.empty() ? 0 : Median(values);
 }
 
 }  // namespace
@@ -29,7 +28,7 @@ GraphFigures MeasureGraph(const SkeletonGraph& graph) {
   }
   for (const EdgeId edge : graph.Edges()) {
     figures.edge_length.push_back(Length(graph.edge(edge).points));
-    figures.edge_radius.push_back(Median(graph.edge(edge).radii));
+    figures.edge_radius.push_back(MedianOrZero(graph.edge(edge).radii));
   }
   return figures;
 }

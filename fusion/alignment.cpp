@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "kernel/parallel.h"
+#include "kernel/quantile.h"
+#include "kernel/rigid_motion.h"
 #include "kernel/spatial_search.h"
 
 namespace curvefusion {
@@ -21,7 +23,7 @@ constexpr int kMinPairs = 6;
 // alone: about the square of the angle by which noise turns tangents.
 constexpr double kObservable = 0.01;
 // The gate in medians of the distances: 3 sigma of a normal distribution.
-constexpr double kGateInMedians = 3 * 1.4826;
+constexpr double kGateInMedians = 3 * kGaussianMad;
 // At rest: a motion of the samples by less than this, in metres.
 constexpr double kAtRest = 2e-6;
 // Curves pair where their tangents are less than 60 degrees apart.
@@ -122,9 +124,7 @@ class ClosestPointAligner {
       if (pair.target >= 0) distances.push_back(pair.distance);
     gate_ = options_.inlier_distance;
     if (!distances.empty()) {
-      const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-      std::nth_element(distances.begin(), middle, distances.end());
-      gate_ = std::clamp(kGateInMedians * *middle, options_.inlier_distance,
+      gate_ = std::clamp(kGateInMedians * Median(std::move(distances)), options_.inlier_distance,
                          std::max(options_.inlier_distance, max_distance_));
     }
     inliers_ = static_cast<int>(std::count_if(pairs_.begin(), pairs_.end(), [this](const Pair& p) {
@@ -167,10 +167,7 @@ class ClosestPointAligner {
     const auto [hessian, gradient] = NormalEquations(center, scale);
     const Vec6 step = ObservableStep(hessian, gradient);
     const Vec3 rotation = step.head<3>() / scale;
-    RigidTransform motion = RigidTransform::Identity();
-    motion.translate(center + step.tail<3>());
-    if (rotation.norm() > 0)
-      motion.rotate(Eigen::AngleAxisd(rotation.norm(), rotation.normalized()));
+    RigidTransform motion = RigidMotion(rotation, center + step.tail<3>());
     motion.translate(-center);
     T = motion * T;
     T.linear() = Eigen::Quaterniond(T.linear()).normalized().toRotationMatrix();

@@ -13,7 +13,6 @@ constexpr double kStep = 0.5;          // pixels across the strip
 constexpr double kOutlineReachPx = 7;  // block matching fattens wires by up to 4 px on a side
 constexpr double kMaxOffsetPx = 2;     // from the shift found before, in the second fit
 constexpr size_t kMinOutlines = 50;
-constexpr double kGaussianMad = 1.4826;
 
 float DepthAt(const DepthImage& depth, const Vec2& pixel) {
   const int u = static_cast<int>(std::lround(pixel.x()));
@@ -79,14 +78,6 @@ Vec2 EstimateColorShift(const std::vector<Vec2>& normals, const std::vector<doub
             (solver.eigenvectors().transpose() * rhs).cwiseQuotient(solver.eigenvalues());
   }
   return shift;
-}
-
-double RobustDeviation(std::vector<double> values) {
-  if (values.empty()) return 0;
-  for (double& value : values) value = std::abs(value);
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return kGaussianMad * *middle;
 }
 
 }  // namespace curvefusion

@@ -36,7 +36,4 @@ StripDepth MeasureStripDepth(const DepthImage& depth, const StripPlace& place, d
 /// where fewer than 50 strips are outlined or all have one direction.
 Vec2 EstimateColorShift(const std::vector<Vec2>& normals, const std::vector<double>& offsets_px);
 
-/// Median of absolute values, times 1.4826: the standard deviation of a Gaussian; 0 for no values.
-double RobustDeviation(std::vector<double> values);
-
 }  // namespace curvefusion

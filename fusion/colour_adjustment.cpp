@@ -11,13 +11,14 @@
 #include "fusion/curve_vertices.h"
 #include "fusion/depth_gauge.h"
 #include "fusion/pose_correction.h"
+#include "kernel/quantile.h"
 
 namespace curvefusion {
 
 namespace {
 
-// How far strips are looked for, and beyond which distance they count less. FINDINGS of the
-// prototype: the start is a few pixels off.
+// How far strips are looked for, and beyond which distance they count less: the start is a few
+// pixels off.
 struct AdjustmentRound {
   double search_px;
   double huber_px;
@@ -44,9 +45,7 @@ bool IsVideo(const std::vector<RigidTransform>& poses) {
     steps.push_back((poses[i].translation() - poses[i - 1].translation()).norm());
   }
   if (steps.empty()) return false;
-  const auto quarter = steps.begin() + static_cast<std::ptrdiff_t>(3 * steps.size() / 4);
-  std::nth_element(steps.begin(), quarter, steps.end());
-  return *quarter < kVideoStep;
+  return Quantile(std::move(steps), 0.75) < kVideoStep;
 }
 
 std::vector<int> ChooseFrames(int frame_count, int stride) {
@@ -90,10 +89,7 @@ double MedianResidual(const CurvePoseProblem& problem, const CurvePoseState& sta
     const double residual = StripResidual(problem, state, strip);
     if (!std::isnan(residual)) residuals.push_back(std::abs(residual));
   }
-  if (residuals.empty()) return 0;
-  const auto middle = residuals.begin() + static_cast<std::ptrdiff_t>(residuals.size() / 2);
-  std::nth_element(residuals.begin(), middle, residuals.end());
-  return *middle;
+  return residuals.empty() ? 0 : Median(std::move(residuals));
 }
 
 double AcceptedShare(const std::vector<FrameStrips>& strips) {

@@ -6,6 +6,7 @@
 #include "capture/frame_stream.h"
 #include "fusion/axis_depth.h"
 #include "kernel/parallel.h"
+#include "kernel/quantile.h"
 
 namespace curvefusion {
 

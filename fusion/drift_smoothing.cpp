@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <Eigen/SparseCholesky>
 
+#include "kernel/rigid_motion.h"
+
 namespace curvefusion {
 
 namespace {
@@ -22,18 +24,13 @@ Mat6 MoveReference(const Vec3& from, const Vec3& to) {
 }
 
 Vec6 ToVector(const RigidTransform& T, const Vec3& center) {
-  const Eigen::AngleAxisd rotation(T.linear());
   Vec6 x;
-  x << rotation.angle() * rotation.axis(), T * center - center;
+  x << RotationVector(T), T * center - center;
   return x;
 }
 
 RigidTransform ToTransform(const Vec6& x, const Vec3& center) {
-  const Vec3 rotation = x.head<3>();
-  RigidTransform T = RigidTransform::Identity();
-  if (rotation.norm() > 0) {
-    T.linear() = Eigen::AngleAxisd(rotation.norm(), rotation.normalized()).toRotationMatrix();
-  }
+  RigidTransform T = RigidMotion(x.head<3>(), Vec3::Zero());
   T.translation() = center + x.tail<3>() - T.linear() * center;
   return T;
 }

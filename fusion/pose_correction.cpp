@@ -2,22 +2,18 @@
 
 #include <cassert>
 
+#include "kernel/rigid_motion.h"
+
 namespace curvefusion {
 
 SmallMotion SmallMotionOf(const RigidTransform& T) {
-  const Eigen::AngleAxisd rotation(T.linear());
   SmallMotion motion;
-  motion << T.translation(), rotation.angle() * rotation.axis();
+  motion << T.translation(), RotationVector(T);
   return motion;
 }
 
 RigidTransform RigidTransformOf(const SmallMotion& motion) {
-  const Vec3 rotation = motion.tail<3>();
-  const double angle = rotation.norm();
-  RigidTransform T = RigidTransform::Identity();
-  if (angle > 0) T.linear() = Eigen::AngleAxisd(angle, rotation / angle).toRotationMatrix();
-  T.translation() = motion.head<3>();
-  return T;
+  return RigidMotion(motion.tail<3>(), motion.head<3>());
 }
 
 std::vector<RigidTransform> InterpolateCorrections(const std::vector<RigidTransform>& given,

@@ -13,6 +13,7 @@
 #include "fusion/wire_chains.h"
 #include "graph/curve_network.h"
 #include "kernel/polyline.h"
+#include "kernel/quantile.h"
 
 namespace curvefusion {
 
@@ -23,7 +24,6 @@ constexpr double kMaxClearancePx = 40;    // a strip and its background fit in
 constexpr double kBorderPx = 8;           // samples nearer to the image border are left out
 constexpr double kAgreement = 0.25;       // strips this near to the mode count, relative
 constexpr int kMinOwnStrips = 20;         // to tell that a piece of a wire is thicker or thinner
-constexpr double kGaussianMad = 1.4826;   // standard deviation of a Gaussian over its MAD
 
 // At most max_frames of the frames, evenly spread.
 std::vector<int> ThinFrames(const std::vector<int>& frames, int max_frames) {
@@ -73,15 +73,9 @@ Agreement Agree(const std::vector<double>& diameters, const RadiusOptions& optio
   agreement.count = static_cast<int>(agreeing.size());
   if (agreeing.empty()) return agreement;
   agreement.diameter = Median(agreeing);
-  for (double& diameter : agreeing) diameter = std::abs(diameter - agreement.diameter);
-  agreement.spread = kGaussianMad * Median(agreeing);
+  for (double& diameter : agreeing) diameter -= agreement.diameter;
+  agreement.spread = RobustDeviation(std::move(agreeing));
   return agreement;
-}
-
-double LowerQuartile(std::vector<double> values) {
-  const auto quarter = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 4);
-  std::nth_element(values.begin(), quarter, values.end());
-  return *quarter;
 }
 
 // The diameter of an edge: that of its wire, unless the edge's own strips clearly tell another.
@@ -109,7 +103,7 @@ void Summarize(const SkeletonGraph& skeleton, const RadiusOptions& options,
     if (agreed.count >= options.min_strips) radii_of_wires.push_back(0.5 * agreed.diameter);
   }
   estimate.unmeasured_radius = options.per_wire && !radii_of_wires.empty()
-                                   ? LowerQuartile(std::move(radii_of_wires))
+                                   ? Quantile(std::move(radii_of_wires), 0.25)
                                    : estimate.global_radius;
   for (const EdgeId edge : skeleton.Edges()) {
     Agreement agreed = Agree(by_edge[edge], options);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "kernel/quantile.h"
 #include "kernel/spatial_search.h"
 
 namespace curvefusion {
@@ -41,9 +42,7 @@ double Linearity(const ObservedPoints& points) {
     linearity.push_back(LinearityAt(points.positions, neighbours));
   }
   if (linearity.empty()) return 1;
-  const auto middle = linearity.begin() + static_cast<std::ptrdiff_t>(linearity.size() / 2);
-  std::nth_element(linearity.begin(), middle, linearity.end());
-  return *middle;
+  return Median(std::move(linearity));
 }
 
 double RayNoiseRatio(const ObservedPoints& points, double enough) {

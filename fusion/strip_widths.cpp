@@ -6,6 +6,7 @@
 
 #include "fusion/wire_color.h"
 #include "kernel/parallel.h"
+#include "kernel/quantile.h"
 
 namespace curvefusion {
 
@@ -166,12 +167,6 @@ double MostProminent(const std::vector<double>& values, double bin) {
     if (mass(i) > mass(fullest)) fullest = i;
   }
   return (static_cast<double>(fullest) - 0.5) * bin;
-}
-
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 }  // namespace curvefusion

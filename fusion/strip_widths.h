@@ -35,7 +35,4 @@ std::vector<StripWidth> SolveStripWidths(std::vector<FoundStrip> strips,
 /// for no values.
 double MostProminent(const std::vector<double>& values, double bin);
 
-/// Median of the values; not empty.
-double Median(std::vector<double> values);
-
 }  // namespace curvefusion

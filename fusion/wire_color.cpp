@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernel/quantile.h"
+
 namespace curvefusion {
 
 namespace {
@@ -32,12 +34,6 @@ double Luma(const Eigen::Vector3d& rgb) { return rgb.dot(Eigen::Vector3d(0.299, 
 Eigen::Vector3d Amplify(const Eigen::Vector3d& difference, double luma_gain, double chroma_gain) {
   const Eigen::Vector3d luma = Eigen::Vector3d::Constant(Luma(difference));
   return luma * luma_gain + (difference - luma) * chroma_gain;
-}
-
-double Median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 // Channel by channel, made unit.
@@ -104,8 +100,8 @@ WireColor EstimateWireColor(const std::vector<ColoredStrip>& strips, const Image
     shades.push_back(color.direction.dot(interior));
   }
   color.shade = std::max(0.0, Median(shades));
-  for (double& shade : shades) shade = std::abs(shade - color.shade);
-  color.shade_spread = std::max(kMinShadeSpread, 1.4826 * Median(shades));
+  for (double& shade : shades) shade -= color.shade;
+  color.shade_spread = std::max(kMinShadeSpread, RobustDeviation(std::move(shades)));
   return color;
 }
 

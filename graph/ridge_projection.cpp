@@ -10,6 +10,7 @@
 #include "graph/point_grid.h"
 #include "graph/ridge_scale.h"
 #include "kernel/parallel.h"
+#include "kernel/quantile.h"
 #include "kernel/voxel_grid.h"
 
 namespace curvefusion {
@@ -46,13 +47,6 @@ ObservedPoints UsablePoints(const ObservedPoints& points) {
   return usable;
 }
 
-double Median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 // The strength that half of the summed strength lies below: outliers, however many, hardly count.
 double TypicalStrength(std::vector<double> strengths) {
   std::sort(strengths.begin(), strengths.end());
@@ -68,6 +62,7 @@ double TypicalStrength(std::vector<double> strengths) {
 // Divides the counts by what is usual nearby, the count-weighted mean within the radius: wires seen
 // often and seldom become equally strong, while their profile across stays.
 void EqualizeCounts(ObservedPoints& points, double radius, double least_relative_count) {
+  if (points.empty()) return;
   const PointGrid grid(points.positions, radius);
   std::vector<double> usual(points.size());
   ParallelFor(0, static_cast<int64_t>(points.size()), kGrain, [&](int64_t i) {

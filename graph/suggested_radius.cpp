@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kernel/parallel.h"
+#include "kernel/quantile.h"
 #include "kernel/spatial_search.h"
 
 namespace curvefusion {
@@ -39,12 +40,6 @@ double ThicknessAround(const Vec3& p, const std::vector<Vec3>& points,
   Eigen::SelfAdjointEigenSolver<Mat3> solver;
   solver.computeDirect(covariance / trace, Eigen::EigenvaluesOnly);
   return std::sqrt(12 * trace * std::max(0.0, solver.eigenvalues()(1)));
-}
-
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 std::vector<Vec3> Probes(const std::vector<Vec3>& points) {

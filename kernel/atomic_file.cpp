@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "kernel/error.h"
+#include "kernel/partial_folder.h"
 
 namespace curvefusion {
 
@@ -72,20 +73,9 @@ void WriteStreamAtomically(const fs::path& path,
 void WriteFolderAtomically(const fs::path& folder,
                            const std::function<void(const fs::path& temporary)>& write) {
   CheckIsFree(folder);
-  const fs::path path = NamedFolder(folder);
-  fs::path temporary = path;
-  temporary += fmt::format(".partial-{}", ::getpid());
-  std::error_code failure;
-  fs::create_directories(temporary, failure);
-  if (failure) throw CannotBeWritten(folder, failure.message());
-  try {
-    write(temporary);
-    fs::rename(temporary, path, failure);
-    if (failure) throw CannotBeWritten(folder, failure.message());
-  } catch (...) {
-    fs::remove_all(temporary, failure);
-    throw;
-  }
+  PartialFolder partial(NamedFolder(folder));
+  write(partial.path());
+  partial.Finish();
 }
 
 }  // namespace curvefusion

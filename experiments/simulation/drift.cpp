@@ -6,6 +6,7 @@
 #include "experiments/simulation/noise_process.h"
 #include "kernel/error.h"
 #include "kernel/options.h"
+#include "kernel/rigid_motion.h"
 
 namespace curvefusion {
 namespace {
@@ -65,8 +66,8 @@ std::vector<RigidTransform> DriftedPoses(const std::vector<RigidTransform>& true
   std::vector<RigidTransform> poses;
   for (const RigidTransform& true_pose : true_poses) {
     poses.push_back(true_pose *
-                    SmallMotion(drift.translation() + jitter.translation() + walk_translation,
-                                drift.rotation() + jitter.rotation() + walk_rotation));
+                    RigidMotion(drift.rotation() + jitter.rotation() + walk_rotation,
+                                drift.translation() + jitter.translation() + walk_translation));
     drift.Step(step, random);
     jitter.Step(step, random);
     for (int axis = 0; axis < 3; ++axis) {

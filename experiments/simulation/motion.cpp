@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "experiments/simulation/noise_process.h"
+#include "kernel/rigid_motion.h"
 
 namespace curvefusion {
 namespace {
@@ -97,7 +98,7 @@ std::vector<RigidTransform> HandheldPath(const ScanTask& task, int frames,
     const double time = frame * step;
     const double tremor = 0.0002 * options.hand_noise * std::sin(2 * kPi * 9 * time + tremor_phase);
     const Vec3 shake = sway.translation() + tremor * Vec3(0.6, 0.8, 0);
-    poses.push_back(LookAt(path.Position(q), path.Target(q)) * SmallMotion(shake, sway.rotation()));
+    poses.push_back(LookAt(path.Position(q), path.Target(q)) * RigidMotion(sway.rotation(), shake));
     sway.Step(step, random);
     constexpr double kProbe = 1e-4;
     const double metres_per_q = (path.Position(q + kProbe) - path.Position(q)).norm() / kProbe;

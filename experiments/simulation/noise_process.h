@@ -38,13 +38,4 @@ class PoseSway {
   Vec3 value_[2] = {Vec3::Zero(), Vec3::Zero()};
 };
 
-/// The rigid motion by a rotation vector (axis times angle) and a translation.
-inline RigidTransform SmallMotion(const Vec3& translation, const Vec3& rotation) {
-  RigidTransform motion = RigidTransform::Identity();
-  const double angle = rotation.norm();
-  if (angle > 0) motion.linear() = Eigen::AngleAxisd(angle, rotation / angle).toRotationMatrix();
-  motion.translation() = translation;
-  return motion;
-}
-
 }  // namespace curvefusion

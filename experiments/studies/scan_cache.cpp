@@ -1,7 +1,6 @@
 #include "experiments/studies/scan_cache.h"
 
 #include "experiments/studies/case_settings.h"
-#include "experiments/studies/partial_folder.h"
 #include "kernel/atomic_file.h"
 
 namespace curvefusion {
@@ -17,11 +16,9 @@ fs::path CachedScan(const fs::path& folder, const SimulationOptions& scan,
                     const Progress& progress) {
   const fs::path final_folder = ScanFolder(folder, scan);
   if (fs::exists(final_folder)) return final_folder;
-  PartialFolder partial(final_folder);
-  SimulateScan(scan, partial.path(), progress);
-  WriteStreamAtomically(partial.path() / "settings.json",
+  SimulateScan(scan, final_folder, progress);
+  WriteStreamAtomically(final_folder / "settings.json",
                         [&](std::ostream& stream) { stream << ScanSettings(scan) << "\n"; });
-  partial.Finish();
   return final_folder;
 }
 

@@ -9,12 +9,12 @@
 
 #include "experiments/studies/case_settings.h"
 #include "experiments/studies/gnuplot.h"
-#include "experiments/studies/partial_folder.h"
 #include "experiments/studies/provenance.h"
 #include "experiments/studies/reconstruction_run.h"
 #include "experiments/studies/run_files.h"
 #include "experiments/studies/scan_cache.h"
 #include "kernel/error.h"
+#include "kernel/partial_folder.h"
 
 namespace curvefusion {
 

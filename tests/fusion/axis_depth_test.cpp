@@ -55,10 +55,5 @@ TEST(EstimateColorShiftTest, ZeroWhereItCannotBeTold) {
       EstimateColorShift(std::vector<Vec2>(100, Vec2(1, 0)), std::vector<double>(100, 1)).isZero());
 }
 
-TEST(RobustDeviationTest, IgnoresOutliers) {
-  EXPECT_NEAR(RobustDeviation({-1, 1, -1, 1, 100}), 1.4826, 1e-9);
-  EXPECT_EQ(RobustDeviation({}), 0);
-}
-
 }  // namespace
 }  // namespace curvefusion

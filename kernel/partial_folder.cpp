@@ -1,4 +1,4 @@
-#include "experiments/studies/partial_folder.h"
+#include "kernel/partial_folder.h"
 
 #include <unistd.h>
 
@@ -28,7 +28,7 @@ PartialFolder::PartialFolder(fs::path final_path)
   std::error_code failure;
   fs::remove_all(path_, failure);
   fs::create_directories(path_, failure);
-  ThrowIf(failure, path_);
+  ThrowIf(failure, final_path_);
 }
 
 PartialFolder::~PartialFolder() {

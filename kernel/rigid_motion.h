@@ -1,0 +1,13 @@
+#pragma once
+
+#include "kernel/geometry.h"
+
+namespace curvefusion {
+
+/// The rotation of a motion as axis times angle (radians, 0 to pi).
+Vec3 RotationVector(const RigidTransform& T);
+
+/// The motion that turns by a rotation vector about the origin and then moves by a translation.
+RigidTransform RigidMotion(const Vec3& rotation_vector, const Vec3& translation);
+
+}  // namespace curvefusion
