@@ -226,10 +226,10 @@ void ReportAdjustment(const ColourAdjustment& adjusted, StageLog& log) {
   if (!adjusted.skipped.empty()) log.Remark(stage, "skipped: " + adjusted.skipped);
 }
 
-// Deviation: curves and poses as exact as the colour images show them.
-void RefineInColour(const Sequence& given, RunContext& run, Reconstruction& result) {
-  if (!run.options.colour_adjustment.enabled || result.skeleton.empty()) return;
-  AssignMeasuredRadii(run, result);
+// Deviation: curves of known radius and poses as exact as the colour images show them. False where
+// nothing was changed.
+bool RefineInColour(const Sequence& given, RunContext& run, Reconstruction& result) {
+  if (!run.options.colour_adjustment.enabled || result.skeleton.empty()) return false;
   const StageLog::Timer timer(run.log, "colour adjustment");
   std::vector<RigidTransform> T_world_given;
   for (const SequenceFrame& frame : given.frames) T_world_given.push_back(frame.T_world_camera);
@@ -244,6 +244,7 @@ void RefineInColour(const Sequence& given, RunContext& run, Reconstruction& resu
   ReportAdjustment(adjusted, run.log);
   run.observer.OnProgress("colour adjustment", 1, 1);
   run.observer.OnGraph("adjusted", result.skeleton);
+  return adjusted.skipped.empty();
 }
 
 // Everything after the volume.
@@ -259,8 +260,10 @@ Reconstruction ReconstructThinParts(const TsdfVolume& volume, const Sequence& se
     for (const ObservedPoints& bundle : scan.bundles) Append(result.points, bundle);
     result.skeleton = FuseBundleSkeletons(scan, run);
   }
-  RefineInColour(sequence, run, result);
   result.global_radius = AssignMeasuredRadii(run, result).global_radius;
+  if (RefineInColour(sequence, run, result)) {
+    result.global_radius = AssignMeasuredRadii(run, result).global_radius;
+  }
   DropThickParts(run.options.radius, result.skeleton);
   result.stages = run.log.stages();
   return result;

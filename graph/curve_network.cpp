@@ -6,6 +6,7 @@
 #include <map>
 #include <numeric>
 #include <queue>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -193,25 +194,21 @@ void DropShortLoops(SkeletonGraph& graph, double min_length) {
 }
 
 std::vector<std::vector<EdgeId>> ConnectedEdges(const SkeletonGraph& graph) {
-  std::vector<std::vector<EdgeId>> components;
-  std::vector<char> visited;
-  const auto visit = [&](EdgeId id) {
-    visited.resize(std::max<size_t>(visited.size(), id + 1), 0);
-    if (visited[id]) return;
-    visited[id] = 1;
-    components.back().push_back(id);
-  };
+  std::vector<std::vector<EdgeId>> parts;
+  std::set<EdgeId> visited;
   for (const EdgeId first : graph.Edges()) {
-    components.emplace_back();
-    visit(first);
-    for (size_t i = 0; i < components.back().size(); ++i) {
-      for (const NodeId node : graph.edge(components.back()[i]).nodes) {
-        for (const EdgeId next : graph.IncidentEdges(node)) visit(next);
+    if (!visited.insert(first).second) continue;
+    std::vector<EdgeId> part = {first};
+    for (size_t i = 0; i < part.size(); ++i) {
+      for (const NodeId node : graph.edge(part[i]).nodes) {
+        for (const EdgeId next : graph.IncidentEdges(node)) {
+          if (visited.insert(next).second) part.push_back(next);
+        }
       }
     }
-    if (components.back().empty()) components.pop_back();
+    parts.push_back(std::move(part));
   }
-  return components;
+  return parts;
 }
 
 void DropSmallComponents(SkeletonGraph& graph, double min_length) {

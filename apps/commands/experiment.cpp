@@ -88,22 +88,36 @@ StudyResults RunOrTellHowToGoOn(const Study& study, const StudyRequest& request,
   }
 }
 
-int RunOne(const Study& study, const StudyRequest& request, const ExperimentArguments& arguments) {
-  const StudyPlan plan = PlanStudy(study, request, arguments.output);
+// A study that may be run: what could be refused has been looked at.
+struct PlannedStudy {
+  Study study;
+  StudyPlan plan;
   std::vector<StudyRun> baseline;
-  if (!arguments.baseline.empty()) baseline = ReadBaseline(study, request, arguments.baseline);
+};
+
+PlannedStudy Planned(const Study& study, const StudyRequest& request,
+                     const ExperimentArguments& arguments) {
+  PlannedStudy planned{study, PlanStudy(study, request, arguments.output), {}};
+  if (!arguments.baseline.empty()) {
+    planned.baseline = ReadBaseline(study, request, arguments.baseline);
+  }
+  return planned;
+}
+
+int RunOne(const PlannedStudy& planned, const StudyRequest& request,
+           const ExperimentArguments& arguments) {
   if (!arguments.run.quiet) {
-    fmt::print("{}: ", study.name);
-    PrintPlan(plan, arguments.runner.remeasure);
+    fmt::print("{}: ", planned.study.name);
+    PrintPlan(planned.plan, arguments.runner.remeasure);
     std::fflush(stdout);  // before the progress, which goes to the other stream
   }
   ProgressPrinter printer = MakeProgressPrinter(arguments.run.quiet);
   const StudyResults results =
-      RunOrTellHowToGoOn(study, request, arguments, InterruptibleProgress(printer));
+      RunOrTellHowToGoOn(planned.study, request, arguments, InterruptibleProgress(printer));
   printer.Finish();
   const int outcome = PrintOutcome(results, arguments.run.quiet);
-  if (baseline.empty()) return outcome;
-  return std::max(outcome, PrintComparison(baseline, results, arguments.tolerance));
+  if (planned.baseline.empty()) return outcome;
+  return std::max(outcome, PrintComparison(planned.baseline, results, arguments.tolerance));
 }
 
 // "all" leaves out those that choose constants: they are not figures but work on them.
@@ -123,12 +137,14 @@ std::vector<Study> StudiesOf(const std::vector<std::string>& names) {
 
 int RunExperiment(const ExperimentArguments& arguments) {
   const StudyRequest request = RequestOf(arguments);
-  const std::vector<Study> studies = StudiesOf(arguments.names);
-  for (const Study& study : studies) PlanStudy(study, request, arguments.output);  // refuses early
+  std::vector<PlannedStudy> studies;
+  for (const Study& study : StudiesOf(arguments.names)) {
+    studies.push_back(Planned(study, request, arguments));
+  }
   MakeOutputFolder(arguments.output);
   const ThreadLimit limit(arguments.run.threads);
   int exit_code = 0;
-  for (const Study& study : studies) {
+  for (const PlannedStudy& study : studies) {
     exit_code = std::max(exit_code, RunOne(study, request, arguments));
   }
   return exit_code;

@@ -9,9 +9,9 @@
 #include <fstream>
 #include <iterator>
 
-#include "experiments/studies/partial_folder.h"
 #include "kernel/atomic_file.h"
 #include "kernel/error.h"
+#include "kernel/partial_folder.h"
 
 namespace curvefusion {
 

@@ -18,11 +18,6 @@ std::optional<double> ValueOf(const StudyRun& run, const HeadlineFigure& figure)
   return run.outcome == kNothing && is_f ? std::optional(0.0) : std::nullopt;
 }
 
-double Median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return (values[values.size() / 2] + values[(values.size() - 1) / 2]) / 2;
-}
-
 std::optional<double> MeanOfMedians(const RunGroup& group, const HeadlineFigure& figure) {
   std::map<std::string, std::vector<double>> of_object;
   for (const StudyRun* run : group.runs) {
@@ -31,7 +26,7 @@ std::optional<double> MeanOfMedians(const RunGroup& group, const HeadlineFigure&
   }
   if (of_object.empty()) return std::nullopt;
   double sum = 0;
-  for (const auto& [object, values] : of_object) sum += Median(values);
+  for (const auto& [object, values] : of_object) sum += SpreadOf(values)->median;
   return sum / static_cast<double>(of_object.size());
 }
 

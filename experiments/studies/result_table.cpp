@@ -43,13 +43,6 @@ std::string Joined(const std::vector<std::string>& cells, const std::string& sep
   return fmt::format("{}", fmt::join(cells, separator));
 }
 
-// "median least greatest".
-std::string SpreadData(const RunGroup& group, const std::string& figure) {
-  const std::optional<Spread> spread = SpreadOf(group, figure);
-  if (!spread) return "? ? ?";
-  return fmt::format("{} {} {}", spread->median, spread->least, spread->greatest);
-}
-
 }  // namespace
 
 std::vector<RunGroup> GroupRuns(const std::vector<StudyRun>& runs,
@@ -66,13 +59,16 @@ std::vector<RunGroup> GroupRuns(const std::vector<StudyRun>& runs,
   return groups;
 }
 
-std::optional<Spread> SpreadOf(const RunGroup& group, const std::string& figure) {
-  std::vector<double> values = ValuesOf(group, figure);
+std::optional<Spread> SpreadOf(std::vector<double> values) {
   if (values.empty()) return std::nullopt;
   std::sort(values.begin(), values.end());
   const size_t upper = values.size() / 2;
   const size_t lower = (values.size() - 1) / 2;
   return Spread{(values[lower] + values[upper]) / 2, values.front(), values.back()};
+}
+
+std::optional<Spread> SpreadOf(const RunGroup& group, const std::string& figure) {
+  return SpreadOf(ValuesOf(group, figure));
 }
 
 double SumOf(const RunGroup& group, const std::string& figure) {
@@ -90,6 +86,11 @@ double GreatestOf(const std::vector<StudyRun>& runs, const std::string& figure, 
   return greatest;
 }
 
+std::string SpreadData(const std::optional<Spread>& spread) {
+  if (!spread) return "? ? ?";
+  return fmt::format("{} {} {}", spread->median, spread->least, spread->greatest);
+}
+
 std::string SpreadBlocks(const std::vector<RunGroup>& groups, const std::string& block_label,
                          const std::string& row_label, const std::vector<std::string>& figures) {
   std::vector<std::string> names;
@@ -102,7 +103,8 @@ std::string SpreadBlocks(const std::vector<RunGroup>& groups, const std::string&
       blocks.push_back("# " + name + "\n");
     }
     blocks[place] += LabelOf(group.labels, row_label);
-    for (const std::string& figure : figures) blocks[place] += " " + SpreadData(group, figure);
+    for (const std::string& figure : figures)
+      blocks[place] += " " + SpreadData(SpreadOf(group, figure));
     blocks[place] += "\n";
   }
   return Joined(blocks, "\n\n");

@@ -26,6 +26,9 @@ struct Spread {
   double greatest = 0;
 };
 
+/// None for no values.
+std::optional<Spread> SpreadOf(std::vector<double> values);
+
 /// Over the group's runs that have the figure; none where none has.
 std::optional<Spread> SpreadOf(const RunGroup& group, const std::string& figure);
 
@@ -35,6 +38,9 @@ double SumOf(const RunGroup& group, const std::string& figure);
 /// The greatest value of a figure in all runs, but at least `least`: the end of an axis, which
 /// gnuplot cannot choose where no run has a value.
 double GreatestOf(const std::vector<StudyRun>& runs, const std::string& figure, double least);
+
+/// "median least greatest" for a data file of gnuplot; "? ? ?" for none.
+std::string SpreadData(const std::optional<Spread>& spread);
 
 /// Data for gnuplot: a block (gnuplot's `index`) for each value of `block_label`, in it a row for
 /// each group with that value: its `row_label`, then median, least and greatest of every figure,

@@ -65,9 +65,7 @@ class Measured {
 
   // "median least greatest" for gnuplot.
   std::string Data(const SensorMeasurement& what, const std::string& figure) const {
-    const std::optional<Spread> spread = Find(what, figure);
-    if (!spread) return "? ? ?";
-    return fmt::format("{} {} {}", spread->median, spread->least, spread->greatest);
+    return SpreadData(Find(what, figure));
   }
 
  private:

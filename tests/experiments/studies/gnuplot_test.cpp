@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "kernel/error.h"
+#include "tests/experiments/studies/gnuplot_fixture.h"
 #include "tests/temporary_path.h"
 
 namespace curvefusion {
@@ -14,15 +15,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class Gnuplot : public testing::Test {
+class Gnuplot : public WithGnuplot {
  protected:
   void SetUp() override {
-    try {
-      RequireGnuplot();
-    } catch (const Error& error) {
-      GTEST_SKIP() << error.what();
-    }
-    fs::create_directories(folder_);
+    WithGnuplot::SetUp();
+    if (!IsSkipped()) fs::create_directories(folder_);
   }
   void TearDown() override { fs::remove_all(folder_); }
 

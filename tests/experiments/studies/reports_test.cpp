@@ -9,7 +9,7 @@
 #include "experiments/studies/gnuplot.h"
 #include "experiments/studies/studies.h"
 #include "experiments/studies/study_runner.h"
-#include "kernel/error.h"
+#include "tests/experiments/studies/gnuplot_fixture.h"
 #include "tests/temporary_path.h"
 
 namespace curvefusion {
@@ -17,15 +17,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class Reports : public testing::Test {
+class Reports : public WithGnuplot {
  protected:
   void SetUp() override {
-    try {
-      RequireGnuplot();
-    } catch (const Error& error) {
-      GTEST_SKIP() << error.what();
-    }
-    fs::create_directories(folder_);
+    WithGnuplot::SetUp();
+    if (!IsSkipped()) fs::create_directories(folder_);
   }
   void TearDown() override { fs::remove_all(folder_); }
 

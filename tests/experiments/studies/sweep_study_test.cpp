@@ -9,6 +9,7 @@
 #include "experiments/studies/studies.h"
 #include "experiments/studies/study_runner.h"
 #include "kernel/error.h"
+#include "tests/experiments/studies/gnuplot_fixture.h"
 #include "tests/temporary_path.h"
 
 namespace curvefusion {
@@ -75,15 +76,8 @@ StudyRun RunWith(const Figures& figures) {
   return {{{"object", "cage"}, {"setting", "default"}}, 1, "done", "", "", {}, figures};
 }
 
-class Sweep : public testing::Test {
+class Sweep : public WithGnuplot {
  protected:
-  void SetUp() override {
-    try {
-      RequireGnuplot();
-    } catch (const Error& error) {
-      GTEST_SKIP() << error.what();
-    }
-  }
   void TearDown() override { fs::remove_all(folder_); }
 
   const fs::path folder_ = TemporaryPath("sweep");
