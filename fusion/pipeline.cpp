@@ -60,11 +60,12 @@ void AddBundle(const SegmentedBundle& bundle, SegmentedScan& scan, PipelineObser
 SegmentedScan SegmentBundles(const Sequence& sequence, const TsdfVolume& volume, RunContext& run) {
   const StageLog::Timer timer(run.log, "segmentation");
   SegmentedScan scan;
+  const SegmentationModel model = LearnSegmentation(sequence, volume, run.options.segmentation);
   size_t candidates = 0, points = 0;
   for (const auto& [first, last] :
        SplitIntoBundles(sequence.frame_count(), run.options.segmentation.bundle.frames)) {
     const SegmentedBundle bundle =
-        SegmentBundle(sequence, first, last, volume, run.options.segmentation);
+        SegmentBundle(sequence, first, last, volume, model, run.options.segmentation);
     candidates += bundle.difference_set.size();
     points += bundle.points.size();
     AddBundle(bundle, scan, run.observer);

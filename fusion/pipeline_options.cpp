@@ -34,6 +34,8 @@ PipelineOptions BestOptions() {
   options.volume_stride = 2;
   options.segmentation.render_divisor = 2;
   options.segmentation.opening.solid_depth = 0.03;
+  options.segmentation.openness.stride = 5;
+  options.segmentation.gate.frames = 10;
   UseWorkableReading(options.segmentation.difference);
   options.segmentation.difference.silhouette_margin_px = 6;
   options.segmentation.difference.min_neighbours = 8;

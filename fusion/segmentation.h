@@ -4,10 +4,12 @@
 
 #include "capture/sequence.h"
 #include "fusion/bundle.h"
+#include "fusion/colour_gate.h"
 #include "fusion/colour_verification.h"
 #include "fusion/depth_opening.h"
 #include "fusion/difference_set.h"
 #include "fusion/ghost_removal.h"
+#include "fusion/openness.h"
 #include "fusion/tsdf_volume.h"
 #include "kernel/observed_points.h"
 
@@ -16,13 +18,26 @@ namespace curvefusion {
 /// Everything that decides which points are thin, CurveFusion 3.1.
 struct SegmentationOptions {
   int render_divisor = 1;
+  OpennessOptions openness;
   DepthOpeningOptions opening;
   DifferenceSetOptions difference;
+  ColourGateOptions gate;
   ColourEdgeOptions edges;
   BundleOptions bundle;
   GhostRemovalOptions ghosts;
 };
 void VisitOptions(SegmentationOptions& options, OptionVisitor& visitor);
+
+/// What has to be known of a whole sequence before its bundles are segmented.
+struct SegmentationModel {
+  OpennessGrid openness;
+  WireColours colours;
+};
+
+/// Learns it from frames spread over the sequence, against the volume of all frames.
+/// Throws Error(kBadInput) for an image that cannot be read.
+SegmentationModel LearnSegmentation(const Sequence& sequence, const TsdfVolume& volume,
+                                    const SegmentationOptions& options);
 
 /// What was found in one bundle.
 struct SegmentedBundle {
@@ -35,6 +50,7 @@ struct SegmentedBundle {
 /// Segments frames [first, last) of a sequence against the volume of all frames.
 /// Throws Error(kBadInput) for an image that cannot be read.
 SegmentedBundle SegmentBundle(const Sequence& sequence, int first, int last,
-                              const TsdfVolume& volume, const SegmentationOptions& options);
+                              const TsdfVolume& volume, const SegmentationModel& model,
+                              const SegmentationOptions& options);
 
 }  // namespace curvefusion

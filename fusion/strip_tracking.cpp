@@ -135,6 +135,14 @@ void BestPath(const Scores& scores, size_t begin, size_t end, std::vector<int>& 
   }
 }
 
+// Another strand is as far off as this one, and looks the same: what lies nearer to it is its own.
+void LeaveToNeighbour(double clearance_px, size_t row, Scores& scores) {
+  float* values = scores.Row(row);
+  for (int c = -scores.half_count; c <= scores.half_count; ++c) {
+    if (std::abs(c) * kStep > clearance_px / 2) values[c + scores.half_count] = -1;
+  }
+}
+
 // Whether a centre farther away than the strip reaches is nearly as good.
 bool HasRival(const Scores& scores, size_t row, int chosen) {
   const float* values = scores.Row(row);
@@ -164,6 +172,10 @@ double Centroid(const Profile& profile, double centre_px, double width_px) {
   return kStep * (middle + std::clamp(moment / mass, -2.0, 2.0));
 }
 
+bool IsClear(const ProjectedSample& sample, double width_px) {
+  return sample.clearance_px > kClearWidths * width_px + kClearPx;
+}
+
 bool FollowsOn(const ProjectedSample& before, const ProjectedSample& sample) {
   return sample.edge == before.edge && sample.index - before.index <= 1 + kMaxRunGap;
 }
@@ -183,6 +195,7 @@ std::vector<TrackedStrip> TrackStrips(const PosteriorImage& posterior,
     const int reach = WidthSteps(kWidths.back() * width_px) / 2 + 2 + kGuard + kSide;
     ReadProfile(posterior, samples[i], scores.half_count + reach, profiles[i]);
     ScoreCentres(profiles[i], width_px, i, scores);
+    if (IsClear(samples[i], width_px)) LeaveToNeighbour(samples[i].clearance_px, i, scores);
   }
   std::vector<int> path(samples.size());
   for (size_t begin = 0, end = 0; begin < samples.size(); begin = end) {
@@ -199,7 +212,7 @@ std::vector<TrackedStrip> TrackStrips(const PosteriorImage& posterior,
     strip.offset_px = Centroid(profiles[i], centre_px, strip.width_px);
     const double expected_px = 2 * radii[i] / samples[i].metres_per_px;
     strip.accepted = strip.score >= kMinScore && !HasRival(scores, i, path[i]) &&
-                     samples[i].clearance_px > kClearWidths * expected_px + kClearPx;
+                     IsClear(samples[i], expected_px);
     tracked.push_back(strip);
   }
   return tracked;

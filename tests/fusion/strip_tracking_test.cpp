@@ -105,6 +105,21 @@ TEST(TrackStripsTest, ABlotDoesNotLureThePathAway) {
   }
 }
 
+TEST(TrackStripsTest, AWireOfARowIsNotTakenForItsNeighbour) {
+  // Wires 12 px apart, this one less clear than the next: that is 10 px off, nearer to its own
+  // curve than to this.
+  PosteriorImage image(kWidth, kHeight, 0);
+  DrawWire([](int) { return 78; }, 6, image);
+  for (size_t i = 0; i < image.size(); ++i) image.data()[i] /= 2;
+  DrawWire([](int) { return 90; }, 6, image);
+  std::vector<ProjectedSample> samples = Expected();
+  for (ProjectedSample& sample : samples) sample.clearance_px = 12;
+  for (const TrackedStrip& strip : TrackStrips(image, samples, Radii(), 14)) {
+    EXPECT_TRUE(strip.accepted);
+    EXPECT_NEAR(80 - strip.offset_px, 78, 0.3);  // half a step of the centres, and rounding
+  }
+}
+
 TEST(TrackStripsTest, NoSamplesNoStrips) {
   EXPECT_TRUE(TrackStrips(PosteriorImage(kWidth, kHeight, 0), {}, {}, 10).empty());
 }

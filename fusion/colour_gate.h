@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "capture/sequence.h"
+#include "kernel/geometry.h"
+#include "kernel/image.h"
+#include "kernel/options.h"
+
+namespace curvefusion {
+
+/// How colours part wires from what shows through between them, where depth is one sheet.
+struct ColourGateOptions {
+  /// Frames, 0 to 1000: the wires' colours are learned from about so many; 0 = colours are not
+  /// asked.
+  int frames = 0;
+  /// 0 to 1: candidate pixels less likely to be wire are dropped. Below one half, so that nothing
+  /// goes where wires and background look the same.
+  double min_posterior = 0.4;
+  /// 0 to 1: nor are those kept that are less likely than so much of the likeliest pixel within 2
+  /// pixels: blur raises narrow gaps.
+  double min_of_peak = 0.6;
+  /// Metres, 0 to 0.2: what is wire-coloured in a disc of this diameter is a row that the colour
+  /// image does not resolve either, as no wire is so thick; it is left to other views. 0 = not
+  /// asked. Where two wires of 12 mm cross, a disc of 17 mm fits.
+  double max_width = 0.02;
+};
+void VisitOptions(ColourGateOptions& options, OptionVisitor& visitor);
+
+/// What the colours of wires are, and where colour images show what depth images show.
+struct WireColours {
+  std::vector<uint8_t> posterior;  ///< of every bin (WireColourModel); empty = nothing is known
+  Vec2 shift_px = Vec2::Zero();    ///< from where a depth pixel projects to where it is seen
+};
+
+/// A frame of which some pixels are thought to be wire.
+struct WireCandidates {
+  MaskImage mask;  ///< of the depth image
+  MaskImage rows;  ///< where depth may be one sheet before several wires; smaller than `mask` by an
+                   ///< integer factor
+  DepthImage depth;
+  ColorImage color;
+};
+
+/// Learns colours from candidates of several frames: wire is what the masks cover, background what
+/// surrounds them at some distance. Masks may cover gaps: what is seen around them as well is less
+/// likely wire. Learned again from what remains, once the shift is known. Linear in pixels.
+WireColours LearnWireColours(const std::vector<WireCandidates>& frames, const Sequence& sequence,
+                             const ColourGateOptions& options);
+
+/// Drops the pixels of the mask, in and next to rows, whose colours are unlikely for wire. Pixels
+/// outside the colour image stay. Rows that the colour image does not resolve are dropped whole.
+/// Linear in pixels.
+void GateByColour(const WireColours& colours, const Sequence& sequence,
+                  const ColourGateOptions& options, WireCandidates& frame);
+
+}  // namespace curvefusion

@@ -1,0 +1,135 @@
+#include "fusion/openness.h"
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "capture/frame_stream.h"
+#include "kernel/parallel.h"
+
+namespace curvefusion {
+
+namespace {
+
+// The rendering for counting needs no more detail than a cell.
+constexpr int kRenderDivisor = 4;
+// Pixels of the rendering from a silhouette within which nothing is counted: 12 pixels of the depth
+// image, more than block matching fattens and poses drift.
+constexpr int kMargin = 3;
+// Over this distance a surface seen at 80 degrees from its normal rises by so many pixels; more is
+// a silhouette.
+constexpr double kSteepestSlope = 5.7;
+// Fewer pixels tell no share: they are the fringes of what a few frames saw at grazing angles. A
+// frame has about so many in a cell and its neighbours at 0.7 m.
+constexpr int kMinPixels = 2000;
+// Depth noise is three times this times depth squared (Khoshelham 2012).
+constexpr float kNoiseQuadratic = 0.001425f;
+
+// The farthest rendered depth around a pixel; infinite where nothing is rendered.
+float FarthestAround(const DepthImage& rendering, int u, int v) {
+  float farthest = 0;
+  for (int y = v - kMargin; y <= v + kMargin; ++y) {
+    for (int x = u - kMargin; x <= u + kMargin; ++x) {
+      if (!(rendering(x, y) > 0)) return std::numeric_limits<float>::infinity();
+      farthest = std::max(farthest, rendering(x, y));
+    }
+  }
+  return farthest;
+}
+
+}  // namespace
+
+void VisitOptions(OpennessOptions& options, OptionVisitor& visitor) {
+  visitor.Visit({"openness_stride", "frames", 0, 1000,
+                 "Deviation: every so many-th frame is asked whether its depth passes through "
+                 "what the volume holds for a surface; 0 = not asked."},
+                options.stride);
+  visitor.Visit(
+      {"openness_cell", "m", 0.002, 0.2, "Deviation: cells in which passing pixels are counted."},
+      options.cell_size);
+  visitor.Visit({"passing_depth", "m", 0, 0.2,
+                 "Deviation: a pixel so far behind a surface passed through it."},
+                options.passing_depth);
+  visitor.Visit({"max_openness", "", 0, 1,
+                 "Deviation: where a larger share of the pixels passed through there is no large "
+                 "surface but a grille."},
+                options.max_share);
+}
+
+void OpennessGrid::AddFrame(const DepthImage& depth, const DepthImage& rendering,
+                            const PinholeCamera& camera, const RigidTransform& T_world_camera) {
+  const int factor = depth.width() / rendering.width();
+  const double slope = kMargin * kSteepestSlope / camera.fx;
+  for (int v = kMargin; v + kMargin < rendering.height(); ++v) {
+    for (int u = kMargin; u + kMargin < rendering.width(); ++u) {
+      const float surface = rendering(u, v);
+      const float farthest = FarthestAround(rendering, u, v);
+      if (!(surface > 0) || farthest > surface * (1 + slope)) continue;
+      const float limit = farthest + std::max(static_cast<float>(options_.passing_depth),
+                                              3 * kNoiseQuadratic * farthest * farthest);
+      Counts seen;
+      for (int y = v * factor; y < (v + 1) * factor; ++y) {
+        for (int x = u * factor; x < (u + 1) * factor; ++x) {
+          seen.passed += depth(x, y) > limit;
+          seen.ended += depth(x, y) > 0 && depth(x, y) <= limit;
+        }
+      }
+      Counts& cell =
+          counts_[VoxelOf(T_world_camera * camera.Unproject(u, v, surface), options_.cell_size)];
+      cell.passed += seen.passed;
+      cell.ended += seen.ended;
+    }
+  }
+}
+
+void OpennessGrid::Pool() {
+  shares_.clear();
+  for (const auto& entry : counts_) {
+    const VoxelKey& key = entry.first;
+    Counts sum;
+    for (int i = 0; i < 27; ++i) {
+      const auto it = counts_.find({key.x + i % 3 - 1, key.y + i / 3 % 3 - 1, key.z + i / 9 - 1});
+      if (it == counts_.end()) continue;
+      sum.passed += it->second.passed;
+      sum.ended += it->second.ended;
+    }
+    const int all = sum.passed + sum.ended;
+    if (all >= kMinPixels) shares_[key] = static_cast<float>(sum.passed) / static_cast<float>(all);
+  }
+}
+
+double OpennessGrid::Share(const Vec3& p_world) const {
+  const auto it = shares_.find(VoxelOf(p_world, options_.cell_size));
+  return it == shares_.end() ? 0.0 : it->second;
+}
+
+MaskImage OpennessGrid::Grilles(const DepthImage& rendering, const PinholeCamera& camera,
+                                const RigidTransform& T_world_camera) const {
+  MaskImage grilles(rendering.width(), rendering.height(), 0);
+  if (shares_.empty()) return grilles;
+  for (int v = 0; v < rendering.height(); ++v) {
+    for (int u = 0; u < rendering.width(); ++u) {
+      if (!(rendering(u, v) > 0)) continue;
+      const Vec3 p_world = T_world_camera * camera.Unproject(u, v, rendering(u, v));
+      grilles(u, v) = Share(p_world) > options_.max_share;
+    }
+  }
+  return grilles;
+}
+
+OpennessGrid MeasureOpenness(const Sequence& sequence, const TsdfVolume& volume,
+                             const OpennessOptions& options) {
+  OpennessGrid grid(options);
+  if (options.stride == 0) return grid;
+  std::vector<int> frames;
+  for (int i = 0; i < sequence.frame_count(); i += options.stride) frames.push_back(i);
+  const PinholeCamera camera = sequence.depth_camera.Scaled(1.0 / kRenderDivisor);
+  ForEachFrame(sequence, frames, {.depth = true, .color = false}, [&](const DecodedFrame& frame) {
+    const RigidTransform& T_world_camera = sequence.frames[frame.index].T_world_camera;
+    grid.AddFrame(frame.depth, volume.Raycast(camera, T_world_camera), camera, T_world_camera);
+  });
+  grid.Pool();
+  return grid;
+}
+
+}  // namespace curvefusion
