@@ -75,12 +75,12 @@ bool MergeOrDrop(SkeletonGraph& graph, const std::vector<Contact>& contacts, dou
 class Resolution {
  public:
   Resolution(SkeletonGraph graph, double threshold)
-      : graph_(std::move(graph)), threshold_(threshold) {}
+      : graph_(std::move(graph)), threshold_(threshold), search_(threshold) {}
 
   void Run() {
     while (TidyAtScale()) {
-      for (std::vector<Contact> contacts = FindContacts(graph_, threshold_); !contacts.empty();
-           contacts = FindContacts(graph_, threshold_))
+      for (std::vector<Contact> contacts = search_.Find(graph_); !contacts.empty();
+           contacts = search_.Find(graph_))
         Step(contacts);
     }
   }
@@ -120,6 +120,7 @@ class Resolution {
 
   SkeletonGraph graph_;
   double threshold_;
+  ContactSearch search_;
   double scale_ = -1;
   ResolutionRounds rounds_;
   bool is_stuck_ = false;
