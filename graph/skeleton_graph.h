@@ -98,7 +98,9 @@ class SkeletonGraph {
   };
   void Detach(NodeId node, EdgeId edge);
   bool IsInsideCurve(NodeId node) const;
+  NodeId OtherEnd(EdgeId edge, NodeId node) const;
   SkeletonEdge TakeChain(NodeId first, EdgeId next);
+  void DissolveChainsFrom(NodeId node);
 
   std::vector<std::optional<Node>> nodes_;
   std::vector<std::optional<SkeletonEdge>> edges_;

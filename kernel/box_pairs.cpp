@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 
@@ -17,8 +18,9 @@ using Pairs = std::vector<std::pair<int, int>>;
 
 // Boxes in a leaf: few enough to compare each with each.
 constexpr size_t kBoxesPerLeaf = 6;
-// Leaves in a chunk of parallel work, and boxes of a part of the tree that is built in one piece.
+// Leaves or boxes in a chunk of parallel work.
 constexpr int64_t kLeavesPerChunk = 256;
+constexpr int64_t kBoxesPerChunk = 4096;
 
 struct Entry {
   Vec3 centre;
@@ -43,36 +45,38 @@ int LongestAxis(const Entry* first, const Entry* last) {
 // k is node leaves + k.
 class BoxTree {
  public:
-  BoxTree(const std::vector<Box>& boxes, const BoxPairFilter& filter) : filter_(filter) {
-    while (kBoxesPerLeaf * leaves_ < boxes.size()) leaves_ *= 2;
-    entries_.reserve(boxes.size());
-    for (size_t i = 0; i < boxes.size(); ++i)
-      entries_.push_back({CentreOf(boxes[i]), static_cast<int>(i)});
+  // Of those boxes that are named.
+  BoxTree(const std::vector<Box>& boxes, const std::vector<int>& named) {
+    while (kBoxesPerLeaf * leaves_ < named.size()) leaves_ *= 2;
+    entries_.reserve(named.size());
+    for (const int i : named) entries_.push_back({CentreOf(boxes[i]), i});
     Sort(0, leaves_);
-    boxes_.reserve(boxes.size());
+    boxes_.reserve(named.size());
     for (const Entry& entry : entries_) boxes_.push_back(boxes[entry.box]);
     BoundNodes();
   }
 
-  Pairs FindPairs() const {
-    const auto leaves = static_cast<int64_t>(leaves_);
-    std::vector<Pairs> parts((leaves + kLeavesPerChunk - 1) / kLeavesPerChunk);
-    ParallelChunks(0, leaves, kLeavesPerChunk, [&](int64_t first, int64_t last) {
-      for (int64_t leaf = first; leaf < last; ++leaf)
-        AddPairsOf(static_cast<size_t>(leaf), parts[first / kLeavesPerChunk]);
+  int64_t leaf_count() const { return static_cast<int64_t>(leaves_); }
+
+  // Calls visit(i, j) for the pairs of the boxes of a leaf with each other and with those behind
+  // it.
+  template <class Visit>
+  void VisitPairsOf(int64_t leaf, const Visit& visit) const {
+    const auto own = static_cast<size_t>(leaf);
+    VisitLeaves(own, nodes_[leaves_ + own], [&](size_t other) {
+      for (size_t a = FirstOf(own); a < FirstOf(own + 1); ++a)
+        VisitLeaf(other, leaf == static_cast<int64_t>(other) ? a + 1 : FirstOf(other), boxes_[a],
+                  [&](int j) { visit(entries_[a].box, j); });
     });
-    Pairs pairs;
-    for (const Pairs& part : parts) pairs.insert(pairs.end(), part.begin(), part.end());
-    std::sort(pairs.begin(), pairs.end());
-    return pairs;
+  }
+
+  // Calls visit(j) for the boxes that overlap a box.
+  template <class Visit>
+  void VisitOverlapping(const Box& box, const Visit& visit) const {
+    VisitLeaves(0, box, [&](size_t leaf) { VisitLeaf(leaf, FirstOf(leaf), box, visit); });
   }
 
  private:
-  struct Node {
-    Box box;
-    bool is_marked = false;
-  };
-
   // Leaves share the entries evenly.
   size_t FirstOf(size_t leaf) const { return leaf * entries_.size() / leaves_; }
 
@@ -91,72 +95,90 @@ class BoxTree {
     Sort(middle_leaf, last_leaf);
   }
 
-  bool IsMarked(size_t position) const {
-    return filter_.marks.empty() || filter_.marks[entries_[position].box] != 0;
-  }
-
   void BoundNodes() {
     nodes_.resize(2 * leaves_);
-    for (size_t leaf = 0; leaf < leaves_; ++leaf) {
-      Node& node = nodes_[leaves_ + leaf];
-      for (size_t i = FirstOf(leaf); i < FirstOf(leaf + 1); ++i) {
-        node.box.extend(boxes_[i]);
-        node.is_marked = node.is_marked || IsMarked(i);
-      }
-    }
-    for (size_t i = leaves_ - 1; i > 0; --i) {
-      nodes_[i].box = nodes_[2 * i].box.merged(nodes_[2 * i + 1].box);
-      nodes_[i].is_marked = nodes_[2 * i].is_marked || nodes_[2 * i + 1].is_marked;
-    }
+    for (size_t leaf = 0; leaf < leaves_; ++leaf)
+      for (size_t i = FirstOf(leaf); i < FirstOf(leaf + 1); ++i)
+        nodes_[leaves_ + leaf].extend(boxes_[i]);
+    for (size_t i = leaves_ - 1; i > 0; --i) nodes_[i] = nodes_[2 * i].merged(nodes_[2 * i + 1]);
   }
 
-  // The pairs of a leaf with itself and with those behind it.
-  void AddPairsOf(size_t leaf, Pairs& pairs) const {
-    const Node& own = nodes_[leaves_ + leaf];
-    std::array<size_t, 64> open;  // one node for each level at most, and the last two
+  // Calls visit(leaf) for the leaves from a first one on that overlap a box.
+  template <class Visit>
+  void VisitLeaves(size_t first_leaf, const Box& box, const Visit& visit) const {
+    std::array<size_t, 64> open;  // one node for each level at most, and two of the last
     size_t count = 0;
     open[count++] = 1;
     while (count > 0) {
       const size_t i = open[--count];
-      const Node& node = nodes_[i];
-      if (!(own.is_marked || node.is_marked) || !own.box.intersects(node.box)) continue;
+      if (!box.intersects(nodes_[i])) continue;
       if (i >= leaves_) {
-        AddPairsBetween(leaf, i - leaves_, pairs);
+        visit(i - leaves_);
         continue;
       }
       open[count++] = 2 * i + 1;
-      if (LastLeafBelow(2 * i) >= leaf) open[count++] = 2 * i;
+      if (LastLeafBelow(2 * i) >= first_leaf) open[count++] = 2 * i;
     }
   }
 
   size_t LastLeafBelow(size_t node) const {
-    while (node < leaves_) node = 2 * node + 1;
-    return node - leaves_;
+    const int levels = std::countl_zero(node) - std::countl_zero(leaves_);
+    return ((node + 1) << levels) - 1 - leaves_;
   }
 
-  void AddPairsBetween(size_t leaf, size_t other, Pairs& pairs) const {
-    for (size_t a = FirstOf(leaf); a < FirstOf(leaf + 1); ++a) {
-      if (!boxes_[a].intersects(nodes_[leaves_ + other].box)) continue;
-      for (size_t b = leaf == other ? a + 1 : FirstOf(other); b < FirstOf(other + 1); ++b) {
-        if (!boxes_[a].intersects(boxes_[b]) || !(IsMarked(a) || IsMarked(b))) continue;
-        const auto [i, j] = std::minmax(entries_[a].box, entries_[b].box);
-        if (!filter_.keep || filter_.keep(i, j)) pairs.emplace_back(i, j);
-      }
-    }
+  // The boxes of a leaf from a position on.
+  template <class Visit>
+  void VisitLeaf(size_t leaf, size_t first, const Box& box, const Visit& visit) const {
+    if (!box.intersects(nodes_[leaves_ + leaf])) return;
+    for (size_t i = first; i < FirstOf(leaf + 1); ++i)
+      if (box.intersects(boxes_[i])) visit(entries_[i].box);
   }
 
-  const BoxPairFilter& filter_;
   size_t leaves_ = 1;           // a power of two
   std::vector<Entry> entries_;  // in the order of the leaves
   std::vector<Box> boxes_;      // in the same order
-  std::vector<Node> nodes_;
+  std::vector<Box> nodes_;
 };
+
+// Calls add(index, part) for all indices in parallel, with one part for each chunk of them, and
+// appends all parts, one after the other.
+template <class Add>
+void AppendInParallel(int64_t count, int64_t grain, const Add& add, Pairs& pairs) {
+  std::vector<Pairs> parts((count + grain - 1) / grain);
+  ParallelChunks(0, count, grain, [&](int64_t first, int64_t last) {
+    for (int64_t i = first; i < last; ++i) add(i, parts[first / grain]);
+  });
+  for (const Pairs& part : parts) pairs.insert(pairs.end(), part.begin(), part.end());
+}
 
 }  // namespace
 
 Pairs OverlappingBoxes(const std::vector<Box>& boxes, const BoxPairFilter& filter) {
-  if (boxes.size() < 2) return {};
-  return BoxTree(boxes, filter).FindPairs();
+  std::vector<int> marked, others;
+  for (size_t i = 0; i < boxes.size(); ++i)
+    (filter.marks.empty() || filter.marks[i] ? marked : others).push_back(static_cast<int>(i));
+  Pairs pairs;
+  if (marked.empty()) return pairs;
+  const auto add = [&filter](int i, int j, Pairs& part) {
+    if (i > j) std::swap(i, j);
+    if (!filter.keep || filter.keep(i, j)) part.emplace_back(i, j);
+  };
+  const BoxTree tree(boxes, marked);
+  AppendInParallel(
+      tree.leaf_count(), kLeavesPerChunk,
+      [&](int64_t leaf, Pairs& part) {
+        tree.VisitPairsOf(leaf, [&](int i, int j) { add(i, j, part); });
+      },
+      pairs);
+  AppendInParallel(
+      static_cast<int64_t>(others.size()), kBoxesPerChunk,
+      [&](int64_t k, Pairs& part) {
+        const int i = others[static_cast<size_t>(k)];
+        tree.VisitOverlapping(boxes[i], [&](int j) { add(i, j, part); });
+      },
+      pairs);
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
 }
 
 }  // namespace curvefusion

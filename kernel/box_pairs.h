@@ -10,7 +10,7 @@ namespace curvefusion {
 /// Which pairs of overlapping boxes are wanted; all of them as it stands.
 struct BoxPairFilter {
   /// Of each box, whether it must be looked at: a pair counts if either of its boxes is marked.
-  /// Empty: all are. Pairs without a mark cost next to nothing.
+  /// Empty: all are. Boxes without a mark cost little.
   std::vector<char> marks = {};
   /// Whether a pair (i < j) of boxes that overlap counts; called in parallel. Empty: all do.
   std::function<bool(int i, int j)> keep = nullptr;
@@ -18,7 +18,7 @@ struct BoxPairFilter {
 
 /// All pairs (i < j, ascending) of boxes that overlap or touch and pass the filter. By a tree of
 /// boxes, split at medians, in parallel: near-linear in boxes and pairs for boxes of any size, with
-/// O(n log n) for the tree. Memory O(n + pairs that pass).
+/// O(m log m) for the tree of the m marked boxes. Memory O(n + pairs that pass).
 std::vector<std::pair<int, int>> OverlappingBoxes(const std::vector<Eigen::AlignedBox3d>& boxes,
                                                   const BoxPairFilter& filter = {});
 
