@@ -71,7 +71,8 @@ void Fade(Polyline& points, const Vec3& displacement, double reach) {
 
 // The edges at a node, each once.
 std::vector<EdgeId> EdgesAt(const SkeletonGraph& graph, NodeId node) {
-  std::vector<EdgeId> edges = graph.IncidentEdges(node);
+  const std::span<const EdgeId> incident = graph.IncidentEdges(node);
+  std::vector<EdgeId> edges(incident.begin(), incident.end());
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   return edges;

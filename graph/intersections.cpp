@@ -46,11 +46,12 @@ Counts CountsOf(const SkeletonGraph& graph) {
 // ends. Edges that were split only to become parallel are merged before their nodes dissolve.
 void Tidy(SkeletonGraph& graph, double threshold) {
   RemoveZeroLengthSegments(graph);
-  for (int edges = -1; edges != graph.edge_count();) {
-    edges = graph.edge_count();
+  for (bool changed = true; changed;) {
     RemoveSmallLoops(graph, kLoop * threshold);
+    const int edges = graph.edge_count();
     MergeParallelEdges(graph, kParallelSlack * threshold);
     graph.DissolveDegree2Nodes();
+    changed = graph.edge_count() != edges;
   }
 }
 

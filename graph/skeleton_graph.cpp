@@ -70,7 +70,7 @@ EdgeId SkeletonGraph::AddPolyline(Polyline points) {
 }
 
 void SkeletonGraph::Detach(NodeId node, EdgeId edge) {
-  std::vector<EdgeId>& incident = nodes_[node]->edges;
+  auto& incident = nodes_[node]->edges;
   incident.erase(std::find(incident.begin(), incident.end(), edge));
 }
 
@@ -133,7 +133,7 @@ void SkeletonGraph::MergeNodes(NodeId kept, NodeId merged) {
   assert(HasNode(kept) && HasNode(merged));
   if (kept == merged) return;
   MoveNode(merged, position(kept));
-  const std::vector<EdgeId> moved = IncidentEdges(merged);
+  const auto moved = nodes_[merged]->edges;
   for (const EdgeId id : moved) {
     SkeletonEdge& edge = *edges_[id];
     for (NodeId& node : edge.nodes) {
@@ -174,7 +174,7 @@ SkeletonEdge SkeletonGraph::TakeChain(NodeId first, EdgeId next) {
 }
 
 void SkeletonGraph::DissolveChainsFrom(NodeId node) {
-  const std::vector<EdgeId> incident = IncidentEdges(node);
+  const auto incident = nodes_[node]->edges;
   for (const EdgeId id : incident) {
     if (!HasEdge(id)) continue;
     const NodeId other = OtherEnd(id, node);
@@ -237,9 +237,9 @@ std::vector<EdgeId> SkeletonGraph::Edges() const {
   return live;
 }
 
-const std::vector<EdgeId>& SkeletonGraph::IncidentEdges(NodeId node) const {
+std::span<const EdgeId> SkeletonGraph::IncidentEdges(NodeId node) const {
   assert(HasNode(node));
-  return nodes_[node]->edges;
+  return {nodes_[node]->edges.data(), nodes_[node]->edges.size()};
 }
 
 double SkeletonGraph::TotalLength() const {
