@@ -46,11 +46,12 @@ Counts CountsOf(const SkeletonGraph& graph) {
 // ends. Edges that were split only to become parallel are merged before their nodes dissolve.
 void Tidy(SkeletonGraph& graph, double threshold) {
   RemoveZeroLengthSegments(graph);
-  for (int edges = -1; edges != graph.edge_count();) {
-    edges = graph.edge_count();
+  for (bool changed = true; changed;) {
     RemoveSmallLoops(graph, kLoop * threshold);
+    const int edges = graph.edge_count();
     MergeParallelEdges(graph, kParallelSlack * threshold);
     graph.DissolveDegree2Nodes();
+    changed = graph.edge_count() != edges;
   }
 }
 
@@ -75,12 +76,12 @@ bool MergeOrDrop(SkeletonGraph& graph, const std::vector<Contact>& contacts, dou
 class Resolution {
  public:
   Resolution(SkeletonGraph graph, double threshold)
-      : graph_(std::move(graph)), threshold_(threshold) {}
+      : graph_(std::move(graph)), threshold_(threshold), search_(threshold) {}
 
   void Run() {
     while (TidyAtScale()) {
-      for (std::vector<Contact> contacts = FindContacts(graph_, threshold_); !contacts.empty();
-           contacts = FindContacts(graph_, threshold_))
+      for (std::vector<Contact> contacts = search_.Find(graph_); !contacts.empty();
+           contacts = search_.Find(graph_))
         Step(contacts);
     }
   }
@@ -120,6 +121,7 @@ class Resolution {
 
   SkeletonGraph graph_;
   double threshold_;
+  ContactSearch search_;
   double scale_ = -1;
   ResolutionRounds rounds_;
   bool is_stuck_ = false;

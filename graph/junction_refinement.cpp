@@ -213,8 +213,8 @@ std::vector<std::pair<double, EdgeId>> ShortJunctionEdges(const SkeletonGraph& g
 }
 
 void RemoveEdgesBetween(SkeletonGraph& graph, NodeId a, NodeId b, double max_length) {
-  const std::vector<EdgeId> incident = graph.IncidentEdges(a);
-  for (const EdgeId id : incident) {
+  const std::span<const EdgeId> incident = graph.IncidentEdges(a);
+  for (const EdgeId id : std::vector<EdgeId>(incident.begin(), incident.end())) {
     const SkeletonEdge& edge = graph.edge(id);
     const NodeId other = edge.nodes[0] == a ? edge.nodes[1] : edge.nodes[0];
     if (other == b && Length(edge.points) < max_length) graph.RemoveEdge(id);

@@ -88,11 +88,15 @@ SkeletonEdge MeanEdge(const SkeletonEdge& a, SkeletonEdge b) {
   return mean;
 }
 
+bool IsDangling(const SkeletonGraph& graph, const SkeletonEdge& edge) {
+  return graph.Degree(edge.nodes[0]) == 1 || graph.Degree(edge.nodes[1]) == 1;
+}
+
 // Every two edges with the same two nodes, by ascending handles.
 std::vector<std::pair<EdgeId, EdgeId>> EdgesOfSameNodes(const SkeletonGraph& graph) {
   std::vector<std::pair<std::array<NodeId, 2>, EdgeId>> edges;
-  edges.reserve(graph.edge_count());
   for (const EdgeId id : graph.Edges()) {
+    if (IsDangling(graph, graph.edge(id))) continue;
     const auto [low, high] = std::minmax(graph.edge(id).nodes[0], graph.edge(id).nodes[1]);
     edges.push_back({{low, high}, id});
   }
@@ -182,10 +186,6 @@ std::vector<EdgeId> ShortEdges(const SkeletonGraph& graph, double length) {
   std::vector<EdgeId> edges;
   for (const auto& entry : found) edges.push_back(entry.second);
   return edges;
-}
-
-bool IsDangling(const SkeletonGraph& graph, const SkeletonEdge& edge) {
-  return graph.Degree(edge.nodes[0]) == 1 || graph.Degree(edge.nodes[1]) == 1;
 }
 
 }  // namespace

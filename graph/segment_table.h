@@ -21,6 +21,7 @@ struct SegmentTable {
   std::vector<Vec3> points;
   std::vector<double> arcs;  ///< of each point: arc length from the front of its curve
 
+  int curve_count() const { return static_cast<int>(edges.size()); }
   int point_count() const { return static_cast<int>(points.size()); }
   bool IsSegment(int k) const {
     return k >= 0 && k + 1 < point_count() && curves[k] == curves[k + 1];

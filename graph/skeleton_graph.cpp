@@ -70,7 +70,7 @@ EdgeId SkeletonGraph::AddPolyline(Polyline points) {
 }
 
 void SkeletonGraph::Detach(NodeId node, EdgeId edge) {
-  std::vector<EdgeId>& incident = nodes_[node]->edges;
+  auto& incident = nodes_[node]->edges;
   incident.erase(std::find(incident.begin(), incident.end(), edge));
 }
 
@@ -133,7 +133,7 @@ void SkeletonGraph::MergeNodes(NodeId kept, NodeId merged) {
   assert(HasNode(kept) && HasNode(merged));
   if (kept == merged) return;
   MoveNode(merged, position(kept));
-  const std::vector<EdgeId> moved = IncidentEdges(merged);
+  const auto moved = nodes_[merged]->edges;
   for (const EdgeId id : moved) {
     SkeletonEdge& edge = *edges_[id];
     for (NodeId& node : edge.nodes) {
@@ -153,6 +153,11 @@ bool SkeletonGraph::IsInsideCurve(NodeId node) const {
   return Degree(node) == 2 && IncidentEdges(node)[0] != IncidentEdges(node)[1];
 }
 
+NodeId SkeletonGraph::OtherEnd(EdgeId edge, NodeId node) const {
+  const std::array<NodeId, 2>& nodes = edges_[edge]->nodes;
+  return nodes[0] == node ? nodes[1] : nodes[0];
+}
+
 SkeletonEdge SkeletonGraph::TakeChain(NodeId first, EdgeId next) {
   SkeletonEdge chain = edge(next);
   if (chain.nodes[0] != first) Reverse(chain);
@@ -168,22 +173,32 @@ SkeletonEdge SkeletonGraph::TakeChain(NodeId first, EdgeId next) {
   return chain;
 }
 
-void SkeletonGraph::DissolveDegree2Nodes() {
-  // Chains between other nodes first; what is left then are closed curves, which keep their first
-  // node.
-  for (const bool closed : {false, true}) {
-    for (const NodeId node : Nodes()) {
-      if (!HasNode(node) || IsInsideCurve(node) != closed) continue;
-      const std::vector<EdgeId> incident = IncidentEdges(node);
-      for (const EdgeId id : incident) {
-        if (!HasEdge(id)) continue;
-        const std::array<NodeId, 2>& nodes = edge(id).nodes;
-        const NodeId other = nodes[0] == node ? nodes[1] : nodes[0];
-        if (other == node || !IsInsideCurve(other)) continue;
-        AddEdge(TakeChain(node, id));
-      }
-    }
+void SkeletonGraph::DissolveChainsFrom(NodeId node) {
+  const auto incident = nodes_[node]->edges;
+  for (const EdgeId id : incident) {
+    if (!HasEdge(id)) continue;
+    const NodeId other = OtherEnd(id, node);
+    if (other == node || !IsInsideCurve(other)) continue;
+    AddEdge(TakeChain(node, id));
   }
+}
+
+void SkeletonGraph::DissolveDegree2Nodes() {
+  std::vector<NodeId> inside;
+  std::vector<NodeId> ends;  // of chains of such nodes
+  for (size_t i = 0; i < nodes_.size(); ++i) {
+    const auto node = static_cast<NodeId>(i);
+    if (!nodes_[i] || !IsInsideCurve(node)) continue;
+    inside.push_back(node);
+    for (const EdgeId id : IncidentEdges(node))
+      if (!IsInsideCurve(OtherEnd(id, node))) ends.push_back(OtherEnd(id, node));
+  }
+  std::sort(ends.begin(), ends.end());
+  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  for (const NodeId node : ends) DissolveChainsFrom(node);
+  // What is left are closed curves, which keep their first node.
+  for (const NodeId node : inside)
+    if (HasNode(node) && IsInsideCurve(node)) DissolveChainsFrom(node);
 }
 
 bool SkeletonGraph::HasNode(NodeId node) const {
@@ -222,9 +237,9 @@ std::vector<EdgeId> SkeletonGraph::Edges() const {
   return live;
 }
 
-const std::vector<EdgeId>& SkeletonGraph::IncidentEdges(NodeId node) const {
+std::span<const EdgeId> SkeletonGraph::IncidentEdges(NodeId node) const {
   assert(HasNode(node));
-  return nodes_[node]->edges;
+  return {nodes_[node]->edges.data(), nodes_[node]->edges.size()};
 }
 
 double SkeletonGraph::TotalLength() const {

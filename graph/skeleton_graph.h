@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <boost/container/small_vector.hpp>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "kernel/geometry.h"
@@ -78,8 +80,8 @@ class SkeletonGraph {
   int edge_count() const { return edge_count_; }
   bool empty() const { return edge_count_ == 0; }
 
-  /// Edges at a node; a self-loop stands there twice.
-  const std::vector<EdgeId>& IncidentEdges(NodeId node) const;
+  /// Edges at a node, until one is added or removed; a self-loop stands there twice.
+  std::span<const EdgeId> IncidentEdges(NodeId node) const;
   int Degree(NodeId node) const { return static_cast<int>(IncidentEdges(node).size()); }
 
   /// Sum of the lengths of all edges in metres.
@@ -94,11 +96,13 @@ class SkeletonGraph {
  private:
   struct Node {
     Vec3 position;
-    std::vector<EdgeId> edges;
+    boost::container::small_vector<EdgeId, 4> edges;  // more meet at few nodes only
   };
   void Detach(NodeId node, EdgeId edge);
   bool IsInsideCurve(NodeId node) const;
+  NodeId OtherEnd(EdgeId edge, NodeId node) const;
   SkeletonEdge TakeChain(NodeId first, EdgeId next);
+  void DissolveChainsFrom(NodeId node);
 
   std::vector<std::optional<Node>> nodes_;
   std::vector<std::optional<SkeletonEdge>> edges_;

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "kernel/disjoint_sets.h"
-#include "meshing/box_pairs.h"
+#include "kernel/box_pairs.h"
 
 namespace curvefusion {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "kernel/parallel.h"
-#include "meshing/box_pairs.h"
+#include "kernel/box_pairs.h"
 
 namespace curvefusion {
 

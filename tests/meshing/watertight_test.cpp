@@ -7,7 +7,7 @@
 #include <random>
 
 #include "kernel/error.h"
-#include "meshing/box_pairs.h"
+#include "kernel/box_pairs.h"
 #include "meshing/self_intersections.h"
 #include "meshing/surface_mesh.h"
 
