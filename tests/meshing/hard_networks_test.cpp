@@ -24,6 +24,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// The networks of the test are those from this seed on; others were looked at during development.
+constexpr uint64_t kFirstSeed = 5000;
+// A contact that appears or vanishes when radii change by this part may come out either way: the
+// corners of the polygons stand out by 1.3 %.
+constexpr double kGrazing = 0.02;
+// The volume is then known within .2 %.
+constexpr int kVolumeSamples = 100000;
+
 // What became of the networks of a kind.
 struct Tally {
   int networks = 0;
@@ -32,7 +40,7 @@ struct Tally {
   int fallbacks = 0;     // networks with at least one
   int last_resorts = 0;  // networks with at least one
   int wrong_topology = 0;
-  int grazing = 0;  // wrong, but right for radii changed by 2 %
+  int grazing = 0;  // different by no more than the contacts within 2 %
   double volume_error = 0;
   double worst_volume_error = 0;
   double seconds = 0;  // CPU
@@ -68,14 +76,16 @@ void CompareWithTruth(const SkeletonGraph& graph, const TubeMesh& tubes, double 
                       Tally& tally) {
   const Topology truth = TopologyOfTubes(graph);
   if (tubes.report.components - tubes.report.genus != truth.euler) {
-    const bool grazes = HasGrazingContact(graph);
+    const int64_t difference =
+        std::abs(tubes.report.components - tubes.report.genus - truth.euler);
+    const bool grazes = difference <= CountGrazingContacts(graph, kGrazing);
     ++(grazes ? tally.grazing : tally.wrong_topology);
     if (!grazes) {
       fmt::print("components {}, genus {}; truly {} components, Euler characteristic {}\n",
                  tubes.report.components, tubes.report.genus, truth.components, truth.euler);
     }
   }
-  const SampledVolume volume = VolumeOfTubes(graph, 30000);
+  const SampledVolume volume = VolumeOfTubes(graph, kVolumeSamples);
   const double error = std::abs(tubes.report.volume / volume.volume - 1);
   EXPECT_LT(error, volume_tolerance + 4 * volume.relative_error);
   // What sampling cannot tell from zero is none.
@@ -113,28 +123,21 @@ TEST(Tubes, RandomHardNetworks) {
   fmt::print(
       "| kind | networks | defects | fallbacks | last resorts | wrong topology | grazing | "
       "volume error %, mean | worst | CPU ms |\n");
-  int wrong_topology = 0;
-  int networks = 0;
   for (const std::string& kind : HardKinds()) {
     if (only && kind != only) continue;
+    // Bends tighter than the tube are cut into pieces with rounded ends.
+    const double volume_tolerance = kind == "tight_bends" ? 0.05 : 0.02;
     Tally tally;
-    for (int seed = 0; seed < count; ++seed) {
-      SCOPED_TRACE(kind + " " + std::to_string(seed));
-      // Bends tighter than the tube are cut into pieces with rounded ends.
-      Examine(RandomHardGraph(kind, static_cast<uint64_t>(seed)),
-              kind == "tight_bends" ? 0.05 : 0.02, tally);
+    for (int i = 0; i < count; ++i) {
+      SCOPED_TRACE(kind + " " + std::to_string(kFirstSeed + static_cast<uint64_t>(i)));
+      Examine(RandomHardGraph(kind, kFirstSeed + static_cast<uint64_t>(i)), volume_tolerance,
+              tally);
     }
     tally.Print(kind);
-    wrong_topology += tally.wrong_topology;
-    networks += tally.networks;
-    // Kinks of noise are smoothed within .15 r, which takes volume off.
-    const double greatest = kind == "tight_bends" ? 0.02 : kind == "noisy" ? 0.01 : 0.005;
-    EXPECT_LT(tally.volume_error / count, greatest) << kind;
-  }
-  // Kinks as small as noise are smoothed within .15 r: holes and contacts of that size may come out
-  // either way (docs/meshing.md has the figures).
-  if (!only) {
-    EXPECT_LE(wrong_topology, networks / 50);
+    EXPECT_EQ(tally.defects, 0) << kind;
+    EXPECT_EQ(tally.wrong_topology, 0) << kind;
+    // The promise, and what sampling adds to the mean.
+    EXPECT_LT(tally.volume_error / count, kind == "tight_bends" ? 0.02 : 0.005) << kind;
   }
 }
 
