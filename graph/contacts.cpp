@@ -279,7 +279,7 @@ std::vector<Contact> FindContacts(const SkeletonGraph& graph, double threshold) 
 ContactSearch::ContactSearch(double threshold) : threshold_(threshold), table_(SkeletonGraph()) {}
 
 std::vector<Contact> ContactSearch::Find(const SkeletonGraph& graph) {
-  SegmentTable table(graph);
+  SegmentTable table(graph, table_);
   pairs_ = SegmentPairsInContact(table, threshold_, table_, pairs_);
   table_ = std::move(table);
   return ContactsOf(table_, pairs_, threshold_);

@@ -31,13 +31,13 @@ struct Contact {
 /// of segments whose boxes, grown by the threshold, meet.
 std::vector<Contact> FindContacts(const SkeletonGraph& graph, double threshold);
 
-/// FindContacts for a graph that changes from call to call: what it found about edges that have not
-/// changed since the last call it knows.
+/// FindContacts for one graph that changes from call to call: what it found about edges that have
+/// not changed since the last call it knows.
 class ContactSearch {
  public:
   explicit ContactSearch(double threshold);
 
-  /// The same contacts as FindContacts, whatever was looked at before.
+  /// The same contacts as FindContacts.
   std::vector<Contact> Find(const SkeletonGraph& graph);
 
  private:

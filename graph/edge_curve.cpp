@@ -155,8 +155,8 @@ void RemoveRepeatedPoints(SkeletonEdge& edge) {
   if (!edge.observations.empty()) edge.observations.resize(kept);
 }
 
-void RemoveZeroLengthSegments(SkeletonGraph& graph) {
-  for (const EdgeId id : graph.Edges()) {
+void RemoveZeroLengthSegments(SkeletonGraph& graph, int since) {
+  for (const EdgeId id : graph.Edges(since)) {
     const Polyline& points = graph.edge(id).points;
     if (std::adjacent_find(points.begin(), points.end()) == points.end()) continue;
     SkeletonEdge edge = graph.edge(id);
@@ -167,7 +167,7 @@ void RemoveZeroLengthSegments(SkeletonGraph& graph) {
       SetEdgeCurve(graph, id, std::move(edge));
     }
   }
-  graph.RemoveIsolatedNodes();
+  graph.RemoveIsolatedNodes(since);
 }
 
 void AddBendPoints(SkeletonGraph& graph, NodeId node, double reach) {

@@ -157,9 +157,7 @@ void Bend(SkeletonGraph& graph, NodeId node, const Vec3& position, double max_li
   MoveNodeSmoothly(graph, node, position, kReach * moved);
 }
 
-}  // namespace
-
-void MergeNodeGroups(SkeletonGraph& graph, const std::vector<NodeGroup>& groups, double max_link) {
+void MergeGroups(SkeletonGraph& graph, const std::vector<NodeGroup>& groups, double max_link) {
   for (const NodeGroup& group : groups) {
     RemoveLinks(graph, group.nodes, max_link);
     const Vec3 mean = WeightedMean(graph, group);
@@ -173,10 +171,17 @@ void MergeNodeGroups(SkeletonGraph& graph, const std::vector<NodeGroup>& groups,
     for (size_t i = 1; i < group.nodes.size(); ++i)
       graph.MergeNodes(group.nodes[0], group.nodes[i]);
   }
+}
+
+}  // namespace
+
+void MergeNodeGroups(SkeletonGraph& graph, const std::vector<NodeGroup>& groups, double max_link) {
+  MergeGroups(graph, groups, max_link);
   RemoveZeroLengthSegments(graph);
 }
 
 void JoinLocations(SkeletonGraph& graph, const std::vector<LocationPair>& pairs, double snap) {
+  const int before = graph.version();
   EdgeCutter cutter(graph, snap);
   for (const auto& [a, b] : pairs) {
     cutter.Add(a);
@@ -186,7 +191,8 @@ void JoinLocations(SkeletonGraph& graph, const std::vector<LocationPair>& pairs,
   std::vector<std::pair<NodeId, NodeId>> links;
   links.reserve(pairs.size());
   for (const auto& [a, b] : pairs) links.emplace_back(cutter.NodeOf(a), cutter.NodeOf(b));
-  MergeNodeGroups(graph, LinkedGroups(links, graph), kLinkInSnaps * snap);
+  MergeGroups(graph, LinkedGroups(links, graph), kLinkInSnaps * snap);
+  RemoveZeroLengthSegments(graph, before);
 }
 
 }  // namespace curvefusion

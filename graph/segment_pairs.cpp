@@ -113,25 +113,6 @@ Eigen::AlignedBox3d InflatedBox(const Segment& segment, double threshold) {
   return {segment.a.cwiseMin(segment.b) - margin, segment.a.cwiseMax(segment.b) + margin};
 }
 
-bool AreSameCurve(const SegmentTable& a, int curve_a, const SegmentTable& b, int curve_b) {
-  if (a.edges[curve_a] != b.edges[curve_b] || a.nodes[curve_a] != b.nodes[curve_b]) return false;
-  return std::equal(
-      a.points.begin() + a.first_points[curve_a], a.points.begin() + a.first_points[curve_a + 1],
-      b.points.begin() + b.first_points[curve_b], b.points.begin() + b.first_points[curve_b + 1]);
-}
-
-// Of each curve of an earlier table, the same one in a table; -1 where it has changed or is gone.
-std::vector<int> KeptCurves(const SegmentTable& earlier, const SegmentTable& table) {
-  std::vector<int> kept(earlier.edges.size(), -1);
-  int now = 0;
-  for (size_t i = 0; i < kept.size(); ++i) {
-    const int curve = static_cast<int>(i);
-    while (now < table.curve_count() && table.edges[now] < earlier.edges[i]) ++now;
-    if (now < table.curve_count() && AreSameCurve(earlier, curve, table, now)) kept[i] = now;
-  }
-  return kept;
-}
-
 // Pairs of an earlier table of which both curves were kept, in a table.
 std::vector<SegmentPair> KeptPairs(const SegmentTable& earlier,
                                    const std::vector<SegmentPair>& pairs,
@@ -197,7 +178,7 @@ std::vector<SegmentPair> SegmentPairsInContact(const SegmentTable& table, double
 std::vector<SegmentPair> SegmentPairsInContact(const SegmentTable& table, double threshold,
                                                const SegmentTable& earlier,
                                                const std::vector<SegmentPair>& earlier_pairs) {
-  const std::vector<int> kept_curves = KeptCurves(earlier, table);
+  const std::vector<int> kept_curves = table.NumbersOf(earlier);
   std::vector<char> has_changed(table.edges.size(), true);
   for (const int curve : kept_curves)
     if (curve >= 0) has_changed[curve] = false;

@@ -31,8 +31,8 @@ std::vector<LinearGap> ShortWays(const SegmentTable& table, const SegmentPair& p
 std::vector<SegmentPair> SegmentPairsInContact(const SegmentTable& table, double threshold);
 
 /// The same, given the pairs in contact of an earlier state of the graph at the same threshold.
-/// Whether two segments are in contact depends on their own edges only, so pairs on edges that are
-/// the same bit for bit, with the same nodes, need not be decided again.
+/// Whether two segments are in contact depends on their own edges only, so pairs on edges that have
+/// not changed need not be decided again.
 std::vector<SegmentPair> SegmentPairsInContact(const SegmentTable& table, double threshold,
                                                const SegmentTable& earlier,
                                                const std::vector<SegmentPair>& earlier_pairs);

@@ -14,7 +14,11 @@ namespace curvefusion {
 struct SegmentTable {
   explicit SegmentTable(const SkeletonGraph& graph);
 
+  /// The same, given that of an earlier state of the graph, which is faster.
+  SegmentTable(const SkeletonGraph& graph, const SegmentTable& earlier);
+
   std::vector<EdgeId> edges;                 ///< of each curve
+  std::vector<int> versions;                 ///< of each curve: of its edge
   std::vector<std::array<NodeId, 2>> nodes;  ///< of each curve
   std::vector<int> first_points;             ///< of each curve; one more closes the last
   std::vector<int> curves;                   ///< of each point
@@ -29,6 +33,10 @@ struct SegmentTable {
   Segment At(int k) const { return {points[k], points[k + 1]}; }
   double Length(int curve) const { return arcs[first_points[curve + 1] - 1]; }
 
+  /// Of each curve of an earlier table of the same graph, the number it has here; -1 where its edge
+  /// has changed or is no more.
+  std::vector<int> NumbersOf(const SegmentTable& earlier) const;
+
   /// Arc length of a point of a curve from its front (end 0) or back (end 1).
   double FromEnd(int point, int end) const {
     return end == 0 ? arcs[point] : Length(curves[point]) - arcs[point];
@@ -41,6 +49,11 @@ struct SegmentTable {
 
   /// The node at which a segment begins (side 0) or ends (side 1); -1 where that is inside a curve.
   NodeId NodeAt(int segment, int side) const;
+
+ private:
+  SegmentTable() = default;
+  void AddEdge(const SkeletonEdge& edge);
+  void AddCurve(const SegmentTable& from, int curve);
 };
 
 }  // namespace curvefusion

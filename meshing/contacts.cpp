@@ -7,8 +7,8 @@
 #include <numeric>
 #include <utility>
 
-#include "kernel/disjoint_sets.h"
 #include "kernel/box_pairs.h"
+#include "kernel/disjoint_sets.h"
 
 namespace curvefusion {
 

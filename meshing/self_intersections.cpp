@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "kernel/parallel.h"
 #include "kernel/box_pairs.h"
+#include "kernel/parallel.h"
 
 namespace curvefusion {
 

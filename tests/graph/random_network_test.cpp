@@ -133,9 +133,15 @@ std::string CheckOperations(const RandomNetwork& network) {
   if (!IsOfObjectSize(network)) return "";
   for (const NamedOperation& operation : Operations()) {
     SkeletonGraph graph = WithoutPoints(network.graph);
+    const SegmentTable before(graph);
     operation.run(graph, network.threshold);
     const std::string fault = FirstOf(Faults(graph));
     if (!fault.empty()) return std::string(operation.name) + ": " + fault;
+    const SegmentTable after(graph, before);
+    if (SegmentPairsInContact(after, network.threshold, before,
+                              SegmentPairsInContact(before, network.threshold)) !=
+        SegmentPairsInContact(SegmentTable(graph), network.threshold))
+      return std::string(operation.name) + ": a change is not noticed";
   }
   return "";
 }
