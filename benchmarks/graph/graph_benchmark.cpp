@@ -7,6 +7,7 @@
 #include "graph/intersections.h"
 #include "graph/merge.h"
 #include "graph/segment_pairs.h"
+#include "kernel/parallel.h"
 
 namespace curvefusion {
 namespace {
@@ -69,6 +70,7 @@ size_t SegmentCount(const SkeletonGraph& graph) {
 
 template <SkeletonGraph (*kMake)(int64_t)>
 void Resolve(benchmark::State& state) {
+  const ThreadLimit one_core(1);
   const SkeletonGraph graph = kMake(state.range(0));
   int rounds = 0;
   for (auto _ : state) {
@@ -91,6 +93,7 @@ BENCHMARK(Resolve<RandomSegments>)
 
 template <SkeletonGraph (*kMake)(int64_t)>
 void FindPairs(benchmark::State& state) {
+  const ThreadLimit one_core(1);
   const SegmentTable table(kMake(state.range(0)));
   for (auto _ : state) benchmark::DoNotOptimize(SegmentPairsInContact(table, kThreshold));
 }
