@@ -82,6 +82,21 @@ class Grid {
   double cell_ = 1;
 };
 
+// Sorts pairs of indices below n, by the first in linear time: a box meets few others.
+std::vector<std::pair<int, int>> Sorted(const std::vector<std::pair<int, int>>& pairs, size_t n) {
+  std::vector<size_t> end(n + 1, 0);
+  for (const auto& [i, j] : pairs) ++end[i + 1];
+  for (size_t i = 0; i < n; ++i) end[i + 1] += end[i];
+  std::vector<std::pair<int, int>> sorted(pairs.size());
+  for (const auto& pair : pairs) sorted[end[pair.first]++] = pair;
+  size_t begin = 0;
+  for (size_t i = 0; i < n; begin = end[i++]) {
+    std::sort(sorted.begin() + static_cast<std::ptrdiff_t>(begin),
+              sorted.begin() + static_cast<std::ptrdiff_t>(end[i]));
+  }
+  return sorted;
+}
+
 }  // namespace
 
 std::vector<std::pair<int, int>> OverlappingBoxes(const std::vector<Eigen::AlignedBox3d>& boxes) {
@@ -100,8 +115,7 @@ std::vector<std::pair<int, int>> OverlappingBoxes(const std::vector<Eigen::Align
       }
     }
   }
-  std::sort(pairs.begin(), pairs.end());
-  return pairs;
+  return Sorted(pairs, boxes.size());
 }
 
 }  // namespace curvefusion

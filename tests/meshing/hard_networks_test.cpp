@@ -49,7 +49,7 @@ struct Tally {
   int fallbacks = 0;     // networks with at least one
   int last_resorts = 0;  // networks with at least one
   int wrong_topology = 0;
-  int grazing = 0;  // different by no more than the contacts within 2 %
+  int grazing = 0;  // different, but explained by contacts within 2 %
   double volume_error = 0;
   double worst_volume_error = 0;
   double seconds = 0;  // CPU
@@ -87,8 +87,9 @@ void CompareWithTruth(const SkeletonGraph& graph, const TubeMesh& tubes, const K
   if (tubes.report.components - tubes.report.genus != truth.euler) {
     const int64_t difference = std::abs(tubes.report.components - tubes.report.genus - truth.euler);
     const int64_t contacts = CountGrazingContacts(graph, kGrazing);
-    // Tubes side by side touch along a line: one contact of the truth, many of polygons.
-    const bool grazes = kind.side_by_side ? contacts > 0 : difference <= contacts;
+    // Tubes side by side touch along a line: one contact of the truth, many of polygons. Elsewhere
+    // a contact may also enclose a pocket.
+    const bool grazes = kind.side_by_side ? contacts > 0 : difference <= 2 * contacts;
     ++(grazes ? tally.grazing : tally.wrong_topology);
     if (!grazes) {
       fmt::print("components {}, genus {}; truly {} components, Euler characteristic {}\n",
