@@ -13,9 +13,10 @@ namespace {
 constexpr double kBallSpacing = 0.1;   // the surface of the balls then waves by .001
 constexpr int kBallsPerStation = 4;    // cross-sections follow each other by that many balls
 constexpr double kReach = 1.25;        // of balls along the axis that reach a cross-section
-constexpr double kTangentReach = 1.5;  // along which the direction of the tube is measured
-// Radians within a window of twice the reach. A tube of less turning differs from its envelope by
-// less than .01.
+constexpr double kTangentReach = 1.5;  // along which the direction of the tube is measured, ...
+constexpr double kLeastReach = 0.7;    // ... at least, next to an end
+// Radians along which the direction is measured. A tube of less turning differs from its envelope
+// by less than .01.
 constexpr double kLeastTurning = 0.15;
 // A curve that turns by more on the whole is a bend and not noise.
 constexpr double kGreatestBend = 0.7;
@@ -62,14 +63,17 @@ struct Station {
 
 Station ExamineStation(const BallRow& row, size_t i) {
   const double radius = row.axis.radii[i];
-  const double reach = kTangentReach * radius;
-  if (row.along[i] < reach || row.along.back() - row.along[i] < reach) return {};
-  const size_t first = row.At(row.along[i] - reach);
-  const size_t last = row.At(row.along[i] + reach);
+  const double place = row.along[i];
+  const double back = std::min(kTangentReach * radius, place);
+  const double ahead = std::min(kTangentReach * radius, row.along.back() - place);
+  if (std::min(back, ahead) < kLeastReach * radius) return {};
+  const size_t first = row.At(place - back);
+  const size_t last = row.At(place + ahead);
   if (row.turning[last] - row.turning[first] < kLeastTurning) return {};
-  const Vec3 middle = row.MeanOf(row.At(row.along[i] - reach / 3), row.At(row.along[i] + reach / 3));
-  const Vec3 before = middle - row.MeanOf(first, row.At(row.along[i] - reach / 2));
-  const Vec3 after = row.MeanOf(row.At(row.along[i] + reach / 2), last) - middle;
+  const double core = std::min(back, ahead) / 3;
+  const Vec3 middle = row.MeanOf(row.At(place - core), row.At(place + core));
+  const Vec3 before = middle - row.MeanOf(first, row.At(place - back / 2));
+  const Vec3 after = row.MeanOf(row.At(place + ahead / 2), last) - middle;
   if (TurnAngle(before, after) > kGreatestBend) return {};
   return {true, (before + after).normalized()};
 }

@@ -90,7 +90,7 @@ Topology TopologyOfTubes(const SkeletonGraph& graph, double scale) {
 }
 
 int64_t CountGrazingContacts(const SkeletonGraph& graph, double scale_tolerance) {
-  constexpr int kSteps = 10;  // to either side
+  constexpr int kSteps = 5;  // to either side
   int64_t contacts = 0;
   Topology before = TopologyOfTubes(graph, 1 - scale_tolerance);
   for (int k = 1 - kSteps; k <= kSteps; ++k) {

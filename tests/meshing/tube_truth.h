@@ -21,7 +21,7 @@ Topology TopologyOfTubes(const SkeletonGraph& graph, double scale = 1);
 
 /// The number of contacts that come or go, and of holes and pockets that open or close, while all
 /// radii grow from 1 - scale_tolerance to 1 + scale_tolerance: that many may come out either way.
-/// Two that cancel each other within a tenth of the tolerance are not counted.
+/// Two that cancel each other within a fifth of the tolerance are not counted.
 int64_t CountGrazingContacts(const SkeletonGraph& graph, double scale_tolerance);
 
 /// The greatest distance of a vertex of the mesh from the surface of its nearest tube, outwards and
