@@ -12,7 +12,7 @@ namespace {
 constexpr double kStep = 0.5;          // pixels across the strip
 constexpr double kOutlineReachPx = 7;  // block matching fattens wires by up to 4 px on a side
 constexpr double kMaxOffsetPx = 2;     // from the shift found before, in the second fit
-constexpr size_t kMinOutlines = 50;
+constexpr double kMinOutlines = 50;    // that count in a direction
 
 float DepthAt(const DepthImage& depth, const Vec2& pixel) {
   const int u = static_cast<int>(std::lround(pixel.x()));
@@ -63,7 +63,6 @@ StripDepth MeasureStripDepth(const DepthImage& depth, const StripPlace& place, d
 Vec2 EstimateColorShift(const std::vector<Vec2>& normals, const std::vector<double>& offsets_px) {
   assert(normals.size() == offsets_px.size());
   Vec2 shift = Vec2::Zero();
-  if (normals.size() < kMinOutlines) return shift;
   for (int round = 0; round < 3; ++round) {
     Eigen::Matrix2d matrix = Eigen::Matrix2d::Zero();
     Vec2 rhs = Vec2::Zero();
@@ -73,7 +72,7 @@ Vec2 EstimateColorShift(const std::vector<Vec2>& normals, const std::vector<doub
       rhs += offsets_px[i] * normals[i];
     }
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(matrix);
-    if (solver.eigenvalues()[0] < 0.05 * solver.eigenvalues()[1]) return Vec2::Zero();
+    if (solver.eigenvalues()[0] < kMinOutlines) return Vec2::Zero();
     shift = solver.eigenvectors() *
             (solver.eigenvectors().transpose() * rhs).cwiseQuotient(solver.eigenvalues());
   }

@@ -33,7 +33,7 @@ StripDepth MeasureStripDepth(const DepthImage& depth, const StripPlace& place, d
 
 /// The shift of the colour image against the depth image that explains outlines best: the least
 /// squares solution of normal . shift = offset, twice without what is off by more than 2 px. Zero
-/// where fewer than 50 strips are outlined or all have one direction.
+/// where fewer than 50 outlines (squared cosines of their normals added) determine some direction.
 Vec2 EstimateColorShift(const std::vector<Vec2>& normals, const std::vector<double>& offsets_px);
 
 }  // namespace curvefusion

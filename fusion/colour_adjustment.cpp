@@ -11,6 +11,7 @@
 #include "fusion/curve_vertices.h"
 #include "fusion/depth_gauge.h"
 #include "fusion/pose_correction.h"
+#include "fusion/trajectory_anchor.h"
 #include "kernel/quantile.h"
 
 namespace curvefusion {
@@ -37,6 +38,8 @@ constexpr int kMinStrips = 300;
 constexpr double kMinAcceptedShare = 0.1;
 constexpr double kMaxResidualPx = 0.8;
 constexpr double kMinGain = 0.8;  // of the residual
+// How far a colour image lies beside its depth image for itself: shutters are not in step.
+constexpr double kColorJitterPx = 0.5;
 
 // Whether three quarters of the frames are as near to the next as those of a video.
 bool IsVideo(const std::vector<RigidTransform>& poses) {
@@ -138,6 +141,19 @@ CurvePoseState RunRounds(const Sequence& sequence, const CurveVertices& curves,
   return state;
 }
 
+// The adjustment fits all frames to one another; where the world lies, the first of a video say.
+// Colour images that lie beside their depth images look like cameras that are turned.
+RigidTransform Anchor(const std::vector<RigidTransform>& T_world_given,
+                      const std::vector<int>& indices, const std::vector<RigidTransform>& poses,
+                      const PinholeCamera& color_camera) {
+  PoseErrors errors;
+  errors.rotation_jitter.x() =
+      std::hypot(errors.rotation_jitter.x(), kColorJitterPx / color_camera.fy);
+  errors.rotation_jitter.y() =
+      std::hypot(errors.rotation_jitter.y(), kColorJitterPx / color_camera.fx);
+  return AnchorToGivenPoses(T_world_given, indices, poses, errors);
+}
+
 // Why an adjustment is not to be believed; empty where it is.
 std::string ReasonToSkip(const ColourAdjustment& result) {
   if (result.strips < kMinStrips || result.accepted_share < kMinAcceptedShare) {
@@ -202,13 +218,19 @@ ColourAdjustment AdjustToColours(const SkeletonGraph& skeleton, const Sequence& 
     result.color_shift_px.setZero();
     return result;
   }
-  CurveVertices moved = curves;
-  moved.positions = state.positions;
-  result.skeleton = WithVertices(skeleton, moved, options.vertex_step);
   std::vector<RigidTransform> poses;
   for (const RigidTransform& T_camera_world : state.T_camera_world) {
     poses.push_back(T_camera_world.inverse());
   }
+  CurveVertices moved = curves;
+  moved.positions = state.positions;
+  if (is_video) {
+    const RigidTransform T_anchored_world =
+        Anchor(T_world_given, frames.indices, poses, sequence.color_camera);
+    for (RigidTransform& pose : poses) pose = T_anchored_world * pose;
+    for (Vec3& position : moved.positions) position = T_anchored_world * position;
+  }
+  result.skeleton = WithVertices(skeleton, moved, options.vertex_step);
   result.T_world_camera = InterpolateCorrections(T_world_given, frames.indices, poses);
   return result;
 }

@@ -79,8 +79,7 @@ struct graph_traits<curvefusion::BoostView> {
   using edges_size_type = int;
   using degree_size_type = int;
   using vertex_iterator = std::vector<curvefusion::NodeId>::const_iterator;
-  using edge_iterator = transform_iterator<curvefusion::BoostEdgeOf,
-                                           std::vector<curvefusion::EdgeId>::const_iterator>;
+  using edge_iterator = transform_iterator<curvefusion::BoostEdgeOf, const curvefusion::EdgeId*>;
   using out_edge_iterator = edge_iterator;
   static vertex_descriptor null_vertex() { return -1; }
 };
@@ -100,15 +99,16 @@ inline int num_vertices(const BoostView& view) { return static_cast<int>(view.no
 inline std::pair<BoostTraits::edge_iterator, BoostTraits::edge_iterator> edges(
     const BoostView& view) {
   const BoostEdgeOf edge_of{&view.graph(), -1};
-  return {{view.edges().begin(), edge_of}, {view.edges().end(), edge_of}};
+  const EdgeId* first = view.edges().data();
+  return {{first, edge_of}, {first + view.edges().size(), edge_of}};
 }
 inline int num_edges(const BoostView& view) { return static_cast<int>(view.edges().size()); }
 
 inline std::pair<BoostTraits::out_edge_iterator, BoostTraits::out_edge_iterator> out_edges(
     NodeId node, const BoostView& view) {
-  const std::vector<EdgeId>& incident = view.graph().IncidentEdges(node);
+  const std::span<const EdgeId> incident = view.graph().IncidentEdges(node);
   const BoostEdgeOf edge_of{&view.graph(), node};
-  return {{incident.begin(), edge_of}, {incident.end(), edge_of}};
+  return {{incident.data(), edge_of}, {incident.data() + incident.size(), edge_of}};
 }
 inline int out_degree(NodeId node, const BoostView& view) { return view.graph().Degree(node); }
 

@@ -37,37 +37,41 @@ int Compare(const SkeletonEdge& a, bool a_reversed, const SkeletonEdge& b, bool 
 }
 
 struct DirectedEdge {
+  Vec3 first;  // at hand, as it mostly decides
   const SkeletonEdge* edge;
   bool reversed;
 };
+
+bool ComesBefore(const DirectedEdge& a, const DirectedEdge& b) {
+  const int order = Compare(a.first, b.first);
+  return order != 0 ? order < 0 : Compare(*a.edge, a.reversed, *b.edge, b.reversed) < 0;
+}
 
 std::vector<DirectedEdge> SortedEdges(const SkeletonGraph& graph) {
   std::vector<DirectedEdge> edges;
   edges.reserve(graph.edge_count());
   for (const EdgeId id : graph.Edges()) {
     const SkeletonEdge& edge = graph.edge(id);
-    edges.push_back({&edge, Compare(edge, true, edge, false) < 0});
+    const bool reversed = Compare(edge, true, edge, false) < 0;
+    edges.push_back({reversed ? edge.points.back() : edge.points.front(), &edge, reversed});
   }
-  std::sort(edges.begin(), edges.end(), [](const DirectedEdge& a, const DirectedEdge& b) {
-    return Compare(*a.edge, a.reversed, *b.edge, b.reversed) < 0;
-  });
+  std::sort(edges.begin(), edges.end(), ComesBefore);
   return edges;
 }
 
 // Adds a node for each position at which edges end, in ascending order: of each old node, the new.
 std::vector<NodeId> AddNodes(const SkeletonGraph& graph, SkeletonGraph& canonical) {
-  std::vector<NodeId> nodes = graph.Nodes();
-  nodes.erase(std::remove_if(nodes.begin(), nodes.end(),
-                             [&graph](NodeId node) { return graph.Degree(node) == 0; }),
-              nodes.end());
-  std::vector<NodeId> new_nodes(nodes.empty() ? 0 : nodes.back() + 1, -1);
-  std::sort(nodes.begin(), nodes.end(), [&graph](NodeId a, NodeId b) {
-    return Compare(graph.position(a), graph.position(b)) < 0;
-  });
-  NodeId last = -1;
-  for (const NodeId node : nodes) {
+  std::vector<std::pair<Vec3, NodeId>> nodes;
+  nodes.reserve(graph.node_count());
+  for (const NodeId node : graph.Nodes()) {
     // Adding zero makes the two zeros one.
-    const Vec3 position = graph.position(node) + Vec3::Zero();
+    if (graph.Degree(node) > 0) nodes.emplace_back(graph.position(node) + Vec3::Zero(), node);
+  }
+  std::vector<NodeId> new_nodes(nodes.empty() ? 0 : nodes.back().second + 1, -1);
+  std::sort(nodes.begin(), nodes.end(),
+            [](const auto& a, const auto& b) { return Compare(a.first, b.first) < 0; });
+  NodeId last = -1;
+  for (const auto& [position, node] : nodes) {
     if (last < 0 || canonical.position(last) != position) last = canonical.AddNode(position);
     new_nodes[node] = last;
   }

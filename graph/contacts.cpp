@@ -250,17 +250,8 @@ Contact ToContact(const SegmentTable& table, const Stretch& stretch, double over
   return contact;
 }
 
-// Whether the two places of a pair come together where their edge folds.
-bool IsFold(const LocationPair& places, double gap) {
-  const auto& [a, b] = places;
-  return a.edge == b.edge && std::abs(a.arc_length - b.arc_length) <= gap;
-}
-
-}  // namespace
-
-std::vector<Contact> FindContacts(const SkeletonGraph& graph, double threshold) {
-  const SegmentTable table(graph);
-  const std::vector<SegmentPair> pairs = SegmentPairsInContact(table, threshold);
+std::vector<Contact> ContactsOf(const SegmentTable& table, const std::vector<SegmentPair>& pairs,
+                                double threshold) {
   const double radius = std::max(threshold, table.Resolution());
   // Two lines that cross at the angle of arms that have parted within the reach; where only lines
   // that have a point in common are in contact, lines that have more.
@@ -271,6 +262,27 @@ std::vector<Contact> FindContacts(const SkeletonGraph& graph, double threshold) 
        UnitedStretches(Stretches(table, pairs, threshold, radius), kStretchGap * radius))
     contacts.push_back(ToContact(table, stretch, overlap_extent));
   return contacts;
+}
+
+// Whether the two places of a pair come together where their edge folds.
+bool IsFold(const LocationPair& places, double gap) {
+  const auto& [a, b] = places;
+  return a.edge == b.edge && std::abs(a.arc_length - b.arc_length) <= gap;
+}
+
+}  // namespace
+
+std::vector<Contact> FindContacts(const SkeletonGraph& graph, double threshold) {
+  return ContactSearch(threshold).Find(graph);
+}
+
+ContactSearch::ContactSearch(double threshold) : threshold_(threshold), table_(SkeletonGraph()) {}
+
+std::vector<Contact> ContactSearch::Find(const SkeletonGraph& graph) {
+  SegmentTable table(graph, table_);
+  pairs_ = SegmentPairsInContact(table, threshold_, table_, pairs_);
+  table_ = std::move(table);
+  return ContactsOf(table_, pairs_, threshold_);
 }
 
 std::vector<LocationPair> PlacesToJoin(const Contact& contact, double threshold) {

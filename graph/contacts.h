@@ -27,9 +27,24 @@ struct Contact {
 /// of a contact are rounded. No segment may have length zero. Parts of the graph with less than
 /// kConnectedReach thresholds of arc length between them, over at most one node, are a contact only
 /// where they have a point in common: two arms of a fork near their node are none, nor is a
-/// hairpin, but a curve that crosses itself is. Cost O(n log^3 n + k log k) in segments and in
-/// pairs of segments whose boxes, grown by the threshold, meet.
+/// hairpin, but a curve that crosses itself is. Cost O(n log n + k log k) in segments and in pairs
+/// of segments whose boxes, grown by the threshold, meet.
 std::vector<Contact> FindContacts(const SkeletonGraph& graph, double threshold);
+
+/// FindContacts for one graph that changes from call to call: what it found about edges that have
+/// not changed since the last call it knows.
+class ContactSearch {
+ public:
+  explicit ContactSearch(double threshold);
+
+  /// The same contacts as FindContacts.
+  std::vector<Contact> Find(const SkeletonGraph& graph);
+
+ private:
+  double threshold_;
+  SegmentTable table_;              // of the last graph
+  std::vector<SegmentPair> pairs_;  // in contact there
+};
 
 /// The places that have to become one node to resolve a contact: the nearest ones, or where these
 /// are at one node already, the end of the stretch farther from it; for an overlap, those at its

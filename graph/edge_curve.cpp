@@ -38,7 +38,9 @@ T Interpolated(const std::vector<T>& values, const Place& place) {
 std::vector<Place> PlacesBetween(const std::vector<double>& arc_lengths, double from, double to) {
   const Place first = PlaceAt(arc_lengths, from);
   const Place last = PlaceAt(arc_lengths, to);
-  std::vector<Place> places = {first};
+  std::vector<Place> places;
+  places.reserve(last.index - first.index + 2);
+  places.push_back(first);
   const size_t begin = first.index + (first.fraction > 1 - kSplinter ? 2 : 1);
   const size_t end = last.index + (last.fraction < kSplinter ? 0 : 1);
   for (size_t i = begin; i < end; ++i) places.push_back({i, 0.0});
@@ -69,7 +71,8 @@ void Fade(Polyline& points, const Vec3& displacement, double reach) {
 
 // The edges at a node, each once.
 std::vector<EdgeId> EdgesAt(const SkeletonGraph& graph, NodeId node) {
-  std::vector<EdgeId> edges = graph.IncidentEdges(node);
+  const std::span<const EdgeId> incident = graph.IncidentEdges(node);
+  std::vector<EdgeId> edges(incident.begin(), incident.end());
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   return edges;
@@ -91,6 +94,7 @@ SkeletonEdge WithPointAt(const SkeletonEdge& edge, const std::vector<double>& ar
                          double arc_length) {
   const Place place = PlaceAt(arc_lengths, arc_length);
   std::vector<Place> places;
+  places.reserve(edge.points.size() + 1);
   for (size_t i = 0; i < edge.points.size(); ++i) {
     places.push_back({i, 0.0});
     if (i == place.index) places.push_back(place);
@@ -151,8 +155,8 @@ void RemoveRepeatedPoints(SkeletonEdge& edge) {
   if (!edge.observations.empty()) edge.observations.resize(kept);
 }
 
-void RemoveZeroLengthSegments(SkeletonGraph& graph) {
-  for (const EdgeId id : graph.Edges()) {
+void RemoveZeroLengthSegments(SkeletonGraph& graph, int since) {
+  for (const EdgeId id : graph.Edges(since)) {
     const Polyline& points = graph.edge(id).points;
     if (std::adjacent_find(points.begin(), points.end()) == points.end()) continue;
     SkeletonEdge edge = graph.edge(id);
@@ -163,7 +167,7 @@ void RemoveZeroLengthSegments(SkeletonGraph& graph) {
       SetEdgeCurve(graph, id, std::move(edge));
     }
   }
-  graph.RemoveIsolatedNodes();
+  graph.RemoveIsolatedNodes(since);
 }
 
 void AddBendPoints(SkeletonGraph& graph, NodeId node, double reach) {

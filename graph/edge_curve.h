@@ -32,8 +32,9 @@ void ResampleGraph(SkeletonGraph& graph, double step);
 /// two.
 void RemoveRepeatedPoints(SkeletonEdge& edge);
 
-/// RemoveRepeatedPoints for every edge, and edges of no length removed.
-void RemoveZeroLengthSegments(SkeletonGraph& graph);
+/// RemoveRepeatedPoints for every edge that changed after a version, and edges of no length
+/// removed.
+void RemoveZeroLengthSegments(SkeletonGraph& graph, int since = 0);
 
 /// Gives each edge at a node a point at `reach` metres from it where its segment there goes on for
 /// as long again: a bend that ends there does not reach farther.

@@ -35,8 +35,4 @@ SkeletonGraph ReadLineObj(const std::string& text, const std::string& source);
 
 FormatLosses WriteDxf(const std::filesystem::path& path, const SkeletonGraph& graph);
 
-/// What is wrong with an edge that is to be added to `graph` ("points[3] repeats the point before
-/// it"), or nothing. Its nodes must exist.
-std::string EdgeDefect(const SkeletonEdge& edge, const SkeletonGraph& graph);
-
 }  // namespace curvefusion

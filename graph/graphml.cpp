@@ -15,6 +15,7 @@
 
 #include "graph/graph_formats.h"
 #include "graph/graphml_nesting.h"
+#include "graph/validate.h"
 #include "kernel/atomic_file.h"
 #include "kernel/error.h"
 #include "kernel/text_input.h"
@@ -142,8 +143,8 @@ SkeletonEdge SkeletonEdgeOf(const GraphmlEdge& read, const std::array<NodeId, 2>
   edge.observations = NumbersOf(read.observations, place + ".observations", source);
   if (edge.radii.empty() && !std::isnan(read.radius))
     edge.radii.assign(edge.points.size(), read.radius);
-  const std::string defect = EdgeDefect(edge, graph);
-  if (!defect.empty()) Fail(source, fmt::format("{}.{}", place, defect));
+  const std::vector<std::string> faults = EdgeFaults(edge, graph);
+  if (!faults.empty()) Fail(source, fmt::format("{}.{}", place, faults[0]));
   return edge;
 }
 

@@ -17,7 +17,7 @@ namespace {
 
 // Radii of the edge ends at a node.
 std::vector<double> RadiiAt(const SkeletonGraph& graph, NodeId node) {
-  const std::vector<EdgeId>& incident = graph.IncidentEdges(node);
+  const std::span<const EdgeId> incident = graph.IncidentEdges(node);
   const std::set<EdgeId> edges(incident.begin(), incident.end());  // a self-loop stands there twice
   std::vector<double> radii;
   for (const EdgeId id : edges) {
@@ -168,7 +168,7 @@ FormatLosses LossesOfIndexedCurves(const SkeletonGraph& graph, bool radii_are_ke
   FormatLosses losses;
   int inner_nodes = 0, uneven_nodes = 0;
   for (const NodeId node : graph.Nodes()) {
-    const std::vector<EdgeId>& edges = graph.IncidentEdges(node);
+    const std::span<const EdgeId> edges = graph.IncidentEdges(node);
     inner_nodes += edges.size() == 2 && edges[0] != edges[1] ? 1 : 0;
     const std::vector<double> radii = RadiiAt(graph, node);
     uneven_nodes +=

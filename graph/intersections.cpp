@@ -43,31 +43,34 @@ Counts CountsOf(const SkeletonGraph& graph) {
 }
 
 // Brings a graph to the form in which contacts are looked for; every step removes edges, so it
-// ends. Edges that were split only to become parallel are merged before their nodes dissolve.
-void Tidy(SkeletonGraph& graph, double threshold) {
-  RemoveZeroLengthSegments(graph);
-  for (int edges = -1; edges != graph.edge_count();) {
-    edges = graph.edge_count();
-    RemoveSmallLoops(graph, kLoop * threshold);
-    MergeParallelEdges(graph, kParallelSlack * threshold);
-    graph.DissolveDegree2Nodes();
+// ends. Edges that were split only to become parallel are merged before their nodes dissolve. What
+// was tidy for the same threshold at a version and has not changed since is left alone.
+void Tidy(SkeletonGraph& graph, double threshold, int since) {
+  RemoveZeroLengthSegments(graph, since);
+  for (bool changed = true; changed;) {
+    RemoveSmallLoops(graph, kLoop * threshold, since);
+    const int edges = graph.edge_count();
+    MergeParallelEdges(graph, kParallelSlack * threshold, since);
+    graph.DissolveDegree2Nodes(since);
+    changed = graph.edge_count() != edges;
   }
 }
 
-// Merges vertices; where rounding hides them, drops the shorter edge of the first contact and
-// returns false. Either way there are fewer vertices or edges afterwards.
+// Merges vertices of a tidy graph; where rounding hides them, drops the shorter edge of the first
+// contact and returns false. Either way there are fewer vertices or edges afterwards.
 bool MergeOrDrop(SkeletonGraph& graph, const std::vector<Contact>& contacts, double threshold) {
   const size_t vertices = CountsOf(graph).vertices;
   const EdgeId a = contacts[0].closest.first.edge;
   const EdgeId b = contacts[0].closest.second.edge;
   const EdgeId shorter = Length(graph.edge(a).points) < Length(graph.edge(b).points) ? a : b;
+  const int before = graph.version();
   SkeletonGraph dropped = graph;
   MergeContactVertices(graph, contacts);
-  Tidy(graph, threshold);
+  Tidy(graph, threshold, before);
   if (CountsOf(graph).vertices < vertices) return true;
   dropped.RemoveEdge(shorter);
   graph = std::move(dropped);
-  Tidy(graph, threshold);
+  Tidy(graph, threshold, before);
   return false;
 }
 
@@ -75,12 +78,12 @@ bool MergeOrDrop(SkeletonGraph& graph, const std::vector<Contact>& contacts, dou
 class Resolution {
  public:
   Resolution(SkeletonGraph graph, double threshold)
-      : graph_(std::move(graph)), threshold_(threshold) {}
+      : graph_(std::move(graph)), threshold_(threshold), search_(threshold) {}
 
   void Run() {
     while (TidyAtScale()) {
-      for (std::vector<Contact> contacts = FindContacts(graph_, threshold_); !contacts.empty();
-           contacts = FindContacts(graph_, threshold_))
+      for (std::vector<Contact> contacts = search_.Find(graph_); !contacts.empty();
+           contacts = search_.Find(graph_))
         Step(contacts);
     }
   }
@@ -95,7 +98,7 @@ class Resolution {
     const double scale = std::max(threshold_, SegmentTable(graph_).Resolution());
     if (scale <= scale_) return false;
     scale_ = scale;
-    Tidy(graph_, scale);
+    Tidy(graph_, scale, 0);
     return true;
   }
 
@@ -106,10 +109,11 @@ class Resolution {
       return;
     }
     const Counts before = CountsOf(graph_);
+    const int version = graph_.version();
     ++rounds_.joining;
     JoinContacts(graph_, contacts, scale_,
                  scale_ > threshold_ ? JoinSelection::kAll : JoinSelection::kApart);
-    Tidy(graph_, scale_);
+    Tidy(graph_, scale_, version);
     const Counts after = CountsOf(graph_);
     const bool is_stall = after.nodes == before.nodes && after.edges == before.edges &&
                           contacts.size() == last_contacts_;
@@ -120,6 +124,7 @@ class Resolution {
 
   SkeletonGraph graph_;
   double threshold_;
+  ContactSearch search_;
   double scale_ = -1;
   ResolutionRounds rounds_;
   bool is_stuck_ = false;

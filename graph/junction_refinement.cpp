@@ -4,8 +4,11 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
+
+#include "graph/fork_placement.h"
 
 namespace curvefusion {
 
@@ -159,6 +162,25 @@ JunctionFit FitJunction(const SkeletonGraph& graph, const std::vector<NodeId>& n
   return fit;
 }
 
+// The junction of two wires that part at a small angle, if that is what a node is.
+std::optional<Vec3> FitFork(const SkeletonGraph& graph, NodeId node,
+                            const JunctionRefinementOptions& options) {
+  JunctionRefinementOptions wide = options;
+  wide.inner_radius = options.fork_clearance;
+  wide.fit_length = options.fork_fit_length;
+  const std::vector<BranchEnd> ends = BranchEnds(graph, {node});
+  std::vector<Polyline> branches;
+  for (const BranchEnd& end : ends) {
+    branches.push_back(NearPoints(graph, end, wide.reach + wide.fit_length));
+  }
+  std::vector<ClearBranch> clear;
+  for (size_t i = 0; i < ends.size(); ++i) {
+    const auto [first, last] = ClearStretch(graph, ends[i], branches, i, wide);
+    clear.push_back({branches[i], first, last});
+  }
+  return ForkPosition(clear, options.reach, options.max_residual);
+}
+
 // A branch runs straight from its junction, which has moved, to where it leaves the blurred zone
 // around the junction's new and old places.
 Polyline StraightenedBranch(const Polyline& branch, const Vec3& junction, double radius) {
@@ -213,8 +235,8 @@ std::vector<std::pair<double, EdgeId>> ShortJunctionEdges(const SkeletonGraph& g
 }
 
 void RemoveEdgesBetween(SkeletonGraph& graph, NodeId a, NodeId b, double max_length) {
-  const std::vector<EdgeId> incident = graph.IncidentEdges(a);
-  for (const EdgeId id : incident) {
+  const std::span<const EdgeId> incident = graph.IncidentEdges(a);
+  for (const EdgeId id : std::vector<EdgeId>(incident.begin(), incident.end())) {
     const SkeletonEdge& edge = graph.edge(id);
     const NodeId other = edge.nodes[0] == a ? edge.nodes[1] : edge.nodes[0];
     if (other == b && Length(edge.points) < max_length) graph.RemoveEdge(id);
@@ -243,7 +265,8 @@ void PlaceJunctions(SkeletonGraph& graph, const JunctionRefinementOptions& optio
   std::vector<std::pair<NodeId, Vec3>> placed;
   for (const NodeId node : graph.Nodes()) {
     if (graph.Degree(node) < 3) continue;
-    placed.emplace_back(node, FitJunction(graph, {node}, options).position);
+    const std::optional<Vec3> fork = FitFork(graph, node, options);
+    placed.emplace_back(node, fork ? *fork : FitJunction(graph, {node}, options).position);
   }
   for (const auto& [node, position] : placed) PlaceJunction(graph, node, position, options);
 }
@@ -270,8 +293,15 @@ void VisitOptions(JunctionRefinementOptions& options, OptionVisitor& visitor) {
                  "cannot tell them apart."},
                 options.min_distance);
   visitor.Visit({"max_residual", "m", 0, 0.1,
-                 "Deviation: greatest distance of a branch's line from a merged junction."},
+                 "Deviation: greatest distance of a branch's line from a merged junction, and of "
+                 "two wires where one forks off the other."},
                 options.max_residual);
+  visitor.Visit({"fork_clearance", "m", 0, 0.1,
+                 "Deviation: wires that part at a small angle blend up to this distance."},
+                options.fork_clearance);
+  visitor.Visit({"fork_fit_length", "m", 0.001, 0.5,
+                 "Deviation: length of the curves that are carried on to where such wires meet."},
+                options.fork_fit_length);
 }
 
 void RefineJunctions(SkeletonGraph& graph, const JunctionRefinementOptions& options) {

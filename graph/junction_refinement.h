@@ -14,15 +14,18 @@ struct JunctionRefinementOptions {
   double merge_distance = 0.014;
   double min_distance = 0.0085;
   double max_residual = 0.0035;
+  double fork_clearance = 0.0085;
+  double fork_fit_length = 0.05;
 };
 void VisitOptions(JunctionRefinementOptions& options, OptionVisitor& visitor);
 
 /// Moves every node with three or more branches to where lines fitted to the branches beyond the
 /// blurred zone (between the two radii) meet in the least-squares sense, and straightens the
-/// branches inside the inner radius. Junctions joined by an edge shorter than `merge_distance`
-/// become one where the lines of all their branches meet within `max_residual`, and in any case
-/// where it is shorter than `min_distance`: a crossing of three wires stays one junction of valence
-/// 6.
+/// branches inside the inner radius. Where wires part at a small angle, the smooth curves that the
+/// branches follow farther out are carried on to where they meet (ForkPosition). Junctions joined
+/// by an edge shorter than `merge_distance` become one where the lines of all their branches meet
+/// within `max_residual`, and in any case where it is shorter than `min_distance`: a crossing of
+/// three wires stays one junction of valence 6.
 void RefineJunctions(SkeletonGraph& graph, const JunctionRefinementOptions& options);
 
 }  // namespace curvefusion

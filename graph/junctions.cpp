@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
-#include <map>
-#include <numeric>
+#include <tuple>
 
 #include "graph/edge_curve.h"
 #include "kernel/disjoint_sets.h"
@@ -19,44 +18,55 @@ constexpr double kLinkInSnaps = 3;
 // Displacements below this many times the longest link are rounding: no bend.
 constexpr double kBendInLinks = 1e-3;
 
-// Nodes that the places on each edge have become. Places on one edge are looked up in order.
+// Nodes that places on edges have become.
 class EdgeCutter {
  public:
   EdgeCutter(SkeletonGraph& graph, double snap) : graph_(graph), snap_(snap) {}
 
-  void Add(const CurveLocation& location) { arcs_[location.edge].push_back(location.arc_length); }
+  void Add(const CurveLocation& location) { places_.push_back(location); }
 
   // Splits all edges at their places.
   void Cut() {
-    for (auto& [edge, arcs] : arcs_) {
-      std::sort(arcs.begin(), arcs.end());
-      CutEdge(edge, arcs, cuts_[edge]);
+    std::sort(places_.begin(), places_.end(), ComesBefore);
+    for (size_t i = 0; i < places_.size();) {
+      size_t j = i;
+      while (j < places_.size() && places_[j].edge == places_[i].edge) ++j;
+      CutEdge(i, j);
+      i = j;
     }
   }
 
   NodeId NodeOf(const CurveLocation& location) const {
-    const Cuts& cuts = cuts_.at(location.edge);
     const auto next = std::upper_bound(
-        cuts.begin(), cuts.end(), location.arc_length,
-        [](double arc, const std::pair<double, NodeId>& cut) { return arc < cut.first; });
-    return std::prev(next)->second;
+        cuts_.begin(), cuts_.end(), location,
+        [](const CurveLocation& a, const PlacedNode& b) { return ComesBefore(a, b.place); });
+    return std::prev(next)->node;
   }
 
  private:
-  // Smallest place and node of every group of places that became one node, in ascending order.
-  using Cuts = std::vector<std::pair<double, NodeId>>;
+  // The node of the places from this one to the next on the same edge.
+  struct PlacedNode {
+    CurveLocation place;
+    NodeId node;
+  };
 
-  void CutEdge(EdgeId id, const std::vector<double>& arcs, Cuts& cuts) {
+  static bool ComesBefore(const CurveLocation& a, const CurveLocation& b) {
+    return std::tie(a.edge, a.arc_length) < std::tie(b.edge, b.arc_length);
+  }
+
+  // Cuts the edge that a range of places is on.
+  void CutEdge(size_t begin, size_t end) {
+    const EdgeId id = places_[begin].edge;
     const SkeletonEdge whole = graph_.edge(id);
     const std::vector<double> lengths = CumulativeLength(whole.points);
     std::vector<std::pair<double, NodeId>> splits = {{0.0, whole.nodes[0]}};
-    for (size_t i = 0; i < arcs.size();) {
+    for (size_t i = begin; i < end;) {
+      double sum = 0;
       size_t j = i;
-      while (j < arcs.size() && arcs[j] - arcs[i] <= snap_) ++j;
-      const double arc = std::accumulate(arcs.begin() + static_cast<std::ptrdiff_t>(i),
-                                         arcs.begin() + static_cast<std::ptrdiff_t>(j), 0.0) /
-                         static_cast<double>(j - i);
-      cuts.emplace_back(arcs[i], NodeAt(whole, lengths, arc, splits));
+      for (; j < end && places_[j].arc_length - places_[i].arc_length <= snap_; ++j)
+        sum += places_[j].arc_length;
+      const double arc = sum / static_cast<double>(j - i);
+      cuts_.push_back({places_[i], NodeAt(whole, lengths, arc, splits)});
       i = j;
     }
     if (splits.size() == 1) return;
@@ -73,16 +83,16 @@ class EdgeCutter {
                 std::vector<std::pair<double, NodeId>>& splits) {
     const double length = lengths.back();
     if (std::min(arc, length - arc) <= snap_) return whole.nodes[arc <= length - arc ? 0 : 1];
-    const SkeletonEdge rest = PartOfEdge(whole, lengths, arc, length);
-    const NodeId node = graph_.AddNode(rest.points.front());
+    const SkeletonEdge place = PartOfEdge(whole, lengths, arc, arc);
+    const NodeId node = graph_.AddNode(place.points.front());
     splits.emplace_back(arc, node);
     return node;
   }
 
   SkeletonGraph& graph_;
   double snap_;
-  std::map<EdgeId, std::vector<double>> arcs_;
-  std::map<EdgeId, Cuts> cuts_;
+  std::vector<CurveLocation> places_;
+  std::vector<PlacedNode> cuts_;  // in the order of places
 };
 
 // Removes the edges within a group that are no longer than max_link.
@@ -147,9 +157,7 @@ void Bend(SkeletonGraph& graph, NodeId node, const Vec3& position, double max_li
   MoveNodeSmoothly(graph, node, position, kReach * moved);
 }
 
-}  // namespace
-
-void MergeNodeGroups(SkeletonGraph& graph, const std::vector<NodeGroup>& groups, double max_link) {
+void MergeGroups(SkeletonGraph& graph, const std::vector<NodeGroup>& groups, double max_link) {
   for (const NodeGroup& group : groups) {
     RemoveLinks(graph, group.nodes, max_link);
     const Vec3 mean = WeightedMean(graph, group);
@@ -163,10 +171,17 @@ void MergeNodeGroups(SkeletonGraph& graph, const std::vector<NodeGroup>& groups,
     for (size_t i = 1; i < group.nodes.size(); ++i)
       graph.MergeNodes(group.nodes[0], group.nodes[i]);
   }
+}
+
+}  // namespace
+
+void MergeNodeGroups(SkeletonGraph& graph, const std::vector<NodeGroup>& groups, double max_link) {
+  MergeGroups(graph, groups, max_link);
   RemoveZeroLengthSegments(graph);
 }
 
 void JoinLocations(SkeletonGraph& graph, const std::vector<LocationPair>& pairs, double snap) {
+  const int before = graph.version();
   EdgeCutter cutter(graph, snap);
   for (const auto& [a, b] : pairs) {
     cutter.Add(a);
@@ -176,7 +191,8 @@ void JoinLocations(SkeletonGraph& graph, const std::vector<LocationPair>& pairs,
   std::vector<std::pair<NodeId, NodeId>> links;
   links.reserve(pairs.size());
   for (const auto& [a, b] : pairs) links.emplace_back(cutter.NodeOf(a), cutter.NodeOf(b));
-  MergeNodeGroups(graph, LinkedGroups(links, graph), kLinkInSnaps * snap);
+  MergeGroups(graph, LinkedGroups(links, graph), kLinkInSnaps * snap);
+  RemoveZeroLengthSegments(graph, before);
 }
 
 }  // namespace curvefusion

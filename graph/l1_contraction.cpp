@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "graph/point_grid.h"
 #include "kernel/parallel.h"
 #include "kernel/spatial_search.h"
 
@@ -94,7 +95,7 @@ class Contraction {
   };
   void FindPoints(int64_t i, double radius);
   Vec3 LocalMedian(int64_t i, const Kernel& theta) const;
-  Repulsion RepulsionAt(int64_t i, const Kernel& theta, const std::vector<int>& neighbours) const;
+  Repulsion RepulsionAt(int64_t i, double radius, const PointGrid& sample_grid) const;
   double Step(double radius);
 
   const std::vector<Vec3>& points_;
@@ -156,21 +157,22 @@ Vec3 Contraction::LocalMedian(int64_t i, const Kernel& theta) const {
 
 // The weighted mean of the offsets from the other samples, of which the part along the curve
 // counts: across it the median alone decides.
-Contraction::Repulsion Contraction::RepulsionAt(int64_t i, const Kernel& theta,
-                                                const std::vector<int>& neighbours) const {
+Contraction::Repulsion Contraction::RepulsionAt(int64_t i, double radius,
+                                                const PointGrid& sample_grid) const {
+  const Kernel theta(radius);
   Repulsion result;
   Mat3 covariance = Mat3::Zero();
   double total = 0;
-  for (const int j : neighbours) {
-    const Vec3 offset = samples_[i] - samples_[j];
+  sample_grid.ForEachWithin(samples_[i], radius, [&](int j, const Vec3& sample) {
+    if (j == i) return;
+    const Vec3 offset = samples_[i] - sample;
     const double squared_distance = offset.squaredNorm();
-    if (j == i || !theta.Reaches(squared_distance)) continue;
     const double weight = theta(squared_distance);
     const double beta = weight / (squared_distance + softening_ * softening_);
     result.offset += beta * offset;
     total += beta;
     covariance += weight * offset * offset.transpose();
-  }
+  });
   if (!(total > 0)) return result;
   result.anisotropy = AnisotropyOf(covariance);
   const Vec3& direction = result.anisotropy.direction;
@@ -181,20 +183,15 @@ Contraction::Repulsion Contraction::RepulsionAt(int64_t i, const Kernel& theta,
 // One fixed-point iteration; returns the mean movement of the free samples.
 double Contraction::Step(double radius) {
   const Kernel theta(radius);
-  const PointIndex sample_index(samples_);
+  const PointGrid sample_grid(samples_, radius);
   const int64_t n = static_cast<int64_t>(samples_.size());
-  ParallelChunks(0, n, kGrain, [&](int64_t first, int64_t last) {
-    std::vector<int> neighbours;
-    for (int64_t i = first; i < last; ++i) {
-      if (fixed_[i]) continue;
-      FindPoints(i, radius);
-      sample_index.WithinRadius(samples_[i], radius, neighbours);
-      const Repulsion repulsion = RepulsionAt(i, theta, neighbours);
-      anisotropies_[i] = repulsion.anisotropy;
-      moved_samples_[i] = LocalMedian(i, theta) + options_.repulsion *
-                                                      repulsion.anisotropy.directionality *
-                                                      repulsion.offset;
-    }
+  ParallelFor(0, n, kGrain, [&](int64_t i) {
+    if (fixed_[i]) return;
+    FindPoints(i, radius);
+    const Repulsion repulsion = RepulsionAt(i, radius, sample_grid);
+    anisotropies_[i] = repulsion.anisotropy;
+    moved_samples_[i] = LocalMedian(i, theta) +
+                        options_.repulsion * repulsion.anisotropy.directionality * repulsion.offset;
   });
   double movement = 0;
   int64_t free_samples = 0;

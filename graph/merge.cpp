@@ -88,20 +88,25 @@ SkeletonEdge MeanEdge(const SkeletonEdge& a, SkeletonEdge b) {
   return mean;
 }
 
-// Every two edges with the same two nodes, by ascending handles.
-std::vector<std::pair<EdgeId, EdgeId>> EdgesOfSameNodes(const SkeletonGraph& graph) {
-  std::vector<std::pair<std::array<NodeId, 2>, EdgeId>> edges;
-  edges.reserve(graph.edge_count());
-  for (const EdgeId id : graph.Edges()) {
-    const auto [low, high] = std::minmax(graph.edge(id).nodes[0], graph.edge(id).nodes[1]);
-    edges.push_back({{low, high}, id});
-  }
-  std::sort(edges.begin(), edges.end());
+bool IsDangling(const SkeletonGraph& graph, const SkeletonEdge& edge) {
+  return graph.Degree(edge.nodes[0]) == 1 || graph.Degree(edge.nodes[1]) == 1;
+}
+
+// Every two edges with the same two nodes, by ascending handles, if one of them changed after a
+// version.
+std::vector<std::pair<EdgeId, EdgeId>> EdgesOfSameNodes(const SkeletonGraph& graph, int since) {
   std::vector<std::pair<EdgeId, EdgeId>> pairs;
-  for (size_t i = 0; i < edges.size(); ++i)
-    for (size_t j = i + 1; j < edges.size() && edges[j].first == edges[i].first; ++j)
-      pairs.emplace_back(edges[i].second, edges[j].second);
+  for (const EdgeId id : graph.Edges(since)) {
+    const auto& [a, b] = graph.edge(id).nodes;
+    const NodeId node = graph.Degree(a) <= graph.Degree(b) ? a : b;
+    for (const EdgeId other : graph.IncidentEdges(node)) {
+      const auto& [c, d] = graph.edge(other).nodes;
+      if (other != id && std::minmax(a, b) == std::minmax(c, d))
+        pairs.emplace_back(std::minmax(id, other));
+    }
+  }
   std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   return pairs;
 }
 
@@ -184,10 +189,6 @@ std::vector<EdgeId> ShortEdges(const SkeletonGraph& graph, double length) {
   return edges;
 }
 
-bool IsDangling(const SkeletonGraph& graph, const SkeletonEdge& edge) {
-  return graph.Degree(edge.nodes[0]) == 1 || graph.Degree(edge.nodes[1]) == 1;
-}
-
 }  // namespace
 
 void MergeNearbyJunctions(SkeletonGraph& graph, double distance) {
@@ -197,17 +198,18 @@ void MergeNearbyJunctions(SkeletonGraph& graph, double distance) {
   MergeNodeGroups(graph, clusters.Groups(), 2 * distance);
 }
 
-std::vector<std::pair<EdgeId, EdgeId>> ParallelEdges(const SkeletonGraph& graph, double distance) {
+std::vector<std::pair<EdgeId, EdgeId>> ParallelEdges(const SkeletonGraph& graph, double distance,
+                                                     int since) {
   std::vector<std::pair<EdgeId, EdgeId>> parallel;
   EdgeTrees trees(graph);
-  for (const auto& [a, b] : EdgesOfSameNodes(graph))
+  for (const auto& [a, b] : EdgesOfSameNodes(graph, since))
     if (trees.StaysWithin(a, b, distance) && trees.StaysWithin(b, a, distance))
       parallel.emplace_back(a, b);
   return parallel;
 }
 
-void MergeParallelEdges(SkeletonGraph& graph, double distance) {
-  for (const auto& [a, b] : ParallelEdges(graph, distance)) {
+void MergeParallelEdges(SkeletonGraph& graph, double distance, int since) {
+  for (const auto& [a, b] : ParallelEdges(graph, distance, since)) {
     if (!graph.HasEdge(a) || !graph.HasEdge(b)) continue;
     SkeletonEdge mean = MeanEdge(graph.edge(a), graph.edge(b));
     graph.RemoveEdge(b);
@@ -290,12 +292,12 @@ void PruneSpurs(SkeletonGraph& graph, double length) {
   }
 }
 
-void RemoveSmallLoops(SkeletonGraph& graph, double length) {
-  for (const EdgeId id : graph.Edges()) {
+void RemoveSmallLoops(SkeletonGraph& graph, double length, int since) {
+  for (const EdgeId id : graph.Edges(since)) {
     const SkeletonEdge& edge = graph.edge(id);
     if (edge.nodes[0] == edge.nodes[1] && Length(edge.points) <= length) graph.RemoveEdge(id);
   }
-  graph.RemoveIsolatedNodes();
+  graph.RemoveIsolatedNodes(since);
 }
 
 }  // namespace curvefusion

@@ -14,12 +14,14 @@ namespace curvefusion {
 void MergeNearbyJunctions(SkeletonGraph& graph, double distance);
 
 /// Pairs of edges between the same two nodes of which every point of each lies within `distance` of
-/// the other, decided exactly: one curve that is there twice. O(n log n) in the points of candidates.
-std::vector<std::pair<EdgeId, EdgeId>> ParallelEdges(const SkeletonGraph& graph, double distance);
+/// the other, decided exactly: one curve that is there twice; of pairs of which an edge changed
+/// after a version. O(n log n) in the points of candidates.
+std::vector<std::pair<EdgeId, EdgeId>> ParallelEdges(const SkeletonGraph& graph, double distance,
+                                                     int since = 0);
 
 /// Replaces parallel edges by their mean along arc length, weighted by observations; observations
-/// add up.
-void MergeParallelEdges(SkeletonGraph& graph, double distance);
+/// add up. `since` as for ParallelEdges.
+void MergeParallelEdges(SkeletonGraph& graph, double distance, int since = 0);
 
 /// Where edges run side by side within `distance`, longer than a crossing explains: joins them at
 /// both ends of that stretch and replaces the two parts by their mean along arc length.
@@ -39,7 +41,8 @@ void RemoveShortEdges(SkeletonGraph& graph, double length);
 /// have become one curve count as one. Isolated curves stay.
 void PruneSpurs(SkeletonGraph& graph, double length);
 
-/// Removes self-loops up to a length.
-void RemoveSmallLoops(SkeletonGraph& graph, double length);
+/// Removes self-loops up to a length, of those that changed after a version, and nodes that are
+/// left without edges.
+void RemoveSmallLoops(SkeletonGraph& graph, double length, int since = 0);
 
 }  // namespace curvefusion

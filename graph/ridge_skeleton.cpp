@@ -90,6 +90,7 @@ SkeletonGraph ExtractRidgeSkeleton(const ObservedPoints& points, const RidgeOpti
   for (int round = 0; round < 2; ++round) {
     CloseFreeEnds(graph, options.free_ends, points);
     RefineJunctions(graph, options.junctions);
+    MergeParallelEdges(graph, options.junctions.min_distance);
     DropShortLoops(graph, options.network.min_loop);
   }
   PruneSpurs(graph, options.network.min_spur);

@@ -1,11 +1,11 @@
 #include "graph/segment_pairs.h"
 
-#include <CGAL/Box_intersection_d/Box_with_info_d.h>
-#include <CGAL/box_intersection_d.h>
-
+#include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <utility>
+
+#include "kernel/box_pairs.h"
 
 namespace curvefusion {
 
@@ -30,6 +30,16 @@ double SizeOf(const LinearGap& way) {
 
 void AddIfShort(const LinearGap& way, double reach, std::vector<LinearGap>& ways) {
   if (LeastOf(way) <= reach + kMargin * (reach + SizeOf(way))) ways.push_back(way);
+}
+
+// Whether there is a way at all between the curves of two segments, as there is between few.
+bool HangTogether(const SegmentTable& table, const SegmentPair& pair) {
+  const int curve_s = table.curves[pair.s];
+  const int curve_t = table.curves[pair.t];
+  if (curve_s == curve_t) return true;
+  const auto& [a, b] = table.nodes[curve_s];
+  const auto& [c, d] = table.nodes[curve_t];
+  return a == c || a == d || b == c || b == d;
 }
 
 // Whether a segment is so near to an end of its curve that a way over the node there may be short.
@@ -88,22 +98,55 @@ bool AreOnOneShortWay(const std::vector<LinearGap>& ways, double reach) {
   });
 }
 
-using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, int>;
+std::vector<int> SegmentsOf(const SegmentTable& table) {
+  std::vector<int> segments;
+  segments.reserve(table.points.size());
+  for (int k = 0; k < table.point_count(); ++k)
+    if (table.IsSegment(k)) segments.push_back(k);
+  return segments;
+}
 
-std::vector<Box> InflatedBoxes(const SegmentTable& table, double threshold) {
-  std::vector<Box> boxes;
-  boxes.reserve(table.points.size());
-  for (int k = 0; k < table.point_count(); ++k) {
-    if (!table.IsSegment(k)) continue;
-    const Vec3& a = table.points[k];
-    const Vec3& b = table.points[k + 1];
-    const Vec3 largest = a.cwiseAbs().cwiseMax(b.cwiseAbs());
-    const Vec3 margin = Vec3::Constant(threshold * (0.5 + kMargin)) + 1e-15 * largest;
-    Vec3 low = a.cwiseMin(b) - margin;
-    Vec3 high = a.cwiseMax(b) + margin;
-    boxes.emplace_back(low.data(), high.data(), k);
+// Boxes that overlap wherever segments come within the threshold.
+Eigen::AlignedBox3d InflatedBox(const Segment& segment, double threshold) {
+  const Vec3 largest = segment.a.cwiseAbs().cwiseMax(segment.b.cwiseAbs());
+  const Vec3 margin = Vec3::Constant(threshold * (0.5 + kMargin)) + 1e-15 * largest;
+  return {segment.a.cwiseMin(segment.b) - margin, segment.a.cwiseMax(segment.b) + margin};
+}
+
+// Pairs of an earlier table of which both curves were kept, in a table.
+std::vector<SegmentPair> KeptPairs(const SegmentTable& earlier,
+                                   const std::vector<SegmentPair>& pairs,
+                                   const std::vector<int>& kept_curves, const SegmentTable& table) {
+  std::vector<SegmentPair> kept;
+  const auto segment_now = [&](int k) {
+    const int now = kept_curves[earlier.curves[k]];
+    return now < 0 ? -1 : table.first_points[now] + k - earlier.first_points[earlier.curves[k]];
+  };
+  for (const SegmentPair& pair : pairs) {
+    const SegmentPair now{segment_now(pair.s), segment_now(pair.t)};
+    if (now.s >= 0 && now.t >= 0) kept.push_back(now);
   }
-  return boxes;
+  return kept;
+}
+
+// Those pairs in contact of which a segment is on a marked curve; all where none is marked.
+std::vector<SegmentPair> MarkedPairs(const SegmentTable& table, double threshold,
+                                     const std::vector<char>& marked_curves) {
+  const std::vector<int> segments = SegmentsOf(table);
+  std::vector<Eigen::AlignedBox3d> boxes;
+  BoxPairFilter filter;
+  boxes.reserve(segments.size());
+  for (const int k : segments) {
+    boxes.push_back(InflatedBox(table.At(k), threshold));
+    if (!marked_curves.empty()) filter.marks.push_back(marked_curves[table.curves[k]]);
+  }
+  filter.keep = [&](int i, int j) {
+    return AreInContact(table, {segments[i], segments[j]}, threshold);
+  };
+  std::vector<SegmentPair> pairs;
+  for (const auto& [i, j] : OverlappingBoxes(boxes, filter))
+    pairs.push_back({segments[i], segments[j]});
+  return pairs;
 }
 
 }  // namespace
@@ -120,7 +163,8 @@ std::vector<LinearGap> ShortWays(const SegmentTable& table, const SegmentPair& p
 
 bool AreInContact(const SegmentTable& table, const SegmentPair& pair, double threshold) {
   const double reach = kConnectedReach * threshold;
-  const std::vector<LinearGap> ways = ShortWays(table, pair, reach);
+  std::vector<LinearGap> ways;
+  if (HangTogether(table, pair)) ways = ShortWays(table, pair, reach);
   if (ways.empty()) return AreWithin(table.At(pair.s), table.At(pair.t), threshold);
   if (Meet(table, pair)) return true;
   if (threshold <= 0 || AreOnOneShortWay(ways, reach)) return false;
@@ -128,13 +172,21 @@ bool AreInContact(const SegmentTable& table, const SegmentPair& pair, double thr
 }
 
 std::vector<SegmentPair> SegmentPairsInContact(const SegmentTable& table, double threshold) {
-  std::vector<Box> boxes = InflatedBoxes(table, threshold);
-  std::vector<SegmentPair> pairs;
-  CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
-    const SegmentPair pair{std::min(a.info(), b.info()), std::max(a.info(), b.info())};
-    if (AreInContact(table, pair, threshold)) pairs.push_back(pair);
-  });
-  std::sort(pairs.begin(), pairs.end());
+  return MarkedPairs(table, threshold, {});
+}
+
+std::vector<SegmentPair> SegmentPairsInContact(const SegmentTable& table, double threshold,
+                                               const SegmentTable& earlier,
+                                               const std::vector<SegmentPair>& earlier_pairs) {
+  const std::vector<int> kept_curves = table.NumbersOf(earlier);
+  std::vector<char> has_changed(table.edges.size(), true);
+  for (const int curve : kept_curves)
+    if (curve >= 0) has_changed[curve] = false;
+  std::vector<SegmentPair> pairs = KeptPairs(earlier, earlier_pairs, kept_curves, table);
+  const std::vector<SegmentPair> changed = MarkedPairs(table, threshold, has_changed);
+  const auto kept_count = static_cast<std::ptrdiff_t>(pairs.size());
+  pairs.insert(pairs.end(), changed.begin(), changed.end());
+  std::inplace_merge(pairs.begin(), pairs.begin() + kept_count, pairs.end());
   return pairs;
 }
 

@@ -27,8 +27,15 @@ std::vector<LinearGap> ShortWays(const SegmentTable& table, const SegmentPair& p
 ///   along the common curve or over one common node, is at least kConnectedReach thresholds long;
 ///   this applies to thresholds above zero.
 /// Decided exactly on the stored coordinates and on arc lengths as the table has them. No segment
-/// may have length zero. O(n log^3 n + k) in segments and in pairs whose boxes meet.
+/// may have length zero. O(n log n + k) in segments and in pairs whose boxes meet.
 std::vector<SegmentPair> SegmentPairsInContact(const SegmentTable& table, double threshold);
+
+/// The same, given the pairs in contact of an earlier state of the graph at the same threshold.
+/// Whether two segments are in contact depends on their own edges only, so pairs on edges that have
+/// not changed need not be decided again.
+std::vector<SegmentPair> SegmentPairsInContact(const SegmentTable& table, double threshold,
+                                               const SegmentTable& earlier,
+                                               const std::vector<SegmentPair>& earlier_pairs);
 
 /// Whether one pair is in contact.
 bool AreInContact(const SegmentTable& table, const SegmentPair& pair, double threshold);

@@ -14,19 +14,28 @@ namespace curvefusion {
 struct SegmentTable {
   explicit SegmentTable(const SkeletonGraph& graph);
 
+  /// The same, given that of an earlier state of the graph, which is faster.
+  SegmentTable(const SkeletonGraph& graph, const SegmentTable& earlier);
+
   std::vector<EdgeId> edges;                 ///< of each curve
+  std::vector<int> versions;                 ///< of each curve: of its edge
   std::vector<std::array<NodeId, 2>> nodes;  ///< of each curve
   std::vector<int> first_points;             ///< of each curve; one more closes the last
   std::vector<int> curves;                   ///< of each point
   std::vector<Vec3> points;
   std::vector<double> arcs;  ///< of each point: arc length from the front of its curve
 
+  int curve_count() const { return static_cast<int>(edges.size()); }
   int point_count() const { return static_cast<int>(points.size()); }
   bool IsSegment(int k) const {
     return k >= 0 && k + 1 < point_count() && curves[k] == curves[k + 1];
   }
   Segment At(int k) const { return {points[k], points[k + 1]}; }
   double Length(int curve) const { return arcs[first_points[curve + 1] - 1]; }
+
+  /// Of each curve of an earlier table of the same graph, the number it has here; -1 where its edge
+  /// has changed or is no more.
+  std::vector<int> NumbersOf(const SegmentTable& earlier) const;
 
   /// Arc length of a point of a curve from its front (end 0) or back (end 1).
   double FromEnd(int point, int end) const {
@@ -40,6 +49,11 @@ struct SegmentTable {
 
   /// The node at which a segment begins (side 0) or ends (side 1); -1 where that is inside a curve.
   NodeId NodeAt(int segment, int side) const;
+
+ private:
+  SegmentTable() = default;
+  void AddEdge(const SkeletonEdge& edge);
+  void AddCurve(const SegmentTable& from, int curve);
 };
 
 }  // namespace curvefusion

@@ -34,6 +34,15 @@ std::vector<T> Slice(const std::vector<T>& values, size_t first, size_t last) {
           values.begin() + static_cast<std::ptrdiff_t>(last)};
 }
 
+// The numbers of versions above one.
+std::vector<int> ChangedSince(const std::vector<int>& versions, int since, int live_count) {
+  std::vector<int> changed;
+  if (since == 0) changed.reserve(static_cast<size_t>(live_count));
+  for (size_t i = 0; i < versions.size(); ++i)
+    if (versions[i] > since) changed.push_back(static_cast<int>(i));
+  return changed;
+}
+
 }  // namespace
 
 void Reverse(SkeletonEdge& edge) {
@@ -44,9 +53,12 @@ void Reverse(SkeletonEdge& edge) {
 }
 
 NodeId SkeletonGraph::AddNode(const Vec3& position) {
+  const auto id = static_cast<NodeId>(nodes_.size());
   nodes_.emplace_back(Node{position, {}});
+  node_versions_.push_back(0);
+  TouchNode(id);
   ++node_count_;
-  return static_cast<NodeId>(nodes_.size()) - 1;
+  return id;
 }
 
 EdgeId SkeletonGraph::AddEdge(SkeletonEdge edge) {
@@ -56,8 +68,13 @@ EdgeId SkeletonGraph::AddEdge(SkeletonEdge edge) {
   assert(edge.radii.empty() || edge.radii.size() == edge.points.size());
   assert(edge.observations.empty() || edge.observations.size() == edge.points.size());
   const EdgeId id = static_cast<EdgeId>(edges_.size());
-  for (const NodeId node : edge.nodes) nodes_[node]->edges.push_back(id);
+  for (const NodeId node : edge.nodes) {
+    nodes_[node]->edges.push_back(id);
+    TouchNode(node);
+  }
   edges_.emplace_back(std::move(edge));
+  edge_versions_.push_back(0);
+  TouchEdge(id);
   ++edge_count_;
   return id;
 }
@@ -70,33 +87,38 @@ EdgeId SkeletonGraph::AddPolyline(Polyline points) {
 }
 
 void SkeletonGraph::Detach(NodeId node, EdgeId edge) {
-  std::vector<EdgeId>& incident = nodes_[node]->edges;
+  auto& incident = nodes_[node]->edges;
   incident.erase(std::find(incident.begin(), incident.end(), edge));
+  TouchNode(node);
 }
 
 void SkeletonGraph::RemoveEdge(EdgeId edge) {
   assert(HasEdge(edge));
   for (const NodeId node : edges_[edge]->nodes) Detach(node, edge);
   edges_[edge].reset();
+  edge_versions_[edge] = 0;
   --edge_count_;
 }
 
 void SkeletonGraph::RemoveNode(NodeId node) {
   assert(HasNode(node) && Degree(node) == 0);
   nodes_[node].reset();
+  node_versions_[node] = 0;
   --node_count_;
 }
 
-void SkeletonGraph::RemoveIsolatedNodes() {
-  for (const NodeId node : Nodes()) {
+void SkeletonGraph::RemoveIsolatedNodes(int since) {
+  for (const NodeId node : Nodes(since)) {
     if (Degree(node) == 0) RemoveNode(node);
   }
 }
 
 void SkeletonGraph::MoveNode(NodeId node, const Vec3& position) {
   nodes_[node]->position = position;
+  TouchNode(node);
   for (const EdgeId id : nodes_[node]->edges) {
     SkeletonEdge& edge = *edges_[id];
+    TouchEdge(id);
     if (edge.nodes[0] == node) edge.points.front() = position;
     if (edge.nodes[1] == node) edge.points.back() = position;
   }
@@ -110,6 +132,7 @@ void SkeletonGraph::SetCurve(EdgeId edge, Polyline points, std::vector<double> r
   target.points = std::move(points);
   target.radii = std::move(radii);
   target.observations = std::move(observations);
+  TouchEdge(edge);
 }
 
 NodeId SkeletonGraph::SplitEdge(EdgeId edge, size_t point_index) {
@@ -132,8 +155,9 @@ NodeId SkeletonGraph::SplitEdge(EdgeId edge, size_t point_index) {
 void SkeletonGraph::MergeNodes(NodeId kept, NodeId merged) {
   assert(HasNode(kept) && HasNode(merged));
   if (kept == merged) return;
-  MoveNode(merged, position(kept));
-  const std::vector<EdgeId> moved = IncidentEdges(merged);
+  MoveNode(merged, position(kept));  // touches the edges
+  TouchNode(kept);
+  const auto moved = nodes_[merged]->edges;
   for (const EdgeId id : moved) {
     SkeletonEdge& edge = *edges_[id];
     for (NodeId& node : edge.nodes) {
@@ -153,6 +177,11 @@ bool SkeletonGraph::IsInsideCurve(NodeId node) const {
   return Degree(node) == 2 && IncidentEdges(node)[0] != IncidentEdges(node)[1];
 }
 
+NodeId SkeletonGraph::OtherEnd(EdgeId edge, NodeId node) const {
+  const std::array<NodeId, 2>& nodes = edges_[edge]->nodes;
+  return nodes[0] == node ? nodes[1] : nodes[0];
+}
+
 SkeletonEdge SkeletonGraph::TakeChain(NodeId first, EdgeId next) {
   SkeletonEdge chain = edge(next);
   if (chain.nodes[0] != first) Reverse(chain);
@@ -168,22 +197,31 @@ SkeletonEdge SkeletonGraph::TakeChain(NodeId first, EdgeId next) {
   return chain;
 }
 
-void SkeletonGraph::DissolveDegree2Nodes() {
-  // Chains between other nodes first; what is left then are closed curves, which keep their first
-  // node.
-  for (const bool closed : {false, true}) {
-    for (const NodeId node : Nodes()) {
-      if (!HasNode(node) || IsInsideCurve(node) != closed) continue;
-      const std::vector<EdgeId> incident = IncidentEdges(node);
-      for (const EdgeId id : incident) {
-        if (!HasEdge(id)) continue;
-        const std::array<NodeId, 2>& nodes = edge(id).nodes;
-        const NodeId other = nodes[0] == node ? nodes[1] : nodes[0];
-        if (other == node || !IsInsideCurve(other)) continue;
-        AddEdge(TakeChain(node, id));
-      }
-    }
+void SkeletonGraph::DissolveChainsFrom(NodeId node) {
+  const auto incident = nodes_[node]->edges;
+  for (const EdgeId id : incident) {
+    if (!HasEdge(id)) continue;
+    const NodeId other = OtherEnd(id, node);
+    if (other == node || !IsInsideCurve(other)) continue;
+    AddEdge(TakeChain(node, id));
   }
+}
+
+void SkeletonGraph::DissolveDegree2Nodes(int since) {
+  std::vector<NodeId> inside;
+  std::vector<NodeId> ends;  // of chains of such nodes
+  for (const NodeId node : Nodes(since)) {
+    if (!IsInsideCurve(node)) continue;
+    inside.push_back(node);
+    for (const EdgeId id : IncidentEdges(node))
+      if (!IsInsideCurve(OtherEnd(id, node))) ends.push_back(OtherEnd(id, node));
+  }
+  std::sort(ends.begin(), ends.end());
+  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  for (const NodeId node : ends) DissolveChainsFrom(node);
+  // What is left are closed curves, which keep their first node.
+  for (const NodeId node : inside)
+    if (HasNode(node) && IsInsideCurve(node)) DissolveChainsFrom(node);
 }
 
 bool SkeletonGraph::HasNode(NodeId node) const {
@@ -204,27 +242,17 @@ const SkeletonEdge& SkeletonGraph::edge(EdgeId edge) const {
   return *edges_[edge];
 }
 
-std::vector<NodeId> SkeletonGraph::Nodes() const {
-  std::vector<NodeId> live;
-  live.reserve(node_count_);
-  for (size_t i = 0; i < nodes_.size(); ++i) {
-    if (nodes_[i]) live.push_back(static_cast<NodeId>(i));
-  }
-  return live;
+std::vector<NodeId> SkeletonGraph::Nodes(int since) const {
+  return ChangedSince(node_versions_, since, node_count_);
 }
 
-std::vector<EdgeId> SkeletonGraph::Edges() const {
-  std::vector<EdgeId> live;
-  live.reserve(edge_count_);
-  for (size_t i = 0; i < edges_.size(); ++i) {
-    if (edges_[i]) live.push_back(static_cast<EdgeId>(i));
-  }
-  return live;
+std::vector<EdgeId> SkeletonGraph::Edges(int since) const {
+  return ChangedSince(edge_versions_, since, edge_count_);
 }
 
-const std::vector<EdgeId>& SkeletonGraph::IncidentEdges(NodeId node) const {
+std::span<const EdgeId> SkeletonGraph::IncidentEdges(NodeId node) const {
   assert(HasNode(node));
-  return nodes_[node]->edges;
+  return {nodes_[node]->edges.data(), nodes_[node]->edges.size()};
 }
 
 double SkeletonGraph::TotalLength() const {

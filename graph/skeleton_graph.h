@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <boost/container/small_vector.hpp>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "kernel/geometry.h"
@@ -45,8 +47,8 @@ class SkeletonGraph {
   /// Removes a node without edges.
   void RemoveNode(NodeId node);
 
-  /// Removes all nodes without edges.
-  void RemoveIsolatedNodes();
+  /// Removes all nodes without edges, of those that changed after a version.
+  void RemoveIsolatedNodes(int since = 0);
 
   /// Moves a node and with it the ends of its edges.
   void MoveNode(NodeId node, const Vec3& position);
@@ -63,23 +65,31 @@ class SkeletonGraph {
   /// that shrink to a point are removed.
   void MergeNodes(NodeId kept, NodeId merged);
 
-  /// Joins the two edges of every node of degree 2 into one. A closed curve keeps one node.
-  void DissolveDegree2Nodes();
+  /// Joins the two edges of every node of degree 2, of those that changed after a version, into
+  /// one. A closed curve keeps one node.
+  void DissolveDegree2Nodes(int since = 0);
 
   bool HasNode(NodeId node) const;
   bool HasEdge(EdgeId edge) const;
   const Vec3& position(NodeId node) const;
   const SkeletonEdge& edge(EdgeId edge) const;
 
-  /// Live handles in ascending order.
-  std::vector<NodeId> Nodes() const;
-  std::vector<EdgeId> Edges() const;
+  /// Live handles in ascending order; of what changed after a version only.
+  std::vector<NodeId> Nodes(int since = 0) const;
+  std::vector<EdgeId> Edges(int since = 0) const;
+
+  /// Grows with every change. A node changes with its position and the edges that end there, an
+  /// edge with its curve and its nodes.
+  int version() const { return version_; }
+  /// The version at which an edge changed last.
+  int version(EdgeId edge) const { return edge_versions_[edge]; }
+
   int node_count() const { return node_count_; }
   int edge_count() const { return edge_count_; }
   bool empty() const { return edge_count_ == 0; }
 
-  /// Edges at a node; a self-loop stands there twice.
-  const std::vector<EdgeId>& IncidentEdges(NodeId node) const;
+  /// Edges at a node, until one is added or removed; a self-loop stands there twice.
+  std::span<const EdgeId> IncidentEdges(NodeId node) const;
   int Degree(NodeId node) const { return static_cast<int>(IncidentEdges(node).size()); }
 
   /// Sum of the lengths of all edges in metres.
@@ -94,14 +104,22 @@ class SkeletonGraph {
  private:
   struct Node {
     Vec3 position;
-    std::vector<EdgeId> edges;
+    boost::container::small_vector<EdgeId, 4> edges;  // more meet at few nodes only
   };
   void Detach(NodeId node, EdgeId edge);
   bool IsInsideCurve(NodeId node) const;
+  NodeId OtherEnd(EdgeId edge, NodeId node) const;
   SkeletonEdge TakeChain(NodeId first, EdgeId next);
+  void DissolveChainsFrom(NodeId node);
+
+  void TouchNode(NodeId node) { node_versions_[node] = ++version_; }
+  void TouchEdge(EdgeId edge) { edge_versions_[edge] = ++version_; }
 
   std::vector<std::optional<Node>> nodes_;
   std::vector<std::optional<SkeletonEdge>> edges_;
+  std::vector<int> node_versions_;  // of the last change; 0 where the node is no more
+  std::vector<int> edge_versions_;
+  int version_ = 0;
   int node_count_ = 0;
   int edge_count_ = 0;
 };

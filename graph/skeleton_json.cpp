@@ -8,6 +8,7 @@
 
 #include "graph/graph_formats.h"
 #include "graph/graph_io.h"
+#include "graph/validate.h"
 #include "kernel/error.h"
 #include "kernel/json_input.h"
 
@@ -172,8 +173,8 @@ class SkeletonReader {
       edge.points.push_back(Point(points[i], fmt::format("{}.points[{}]", place, i)));
     edge.radii = Radii(json, edge.points.size(), place);
     if (json.contains("observations")) edge.observations = Values(json, "observations", place);
-    const std::string defect = EdgeDefect(edge, graph);
-    if (!defect.empty()) Fail(place + "." + defect);
+    const std::vector<std::string> faults = EdgeFaults(edge, graph);
+    if (!faults.empty()) Fail(place + "." + faults[0]);
     return edge;
   }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "graph/contacts.h"
 #include "graph/merge.h"
@@ -14,38 +15,40 @@ namespace {
 
 constexpr size_t kListedViolations = 5;
 
-bool HasInvalidValue(const std::vector<double>& values, bool zero_allowed) {
-  return std::any_of(values.begin(), values.end(), [zero_allowed](double value) {
-    return !std::isfinite(value) || value < 0 || (value == 0 && !zero_allowed);
-  });
-}
-
 bool AllFinite(const Polyline& points) {
   return std::all_of(points.begin(), points.end(), [](const Vec3& p) { return p.allFinite(); });
 }
 
-bool IsPerPoint(const std::vector<double>& values, const Polyline& points) {
-  return values.empty() || values.size() == points.size();
+// What is wrong with points, the first place of each kind.
+void AddPointFaults(const SkeletonEdge& edge, const SkeletonGraph& graph,
+                    std::vector<std::string>& faults) {
+  const Polyline& points = edge.points;
+  const auto infinite =
+      std::find_if(points.begin(), points.end(), [](const Vec3& p) { return !p.allFinite(); });
+  if (infinite != points.end())
+    faults.push_back(fmt::format("points[{}] is not finite", infinite - points.begin()));
+  const auto repeated = std::adjacent_find(points.begin(), points.end());
+  if (repeated != points.end())
+    faults.push_back(
+        fmt::format("points[{}] repeats the point before it", repeated - points.begin() + 1));
+  if (points.front() != graph.position(edge.nodes[0]))
+    faults.push_back(fmt::format("points does not have node {} as its first point", edge.nodes[0]));
+  if (points.back() != graph.position(edge.nodes[1]))
+    faults.push_back(fmt::format("points does not have node {} as its last point", edge.nodes[1]));
 }
 
-// Violations of one edge by itself, each the end of a sentence about it.
-std::vector<std::string> EdgeFaults(const SkeletonGraph& graph, const SkeletonEdge& edge) {
-  std::vector<std::string> faults;
-  if (edge.points.size() < 2) return {"has fewer than two points"};
-  if (!AllFinite(edge.points)) faults.push_back("has a coordinate that is not finite");
-  if (edge.points.front() != graph.position(edge.nodes[0]) ||
-      edge.points.back() != graph.position(edge.nodes[1]))
-    faults.push_back("does not end in its nodes");
-  const auto repeated = std::adjacent_find(edge.points.begin(), edge.points.end());
-  if (repeated != edge.points.end())
+// What is wrong with radii or observation counts.
+void AddValueFaults(const std::vector<double>& values, size_t point_count, const char* name,
+                    bool zero_allowed, std::vector<std::string>& faults) {
+  if (!values.empty() && values.size() != point_count)
     faults.push_back(
-        fmt::format("has a segment of length zero at point {}", repeated - edge.points.begin()));
-  if (!IsPerPoint(edge.radii, edge.points) || !IsPerPoint(edge.observations, edge.points))
-    faults.push_back("does not have one radius and one observation count per point");
-  if (HasInvalidValue(edge.radii, false)) faults.push_back("has a radius that is not positive");
-  if (HasInvalidValue(edge.observations, true))
-    faults.push_back("has an observation count that is negative");
-  return faults;
+        fmt::format("{} holds {} values for {} points", name, values.size(), point_count));
+  const auto bad = std::find_if(values.begin(), values.end(), [zero_allowed](double value) {
+    return !std::isfinite(value) || value < 0 || (value == 0 && !zero_allowed);
+  });
+  if (bad != values.end())
+    faults.push_back(fmt::format("{}[{}] is {}, not {}", name, bad - values.begin(), *bad,
+                                 zero_allowed ? "a count" : "positive"));
 }
 
 void AddContacts(const SkeletonGraph& graph, double proximity,
@@ -61,14 +64,24 @@ void AddContacts(const SkeletonGraph& graph, double proximity,
 
 }  // namespace
 
+std::vector<std::string> EdgeFaults(const SkeletonEdge& edge, const SkeletonGraph& graph) {
+  if (edge.points.size() < 2)
+    return {fmt::format("points holds {} points, at least 2 needed", edge.points.size())};
+  std::vector<std::string> faults;
+  AddPointFaults(edge, graph, faults);
+  AddValueFaults(edge.radii, edge.points.size(), "radii", false, faults);
+  AddValueFaults(edge.observations, edge.points.size(), "observations", true, faults);
+  return faults;
+}
+
 std::vector<std::string> Faults(const SkeletonGraph& graph) {
   std::vector<std::string> violations;
   for (const NodeId node : graph.Nodes())
     if (!graph.position(node).allFinite())
       violations.push_back(fmt::format("node {} has a coordinate that is not finite", node));
   for (const EdgeId id : graph.Edges())
-    for (const std::string& fault : EdgeFaults(graph, graph.edge(id)))
-      violations.push_back(fmt::format("edge {} {}", id, fault));
+    for (const std::string& fault : EdgeFaults(graph.edge(id), graph))
+      violations.push_back(fmt::format("edge {}: {}", id, fault));
   return violations;
 }
 

@@ -7,11 +7,16 @@
 
 namespace curvefusion {
 
-/// What is wrong with a graph whatever the distance of its edges, one sentence each: coordinates
-/// that are not finite, edges of fewer than two points, edges whose ends do not equal their nodes
-/// bit for bit, segments of length zero, radii that are not positive, observations that are
-/// negative, either not one per point or none. Every operation on graphs without such faults ends
-/// in one without. Linear.
+/// What is wrong with an edge of a graph, or with one that is to be added to it ("points[3] repeats
+/// the point before it"): fewer than two points, coordinates that are not finite, segments of
+/// length zero, ends that do not equal the nodes bit for bit, radii that are not positive,
+/// observations that are negative, either not one per point or none. Of each kind the first. Its
+/// nodes must exist.
+std::vector<std::string> EdgeFaults(const SkeletonEdge& edge, const SkeletonGraph& graph);
+
+/// What is wrong with a graph whatever the distance of its edges, one sentence each: nodes that are
+/// not finite, and EdgeFaults. Every operation on graphs without faults ends in one without.
+/// Linear.
 std::vector<std::string> Faults(const SkeletonGraph& graph);
 
 /// What is wrong with a graph, one sentence each; empty for a valid one:

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/container/small_vector.hpp>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -67,8 +68,9 @@ FT GapAt(const LinearGap& gap, const Parameters<FT>& at) {
          at.t * (FT(gap.t_at_b) - FT(gap.t_at_a));
 }
 
+// A square that is cut by few lines.
 template <class FT>
-using ParameterPolygon = std::vector<Parameters<FT>>;
+using ParameterPolygon = boost::container::small_vector<Parameters<FT>, 8>;
 
 // The part of a convex polygon where a gap is large enough.
 template <class FT>

@@ -7,8 +7,8 @@
 #include <numeric>
 #include <utility>
 
+#include "kernel/box_pairs.h"
 #include "kernel/disjoint_sets.h"
-#include "meshing/box_pairs.h"
 
 namespace curvefusion {
 

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <filesystem>
 #include <iterator>
+#include <limits>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -108,10 +109,7 @@ class GlbReader {
     if (model_.scenes.empty()) {
       for (const tinygltf::Mesh& mesh : model_.meshes) AddMesh(mesh, AffineTransform::Identity());
     } else {
-      const int scene = std::max(model_.defaultScene, 0);
-      for (const int node : At(model_.scenes, scene).nodes) {
-        AddNode(node, AffineTransform::Identity(), 0);
-      }
+      AddNodes(At(model_.scenes, std::max(model_.defaultScene, 0)).nodes);
     }
     return std::move(result_);
   }
@@ -139,12 +137,25 @@ class GlbReader {
     return T;
   }
 
-  void AddNode(int index, const AffineTransform& T_world_parent, size_t depth) {
-    if (depth > model_.nodes.size()) Fail("nodes contain each other");
-    const tinygltf::Node& node = At(model_.nodes, index);
-    const AffineTransform T_world_node = T_world_parent * TransformOf(node);
-    if (node.mesh >= 0) AddMesh(At(model_.meshes, node.mesh), T_world_node);
-    for (const int child : node.children) AddNode(child, T_world_node, depth + 1);
+  // Nodes and what they contain, in depth first order; they must be trees, however deep.
+  void AddNodes(const std::vector<int>& roots) {
+    std::vector<std::pair<int, AffineTransform>> open;
+    const auto add = [&open](const std::vector<int>& nodes, const AffineTransform& T_world_parent) {
+      for (auto node = nodes.rbegin(); node != nodes.rend(); ++node)
+        open.emplace_back(*node, T_world_parent);
+    };
+    std::vector<char> visited(model_.nodes.size(), false);
+    add(roots, AffineTransform::Identity());
+    while (!open.empty()) {
+      const auto [index, T_world_parent] = open.back();
+      open.pop_back();
+      const tinygltf::Node& node = At(model_.nodes, index);
+      if (visited[index]) Fail("a node is contained twice");
+      visited[index] = true;
+      const AffineTransform T_world_node = T_world_parent * TransformOf(node);
+      if (node.mesh >= 0) AddMesh(At(model_.meshes, node.mesh), T_world_node);
+      add(node.children, T_world_node);
+    }
   }
 
   void AddMesh(const tinygltf::Mesh& mesh, const AffineTransform& T_world_mesh) {
@@ -169,9 +180,9 @@ class GlbReader {
     if (stride < size || size <= 0 || accessor.count == 0 || accessor.count > buffer.size()) {
       Fail("an accessor is damaged or empty");
     }
-    const size_t last = accessor.byteOffset + (accessor.count - 1) * stride + size;
-    if (last > view.byteLength || view.byteOffset > buffer.size() ||
-        view.byteLength > buffer.size() - view.byteOffset) {
+    const size_t extent = (accessor.count - 1) * stride + size;
+    if (accessor.byteOffset > view.byteLength || extent > view.byteLength - accessor.byteOffset ||
+        view.byteOffset > buffer.size() || view.byteLength > buffer.size() - view.byteOffset) {
       Fail("an accessor reaches beyond its buffer");
     }
     return {buffer.data() + view.byteOffset + accessor.byteOffset, static_cast<size_t>(stride)};
@@ -186,6 +197,9 @@ class GlbReader {
       Fail("only positions of three float numbers are read");
     }
     const Elements elements = ElementsOf(accessor);
+    if (accessor.count > std::numeric_limits<int>::max() - result_.vertices.size()) {
+      Fail("the mesh has too many vertices");
+    }
     const int first = static_cast<int>(result_.vertices.size());
     for (size_t i = 0; i < accessor.count; ++i) {
       Vec3f v;

@@ -83,15 +83,6 @@ std::optional<TriangleMesh> OpenAtCutRings(TriangleMesh mesh, const Junction& ju
   return mesh;
 }
 
-// The triangles that meet others, in metres or once the coordinates are rounded in millimetres.
-std::vector<std::pair<int, int>> Collisions(const TriangleMesh& mesh) {
-  std::vector<std::pair<int, int>> collisions = FindSelfIntersections(mesh);
-  TriangleMesh millimetres = mesh;
-  for (Vec3f& v : millimetres.vertices) v = (v.cast<double>() / kMillimetre).cast<float>();
-  for (const auto& pair : FindSelfIntersections(millimetres)) collisions.push_back(pair);
-  return collisions;
-}
-
 // Cleaning makes sheets collide that pass each other closely: there it is done more finely at
 // first, then more coarsely.
 class ZoneList {
@@ -146,7 +137,7 @@ std::optional<TriangleMesh> CleanSoundly(const UnionMesh& united, const Junction
     std::optional<TriangleMesh> clean = CleanUnion(
         united, kept, {kMinEdge * junction.radius, kMinHeight * junction.radius, zones.Zones()});
     if (!clean) return std::nullopt;
-    const auto collisions = Collisions(*clean);
+    const auto collisions = FindSelfIntersectionsInFiles(*clean);
     if (collisions.empty()) return clean;
     zones.Mark(*clean, collisions);
   }

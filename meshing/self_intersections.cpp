@@ -3,9 +3,11 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
 #include <algorithm>
+#include <limits>
 
+#include "kernel/box_pairs.h"
+#include "kernel/geometry.h"
 #include "kernel/parallel.h"
-#include "meshing/box_pairs.h"
 
 namespace curvefusion {
 
@@ -77,27 +79,30 @@ bool IsDegenerate(const TriangleMesh& mesh, int face) {
   return CGAL::collinear(At(mesh, a), At(mesh, b), At(mesh, c));
 }
 
-std::vector<Eigen::AlignedBox3d> BoxesOf(const TriangleMesh& mesh) {
+// The pairs of triangles that may meet, wherever their vertices are moved by less than `margin`.
+std::vector<std::pair<int, int>> CandidatePairs(const TriangleMesh& mesh, double margin) {
   std::vector<Eigen::AlignedBox3d> boxes;
   boxes.reserve(mesh.triangles.size());
   for (const auto& triangle : mesh.triangles) {
     Eigen::AlignedBox3d box;
     for (const int v : triangle) box.extend(mesh.vertices[v].cast<double>());
+    box.min().array() -= margin;
+    box.max().array() += margin;
     boxes.push_back(box);
   }
-  return boxes;
+  return OverlappingBoxes(boxes);
 }
 
-}  // namespace
-
-std::vector<std::pair<int, int>> FindSelfIntersections(const TriangleMesh& mesh, int limit) {
+// Those of the candidates that meet, and the triangles without area.
+std::vector<std::pair<int, int>> Meeting(const TriangleMesh& mesh,
+                                         const std::vector<std::pair<int, int>>& candidates,
+                                         int limit) {
   std::vector<std::pair<int, int>> found;
   std::vector<char> degenerate(mesh.triangles.size(), 0);
   for (int i = 0; i < static_cast<int>(mesh.triangles.size()); ++i) {
     degenerate[i] = IsDegenerate(mesh, i);
     if (degenerate[i]) found.emplace_back(i, i);
   }
-  const std::vector<std::pair<int, int>> candidates = OverlappingBoxes(BoxesOf(mesh));
   std::vector<char> hit(candidates.size(), 0);
   ParallelFor(0, static_cast<int64_t>(candidates.size()), 4096, [&](int64_t k) {
     const auto& [i, j] = candidates[k];
@@ -107,6 +112,29 @@ std::vector<std::pair<int, int>> FindSelfIntersections(const TriangleMesh& mesh,
     if (hit[k]) found.push_back(candidates[k]);
   }
   std::sort(found.begin(), found.end());
+  return found;
+}
+
+}  // namespace
+
+std::vector<std::pair<int, int>> FindSelfIntersections(const TriangleMesh& mesh, int limit) {
+  return Meeting(mesh, CandidatePairs(mesh, 0), limit);
+}
+
+std::vector<std::pair<int, int>> FindSelfIntersectionsInFiles(const TriangleMesh& mesh) {
+  TriangleMesh millimetres = mesh;
+  float farthest = 0;
+  for (Vec3f& v : millimetres.vertices) {
+    farthest = std::max(farthest, v.cwiseAbs().maxCoeff());
+    v = (v.cast<double>() / kMillimetre).cast<float>();
+  }
+  // Rounding moves a coordinate by less.
+  const double margin = farthest * std::numeric_limits<float>::epsilon();
+  const std::vector<std::pair<int, int>> candidates = CandidatePairs(mesh, margin);
+  constexpr int kLimit = 1000;
+  std::vector<std::pair<int, int>> found = Meeting(mesh, candidates, kLimit);
+  const std::vector<std::pair<int, int>> rounded = Meeting(millimetres, candidates, kLimit);
+  found.insert(found.end(), rounded.begin(), rounded.end());
   return found;
 }
 

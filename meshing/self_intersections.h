@@ -12,4 +12,8 @@ namespace curvefusion {
 /// with itself. At most about `limit` pairs are returned. O(n log^3 n), in parallel.
 std::vector<std::pair<int, int>> FindSelfIntersections(const TriangleMesh& mesh, int limit = 1000);
 
+/// The same for the coordinates as they are, then for those rounded in millimetres, as in files of
+/// that unit; a pair may stand there twice.
+std::vector<std::pair<int, int>> FindSelfIntersectionsInFiles(const TriangleMesh& mesh);
+
 }  // namespace curvefusion

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "meshing/tube_envelope.h"
+
 namespace curvefusion {
 
 namespace {
@@ -146,7 +148,7 @@ double ChordDeviation(const TubeAxis& axis, size_t a, size_t k, size_t b) {
 }
 
 TubeAxis SimplifyAxis(const TubeAxis& axis, const AxisOptions& options) {
-  const TubeAxis distinct = WithoutRepeatedPoints(axis);
+  const TubeAxis distinct = FitToEnvelope(WithoutRepeatedPoints(axis));
   std::vector<size_t> kept = PointsWithinTolerance(distinct, options.tolerance);
   kept = SmoothKinks(distinct, ThinOut(distinct, kept, options.min_spacing), options);
   TubeAxis simple;

@@ -15,9 +15,9 @@ struct TubeAxis {
 
 /// How a noisy polyline becomes the axis of a tube; lengths in local radii.
 struct AxisOptions {
-  double tolerance = 0.04;       ///< the simplified axis follows the given one within this
+  double tolerance = 0.02;       ///< the simplified axis follows the given one within this
   double min_spacing = 0.3;      ///< least distance of consecutive points
-  double kink_tolerance = 0.15;  ///< the same where a tube could not be swept otherwise
+  double kink_tolerance = 0.05;  ///< the same where a tube could not be swept otherwise
   double max_turn = 0.785;       ///< radians, at one point of a swept tube
 };
 

@@ -15,7 +15,7 @@ struct TubeOptions {
   double default_radius = 0.0025;  ///< m, > 0, of edges without radii; Kinect-size wires
   int sides = 16;                  ///< corners of a ring, 8 to 64; chosen here: < 1 % of the radius
   double ring_spacing = 2.5;     ///< radii between rings along straight tubes, 1 to 20; chosen here
-  double axis_tolerance = 0.04;  ///< radii by which the simplified axis may differ, 0.005 to 0.2;
+  double axis_tolerance = 0.02;  ///< radii by which the simplified axis may differ, 0.005 to 0.2;
                                  ///< chosen here: far below what a scan resolves
   int attempts = 8;              ///< per junction, each a little perturbed, 1 to 20; chosen here
 };

@@ -7,6 +7,7 @@
 #include "graph/intersections.h"
 #include "graph/merge.h"
 #include "graph/segment_pairs.h"
+#include "kernel/parallel.h"
 
 namespace curvefusion {
 namespace {
@@ -27,7 +28,26 @@ SkeletonGraph Wires(int64_t segments) {
   return graph;
 }
 
-// Single segments of 20 mm at random, so dense that each meets one other on average.
+// A lattice of wires of 20 mm segments in all three directions, one crossing of three a segment.
+SkeletonGraph Lattice(int64_t segments) {
+  constexpr double kPitch = 0.02;
+  const int cells = std::max(1, static_cast<int>(std::cbrt(static_cast<double>(segments) / 3)));
+  const double length = cells * kPitch + 0.01;
+  SkeletonGraph graph;
+  for (int i = 0; i <= cells; ++i) {
+    for (int j = 0; j <= cells; ++j) {
+      const double u = kPitch * i;
+      const double v = kPitch * j;
+      graph.AddPolyline(Resample({{-0.01, u, v}, {length, u, v}}, kPitch));
+      graph.AddPolyline(Resample({{u, -0.01, v + 0.001}, {u, length, v + 0.001}}, kPitch));
+      graph.AddPolyline(Resample({{u + 0.001, v, -0.01}, {u + 0.001, v, length}}, kPitch));
+    }
+  }
+  return graph;
+}
+
+// Single segments of 20 mm at random, so dense that each meets one other on average: the density
+// does not depend on their number.
 SkeletonGraph RandomSegments(int64_t segments) {
   std::mt19937_64 random(1);
   const double half = 0.5 * std::cbrt(static_cast<double>(segments) * 2e-6);
@@ -50,6 +70,7 @@ size_t SegmentCount(const SkeletonGraph& graph) {
 
 template <SkeletonGraph (*kMake)(int64_t)>
 void Resolve(benchmark::State& state) {
+  const ThreadLimit one_core(1);
   const SkeletonGraph graph = kMake(state.range(0));
   int rounds = 0;
   for (auto _ : state) {
@@ -61,6 +82,10 @@ void Resolve(benchmark::State& state) {
   state.counters["rounds"] = rounds;
 }
 BENCHMARK(Resolve<Wires>)->RangeMultiplier(10)->Range(1000, 1000000)->Unit(benchmark::kMillisecond);
+BENCHMARK(Resolve<Lattice>)
+    ->RangeMultiplier(10)
+    ->Range(1000, 1000000)
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK(Resolve<RandomSegments>)
     ->RangeMultiplier(10)
     ->Range(1000, 1000000)
@@ -68,6 +93,7 @@ BENCHMARK(Resolve<RandomSegments>)
 
 template <SkeletonGraph (*kMake)(int64_t)>
 void FindPairs(benchmark::State& state) {
+  const ThreadLimit one_core(1);
   const SegmentTable table(kMake(state.range(0)));
   for (auto _ : state) benchmark::DoNotOptimize(SegmentPairsInContact(table, kThreshold));
 }

@@ -11,6 +11,10 @@
 
 namespace curvefusion {
 
+/// To be raised with every change of the bytes of a simulated scan: what keeps scans under a name
+/// then makes them anew.
+inline constexpr int kSimulatorVersion = 1;
+
 /// A scan to simulate.
 struct SimulationOptions {
   std::string object = "cubeframe";      ///< one of ObjectNames(), or of object_options.curves

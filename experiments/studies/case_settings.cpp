@@ -48,9 +48,13 @@ Json CurvesJson(const std::vector<WireCurve>& curves) {
 }
 
 Json ScanJson(const SimulationOptions& scan) {
-  return {{"object", scan.object},           {"sensor", scan.sensor},
-          {"pose_source", scan.pose_source}, {"seed", scan.seed},
-          {"options", OptionsJson(scan)},    {"curves", CurvesJson(scan.object_options.curves)}};
+  return {{"simulator", kSimulatorVersion},
+          {"object", scan.object},
+          {"sensor", scan.sensor},
+          {"pose_source", scan.pose_source},
+          {"seed", scan.seed},
+          {"options", OptionsJson(scan)},
+          {"curves", CurvesJson(scan.object_options.curves)}};
 }
 
 }  // namespace

@@ -55,5 +55,14 @@ TEST(EstimateColorShiftTest, ZeroWhereItCannotBeTold) {
       EstimateColorShift(std::vector<Vec2>(100, Vec2(1, 0)), std::vector<double>(100, 1)).isZero());
 }
 
+// A hundred wires that lie say enough, however many stand.
+TEST(EstimateColorShiftTest, FewLyingWiresAmongManyUprightOnesSuffice) {
+  std::vector<Vec2> normals(10000, Vec2(1, 0));
+  normals.insert(normals.end(), 100, Vec2(0, 1));
+  std::vector<double> offsets_px(10000, 0.5);
+  offsets_px.insert(offsets_px.end(), 100, -1);
+  EXPECT_TRUE(EstimateColorShift(normals, offsets_px).isApprox(Vec2(0.5, -1), 1e-9));  // exact data
+}
+
 }  // namespace
 }  // namespace curvefusion

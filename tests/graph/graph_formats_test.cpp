@@ -76,7 +76,7 @@ SkeletonGraph LatticeRingAndCurve() {
 int CountCurveNodes(const SkeletonGraph& graph) {
   int count = 0;
   for (const NodeId node : graph.Nodes()) {
-    const std::vector<EdgeId>& edges = graph.IncidentEdges(node);
+    const std::span<const EdgeId> edges = graph.IncidentEdges(node);
     count += edges.size() == 2 && edges[0] != edges[1] ? 1 : 0;
   }
   return count;

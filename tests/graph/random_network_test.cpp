@@ -131,11 +131,18 @@ bool IsOfObjectSize(const RandomNetwork& network) {
 
 std::string CheckOperations(const RandomNetwork& network) {
   if (!IsOfObjectSize(network)) return "";
+  const SkeletonGraph original = WithoutPoints(network.graph);
+  const SegmentTable before(original);
+  const std::vector<SegmentPair> pairs_before = SegmentPairsInContact(before, network.threshold);
   for (const NamedOperation& operation : Operations()) {
-    SkeletonGraph graph = WithoutPoints(network.graph);
+    SkeletonGraph graph = original;
     operation.run(graph, network.threshold);
     const std::string fault = FirstOf(Faults(graph));
     if (!fault.empty()) return std::string(operation.name) + ": " + fault;
+    const SegmentTable after(graph, before);
+    if (SegmentPairsInContact(after, network.threshold, before, pairs_before) !=
+        SegmentPairsInContact(SegmentTable(graph), network.threshold))
+      return std::string(operation.name) + ": a change is not noticed";
   }
   return "";
 }

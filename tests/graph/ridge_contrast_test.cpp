@@ -42,6 +42,22 @@ TEST(StandsOut, WeakWireWithClearSidesDoes) {
       (std::vector<char>{1, 1}));
 }
 
+// Depth noise fills the space before and behind a wire, which is no reason to drop it.
+TEST(StandsOut, WeakWireScatteredAlongItsRaysDoes) {
+  ObservedPoints points = StrongWires();
+  const ObservedPoints weak = NoisyWires({{{0.05, -0.05, 0}, {0.05, 0.07, 0}}}, 1e-3, 0.5e-3);
+  for (size_t i = 0; i < weak.size(); ++i) {
+    for (const double behind : {-0.01, -0.005, 0.0, 0.005, 0.01}) {
+      points.Add(weak.positions[i] + behind * Vec3::UnitZ(), Vec3::UnitZ(), 1);
+    }
+  }
+  const std::vector<Vec3> places{{0.05, 0, 0}, {0.05, -0.015, 0}};
+  const std::vector<Vec3> directions{Vec3::UnitX(), Vec3::UnitY()};
+  EXPECT_EQ(StandsOut(points, places, directions, {}), (std::vector<char>{1, 1}));
+  points.viewing_rays.assign(points.size(), Vec3::Zero());
+  EXPECT_EQ(StandsOut(points, places, directions, {}), (std::vector<char>{1, 0}));
+}
+
 TEST(StandsOut, EqualNeighboursDoNotMatter) {
   std::vector<Polyline> wires;
   std::vector<Vec3> places;

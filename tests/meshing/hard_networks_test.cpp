@@ -24,6 +24,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// The networks of the test are those from this seed on; others were looked at during development.
+constexpr uint64_t kFirstSeed = 5000;
+// A contact that appears or vanishes when radii change by this part may come out either way: the
+// corners of the polygons stand out by 1.3 %.
+constexpr double kGrazing = 0.02;
+// The volume is then known within .2 %.
+constexpr int kVolumeSamples = 100000;
+
+// What is asked of the networks of a kind.
+struct Kind {
+  std::string name;
+  // Bends tighter than the tube are cut into pieces with rounded ends.
+  double volume_tolerance = name == "tight_bends" ? 0.05 : 0.02;
+  double mean_volume_tolerance = name == "tight_bends" ? 0.02 : 0.005;
+  bool side_by_side = name == "coil" || name == "close_parallel";
+};
+
 // What became of the networks of a kind.
 struct Tally {
   int networks = 0;
@@ -32,7 +49,7 @@ struct Tally {
   int fallbacks = 0;     // networks with at least one
   int last_resorts = 0;  // networks with at least one
   int wrong_topology = 0;
-  int grazing = 0;  // wrong, but right for radii changed by 2 %
+  int grazing = 0;  // different, but explained by contacts within 2 %
   double volume_error = 0;
   double worst_volume_error = 0;
   double seconds = 0;  // CPU
@@ -64,27 +81,32 @@ bool SurvivesFiles(const TubeMesh& tubes) {
   return sound;
 }
 
-void CompareWithTruth(const SkeletonGraph& graph, const TubeMesh& tubes, double volume_tolerance,
+void CompareWithTruth(const SkeletonGraph& graph, const TubeMesh& tubes, const Kind& kind,
                       Tally& tally) {
   const Topology truth = TopologyOfTubes(graph);
   if (tubes.report.components - tubes.report.genus != truth.euler) {
-    const bool grazes = HasGrazingContact(graph);
+    const int64_t difference = std::abs(tubes.report.components - tubes.report.genus - truth.euler);
+    // Tubes side by side touch along a line: one contact of the truth, many of polygons. Elsewhere
+    // a contact may also enclose a pocket.
+    const bool grazes = kind.side_by_side ? TopologyOfTubes(graph, 1 - kGrazing) !=
+                                                TopologyOfTubes(graph, 1 + kGrazing)
+                                          : difference <= 2 * CountGrazingContacts(graph, kGrazing);
     ++(grazes ? tally.grazing : tally.wrong_topology);
     if (!grazes) {
       fmt::print("components {}, genus {}; truly {} components, Euler characteristic {}\n",
                  tubes.report.components, tubes.report.genus, truth.components, truth.euler);
     }
   }
-  const SampledVolume volume = VolumeOfTubes(graph, 30000);
+  const SampledVolume volume = VolumeOfTubes(graph, kVolumeSamples);
   const double error = std::abs(tubes.report.volume / volume.volume - 1);
-  EXPECT_LT(error, volume_tolerance + 4 * volume.relative_error);
+  EXPECT_LT(error, kind.volume_tolerance + 4 * volume.relative_error);
   // What sampling cannot tell from zero is none.
   const double certain = std::max(0.0, error - 2 * volume.relative_error);
   tally.volume_error += error;
   tally.worst_volume_error = std::max(tally.worst_volume_error, certain);
 }
 
-void Examine(const SkeletonGraph& graph, double volume_tolerance, Tally& tally) {
+void Examine(const SkeletonGraph& graph, const Kind& kind, Tally& tally) {
   ++tally.networks;
   TubeMesh tubes;
   const std::clock_t start = std::clock();
@@ -101,7 +123,7 @@ void Examine(const SkeletonGraph& graph, double volume_tolerance, Tally& tally) 
   tally.fallbacks += !tubes.fallbacks.empty();
   tally.last_resorts += std::any_of(tubes.fallbacks.begin(), tubes.fallbacks.end(),
                                     [](const TubeFallback& f) { return f.last_resort; });
-  CompareWithTruth(graph, tubes, volume_tolerance, tally);
+  CompareWithTruth(graph, tubes, kind, tally);
 }
 
 // CURVEFUSION_TUBE_NETWORKS changes the number of networks per kind, CURVEFUSION_TUBE_KIND chooses
@@ -113,28 +135,18 @@ TEST(Tubes, RandomHardNetworks) {
   fmt::print(
       "| kind | networks | defects | fallbacks | last resorts | wrong topology | grazing | "
       "volume error %, mean | worst | CPU ms |\n");
-  int wrong_topology = 0;
-  int networks = 0;
-  for (const std::string& kind : HardKinds()) {
-    if (only && kind != only) continue;
+  for (const std::string& name : HardKinds()) {
+    if (only && name != only) continue;
+    const Kind kind{name};
     Tally tally;
-    for (int seed = 0; seed < count; ++seed) {
-      SCOPED_TRACE(kind + " " + std::to_string(seed));
-      // Bends tighter than the tube are cut into pieces with rounded ends.
-      Examine(RandomHardGraph(kind, static_cast<uint64_t>(seed)),
-              kind == "tight_bends" ? 0.05 : 0.02, tally);
+    for (uint64_t seed = kFirstSeed; seed < kFirstSeed + static_cast<uint64_t>(count); ++seed) {
+      SCOPED_TRACE(name + " " + std::to_string(seed));
+      Examine(RandomHardGraph(name, seed), kind, tally);
     }
-    tally.Print(kind);
-    wrong_topology += tally.wrong_topology;
-    networks += tally.networks;
-    // Kinks of noise are smoothed within .15 r, which takes volume off.
-    const double greatest = kind == "tight_bends" ? 0.02 : kind == "noisy" ? 0.01 : 0.005;
-    EXPECT_LT(tally.volume_error / count, greatest) << kind;
-  }
-  // Kinks as small as noise are smoothed within .15 r: holes and contacts of that size may come out
-  // either way (docs/meshing.md has the figures).
-  if (!only) {
-    EXPECT_LE(wrong_topology, networks / 50);
+    tally.Print(name);
+    EXPECT_EQ(tally.defects, 0) << name;
+    EXPECT_EQ(tally.wrong_topology, 0) << name;
+    EXPECT_LT(tally.volume_error / count, kind.mean_volume_tolerance) << name;
   }
 }
 

@@ -7,6 +7,7 @@
 #include <CGAL/Regular_triangulation_3.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <map>
 #include <random>
 #include <vector>
@@ -36,8 +37,10 @@ std::vector<Kernel::Weighted_point_3> BallsAlong(const SkeletonGraph& graph, dou
     const SkeletonEdge& edge = graph.edge(id);
     for (size_t i = 0; i + 1 < edge.points.size(); ++i) {
       const double radius = std::min(edge.radii[i], edge.radii[i + 1]);
+      // Five balls at least: the triangulation of fewer may have no volume, and then no alpha
+      // complex (the whole of a short straight edge was lost for that).
       const int parts =
-          1 + static_cast<int>(10 * (edge.points[i + 1] - edge.points[i]).norm() / radius);
+          4 + static_cast<int>(10 * (edge.points[i + 1] - edge.points[i]).norm() / radius);
       for (int k = 0; k <= parts; ++k) {
         const double t = static_cast<double>(k) / parts;
         // The triangulation needs points that do not all lie in one plane.
@@ -86,8 +89,16 @@ Topology TopologyOfTubes(const SkeletonGraph& graph, double scale) {
   return topology;
 }
 
-bool HasGrazingContact(const SkeletonGraph& graph) {
-  return TopologyOfTubes(graph, 0.98) != TopologyOfTubes(graph, 1.02);
+int64_t CountGrazingContacts(const SkeletonGraph& graph, double scale_tolerance) {
+  constexpr int kSteps = 5;  // to either side
+  int64_t contacts = 0;
+  Topology before = TopologyOfTubes(graph, 1 - scale_tolerance);
+  for (int k = 1 - kSteps; k <= kSteps; ++k) {
+    const Topology now = TopologyOfTubes(graph, 1 + scale_tolerance * k / kSteps);
+    contacts += std::abs(now.euler - before.euler);
+    before = now;
+  }
+  return contacts;
 }
 
 SurfaceDeviation DeviationFromTubes(const TriangleMesh& mesh, const SkeletonGraph& graph) {

@@ -19,9 +19,10 @@ struct Topology {
 };
 Topology TopologyOfTubes(const SkeletonGraph& graph, double scale = 1);
 
-/// Whether the topology depends on 2 % of the radius: tubes nearly touch or a hole is about to
-/// close.
-bool HasGrazingContact(const SkeletonGraph& graph);
+/// The number of contacts that come or go, and of holes and pockets that open or close, while all
+/// radii grow from 1 - scale_tolerance to 1 + scale_tolerance: that many may come out either way.
+/// Two that cancel each other within a fifth of the tolerance are not counted.
+int64_t CountGrazingContacts(const SkeletonGraph& graph, double scale_tolerance);
 
 /// The greatest distance of a vertex of the mesh from the surface of its nearest tube, outwards and
 /// inwards, in radii of that tube.

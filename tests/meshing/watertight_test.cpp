@@ -7,7 +7,6 @@
 #include <random>
 
 #include "kernel/error.h"
-#include "meshing/box_pairs.h"
 #include "meshing/self_intersections.h"
 #include "meshing/surface_mesh.h"
 
@@ -137,29 +136,6 @@ TEST(ExamineMesh, RefusesWhatIsNoMesh) {
   mesh = Cube({0, 0, 0}, 1);
   mesh.vertices[2].x() = std::numeric_limits<float>::quiet_NaN();
   EXPECT_THROW(ExamineMesh(mesh), Error);
-}
-
-TEST(OverlappingBoxes, EqualBruteForce) {
-  std::mt19937 random(7);
-  std::uniform_real_distribution<double> place(-1, 1);
-  std::uniform_real_distribution<double> exponent(-3, 0);
-  for (int round = 0; round < 20; ++round) {
-    std::vector<Eigen::AlignedBox3d> boxes;
-    for (int i = 0; i < 20 * round; ++i) {
-      const Vec3 low(place(random), place(random), place(random));
-      const double size = std::pow(10, exponent(random));
-      // Flat and point-like boxes too.
-      boxes.emplace_back(low, Vec3(low + size * Vec3(1, i % 3 == 0 ? 0 : 1, i % 5 == 0 ? 0 : 1)));
-      if (i % 7 == 0) boxes.push_back(boxes.back());
-    }
-    std::vector<std::pair<int, int>> expected;
-    for (int i = 0; i < static_cast<int>(boxes.size()); ++i) {
-      for (int j = i + 1; j < static_cast<int>(boxes.size()); ++j) {
-        if (boxes[i].intersects(boxes[j])) expected.emplace_back(i, j);
-      }
-    }
-    EXPECT_EQ(OverlappingBoxes(boxes), expected);
-  }
 }
 
 TEST(SurfaceMesh, RoundTripKeepsTheMesh) {

@@ -1,0 +1,87 @@
+#include "kernel/box_pairs.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "kernel/geometry.h"
+#include "kernel/parallel.h"
+
+namespace curvefusion {
+namespace {
+
+using Boxes = std::vector<Eigen::AlignedBox3d>;
+using Pairs = std::vector<std::pair<int, int>>;
+
+// Boxes of very different sizes, flat and point-like ones and equal ones too.
+Boxes RandomBoxes(int count, std::mt19937& random) {
+  std::uniform_real_distribution<double> place(-1, 1);
+  std::uniform_real_distribution<double> exponent(-3, 0);
+  Boxes boxes;
+  for (int i = 0; i < count; ++i) {
+    const Vec3 low(place(random), place(random), place(random));
+    const double size = std::pow(10, exponent(random));
+    boxes.emplace_back(low, Vec3(low + size * Vec3(1, i % 3 == 0 ? 0 : 1, i % 5 == 0 ? 0 : 1)));
+    if (i % 7 == 0) boxes.push_back(boxes.back());
+  }
+  return boxes;
+}
+
+Pairs AllPairs(const Boxes& boxes, const BoxPairFilter& filter) {
+  Pairs pairs;
+  for (int i = 0; i < static_cast<int>(boxes.size()); ++i) {
+    for (int j = i + 1; j < static_cast<int>(boxes.size()); ++j) {
+      if (!boxes[i].intersects(boxes[j])) continue;
+      if (!filter.marks.empty() && filter.marks[i] == 0 && filter.marks[j] == 0) continue;
+      if (!filter.keep || filter.keep(i, j)) pairs.emplace_back(i, j);
+    }
+  }
+  return pairs;
+}
+
+TEST(OverlappingBoxes, EqualBruteForce) {
+  std::mt19937 random(7);
+  for (int round = 0; round < 20; ++round) {
+    const Boxes boxes = RandomBoxes(20 * round, random);
+    EXPECT_EQ(OverlappingBoxes(boxes), AllPairs(boxes, {}));
+  }
+}
+
+TEST(OverlappingBoxes, OfMarkedBoxesAndThoseKeptEqualBruteForce) {
+  std::mt19937 random(8);
+  for (int marked_of_ten = 0; marked_of_ten <= 10; ++marked_of_ten) {
+    const Boxes boxes = RandomBoxes(300, random);
+    BoxPairFilter filter;
+    for (size_t i = 0; i < boxes.size(); ++i)
+      filter.marks.push_back(static_cast<int>(random() % 10) < marked_of_ten);
+    EXPECT_EQ(OverlappingBoxes(boxes, filter), AllPairs(boxes, filter));
+    filter.keep = [](int i, int j) { return i < j && (i + j) % 3 == 0; };
+    EXPECT_EQ(OverlappingBoxes(boxes, filter), AllPairs(boxes, filter));
+  }
+}
+
+TEST(OverlappingBoxes, DoNotDependOnTheNumberOfThreads) {
+  std::mt19937 random(9);
+  const Boxes boxes = RandomBoxes(20000, random);
+  Pairs serial;
+  {
+    const ThreadLimit one(1);
+    serial = OverlappingBoxes(boxes, {.marks = {}, .keep = [](int i, int) { return i % 50 == 0; }});
+  }
+  EXPECT_EQ(OverlappingBoxes(boxes, {.marks = {}, .keep = [](int i, int) { return i % 50 == 0; }}),
+            serial);
+}
+
+TEST(OverlappingBoxes, CanBeNoneOneOrWithoutEnd) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const Eigen::AlignedBox3d all(Vec3::Constant(-kInfinity), Vec3::Constant(kInfinity));
+  const Eigen::AlignedBox3d point(Vec3::Zero(), Vec3::Zero());
+  EXPECT_EQ(OverlappingBoxes({}), Pairs());
+  EXPECT_EQ(OverlappingBoxes({point}), Pairs());
+  EXPECT_EQ(OverlappingBoxes({all, point, all}), Pairs({{0, 1}, {0, 2}, {1, 2}}));
+}
+
+}  // namespace
+}  // namespace curvefusion
