@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "capture/frame_stream.h"
+#include "fusion/difference_set.h"
 #include "kernel/parallel.h"
 
 namespace curvefusion {
@@ -22,8 +23,6 @@ constexpr double kSteepestSlope = 5.7;
 // Fewer pixels tell no share: they are the fringes of what a few frames saw at grazing angles. A
 // frame has about so many in a cell and its neighbours at 0.7 m.
 constexpr int kMinPixels = 2000;
-// Depth noise is three times this times depth squared (Khoshelham 2012).
-constexpr float kNoiseQuadratic = 0.001425f;
 
 // The farthest rendered depth around a pixel; infinite where nothing is rendered.
 float FarthestAround(const DepthImage& rendering, int u, int v) {
@@ -65,8 +64,8 @@ void OpennessGrid::AddFrame(const DepthImage& depth, const DepthImage& rendering
       const float surface = rendering(u, v);
       const float farthest = FarthestAround(rendering, u, v);
       if (!(surface > 0) || farthest > surface * (1 + slope)) continue;
-      const float limit = farthest + std::max(static_cast<float>(options_.passing_depth),
-                                              3 * kNoiseQuadratic * farthest * farthest);
+      const float limit = farthest + static_cast<float>(std::max(options_.passing_depth,
+                                                                 3 * DepthNoise(farthest, {})));
       Counts seen;
       for (int y = v * factor; y < (v + 1) * factor; ++y) {
         for (int x = u * factor; x < (u + 1) * factor; ++x) {
