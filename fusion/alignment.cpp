@@ -167,9 +167,7 @@ class ClosestPointAligner {
     const auto [hessian, gradient] = NormalEquations(center, scale);
     const Vec6 step = ObservableStep(hessian, gradient);
     const Vec3 rotation = step.head<3>() / scale;
-    RigidTransform motion = RigidMotion(rotation, center + step.tail<3>());
-    motion.translate(-center);
-    T = motion * T;
+    T = RigidMotionAbout(center, rotation, step.tail<3>()) * T;
     T.linear() = Eigen::Quaterniond(T.linear()).normalized().toRotationMatrix();
     return step.norm();
   }

@@ -26,10 +26,11 @@ constexpr int kRowMargin = 4;
 // Of 255: surely wire, as no background that was seen has that colour.
 constexpr int kSurePosterior = 200;
 
-MaskImage Dilated(const MaskImage& mask, int radius) {
-  MaskImage dilated(mask.width(), mask.height());
-  const cv::Mat source(mask.height(), mask.width(), CV_8U, const_cast<uint8_t*>(mask.data()));
-  cv::Mat target(mask.height(), mask.width(), CV_8U, dilated.data());
+// The greatest value within a square around each pixel.
+Image<uint8_t> Dilated(const Image<uint8_t>& image, int radius) {
+  Image<uint8_t> dilated(image.width(), image.height());
+  const cv::Mat source(image.height(), image.width(), CV_8U, const_cast<uint8_t*>(image.data()));
+  cv::Mat target(image.height(), image.width(), CV_8U, dilated.data());
   cv::dilate(source, target, cv::Mat::ones(2 * radius + 1, 2 * radius + 1, CV_8U));
   return dilated;
 }
@@ -136,15 +137,6 @@ Vec2 FindShift(const std::vector<WireCandidates>& frames, const std::vector<uint
   return shift;
 }
 
-PosteriorImage LikeliestAround(const PosteriorImage& posterior) {
-  PosteriorImage peak(posterior.width(), posterior.height());
-  const cv::Mat from(posterior.height(), posterior.width(), CV_8U,
-                     const_cast<uint8_t*>(posterior.data()));
-  cv::Mat to(peak.height(), peak.width(), CV_8U, peak.data());
-  cv::dilate(from, to, cv::Mat::ones(2 * kPeakReach_px + 1, 2 * kPeakReach_px + 1, CV_8U));
-  return peak;
-}
-
 // Euclidean distances in pixels to the nearest pixel that is 0.
 Image<float> DistanceToZero(const MaskImage& mask) {
   Image<float> distance(mask.width(), mask.height());
@@ -247,7 +239,7 @@ void GateByColour(const WireColours& colours, const Sequence& sequence,
     return;
   }
   const PosteriorImage posterior = ApplyPosterior(BinColours(frame.color), colours.posterior);
-  const PosteriorImage peak = LikeliestAround(posterior);
+  const PosteriorImage peak = Dilated(posterior, kPeakReach_px);
   const ColourLookup lookup(sequence, colours.shift_px);
   if (options.max_width > 0) {
     DropUnresolved(posterior, lookup, sequence.color_camera.fx, options.max_width, in_rows, frame);

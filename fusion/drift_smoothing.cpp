@@ -30,9 +30,7 @@ Vec6 ToVector(const RigidTransform& T, const Vec3& center) {
 }
 
 RigidTransform ToTransform(const Vec6& x, const Vec3& center) {
-  RigidTransform T = RigidMotion(x.head<3>(), Vec3::Zero());
-  T.translation() = center + x.tail<3>() - T.linear() * center;
-  return T;
+  return RigidMotionAbout(center, x.head<3>(), x.tail<3>());
 }
 
 // The mean of what the measurements look at.

@@ -56,12 +56,6 @@ Mat6 ErrorByMotion(const RigidTransform& T_world_camera, const Vec3& center) {
   return jacobian;
 }
 
-RigidTransform MotionAbout(const Vec3& center, const SmallMotion& motion) {
-  RigidTransform T = RigidMotion(motion.tail<3>(), center + motion.head<3>());
-  T.translate(-center);
-  return T;
-}
-
 // One Gauss-Newton step: the motion that takes `poses` nearest to the given ones.
 SmallMotion AnchoringStep(const std::vector<RigidTransform>& poses,
                           const std::vector<RigidTransform>& given,
@@ -102,8 +96,8 @@ RigidTransform AnchorToGivenPoses(const std::vector<RigidTransform>& given,
   for (const int index : used) given_used.push_back(given[index]);
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     for (size_t i = 0; i < count; ++i) poses[i] = T_anchored_world * corrected[i];
-    T_anchored_world = MotionAbout(center, AnchoringStep(poses, given_used, precisions, center)) *
-                       T_anchored_world;
+    const SmallMotion step = AnchoringStep(poses, given_used, precisions, center);
+    T_anchored_world = RigidMotionAbout(center, step.tail<3>(), step.head<3>()) * T_anchored_world;
   }
   return T_anchored_world;
 }

@@ -34,8 +34,7 @@ bool HasOtherWay(const SkeletonGraph& graph, EdgeId id, const std::vector<double
     if (node == goal) return true;
     if (distance > reached[node]) continue;
     for (const EdgeId next : graph.IncidentEdges(node)) {
-      const std::array<NodeId, 2>& nodes = graph.edge(next).nodes;
-      const NodeId other = nodes[0] == node ? nodes[1] : nodes[0];
+      const NodeId other = graph.OtherEnd(next, node);
       const double there = distance + lengths[next];
       if (next == id || there > limit) continue;
       const auto [found, is_new] = reached.emplace(other, there);

@@ -56,9 +56,7 @@ FreeEnd MakeFreeEnd(const SkeletonGraph& graph, NodeId node, const FreeEndOption
   const std::vector<double> arc_length = CumulativeLength(points);
   const Vec3 inner = PointAt(points, arc_length, options.fit_length);
   const EdgeId id = graph.IncidentEdges(node)[0];
-  const SkeletonEdge& edge = graph.edge(id);
-  const NodeId root = edge.nodes[0] == node ? edge.nodes[1] : edge.nodes[0];
-  const double factor = graph.Degree(root) >= 3 ? kAttachedFactor : 1;
+  const double factor = graph.Degree(graph.OtherEnd(id, node)) >= 3 ? kAttachedFactor : 1;
   return {
       node, id, points.front(), (points.front() - inner).normalized(),
       std::max(options.touch_distance, factor * options.max_gap_per_length * arc_length.back())};
@@ -82,7 +80,7 @@ double LoopLength(const SkeletonGraph& graph, const FreeEnd& end, const CurvePoi
   if (end.edge == target.edge) {
     return from.nodes[0] == end.node ? position : arc_length.back() - position;
   }
-  const NodeId root = from.nodes[0] == end.node ? from.nodes[1] : from.nodes[0];
+  const NodeId root = graph.OtherEnd(end.edge, end.node);
   double way = std::numeric_limits<double>::infinity();
   if (to.nodes[0] == root) way = position;
   if (to.nodes[1] == root) way = std::min(way, arc_length.back() - position);

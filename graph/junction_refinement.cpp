@@ -165,6 +165,7 @@ JunctionFit FitJunction(const SkeletonGraph& graph, const std::vector<NodeId>& n
 // The junction of two wires that part at a small angle, if that is what a node is.
 std::optional<Vec3> FitFork(const SkeletonGraph& graph, NodeId node,
                             const JunctionRefinementOptions& options) {
+  if (graph.Degree(node) != 3) return std::nullopt;
   JunctionRefinementOptions wide = options;
   wide.inner_radius = options.fork_clearance;
   wide.fit_length = options.fork_fit_length;
@@ -237,9 +238,9 @@ std::vector<std::pair<double, EdgeId>> ShortJunctionEdges(const SkeletonGraph& g
 void RemoveEdgesBetween(SkeletonGraph& graph, NodeId a, NodeId b, double max_length) {
   const std::span<const EdgeId> incident = graph.IncidentEdges(a);
   for (const EdgeId id : std::vector<EdgeId>(incident.begin(), incident.end())) {
-    const SkeletonEdge& edge = graph.edge(id);
-    const NodeId other = edge.nodes[0] == a ? edge.nodes[1] : edge.nodes[0];
-    if (other == b && Length(edge.points) < max_length) graph.RemoveEdge(id);
+    if (graph.OtherEnd(id, a) == b && Length(graph.edge(id).points) < max_length) {
+      graph.RemoveEdge(id);
+    }
   }
 }
 

@@ -101,10 +101,9 @@ void RemoveLinks(SkeletonGraph& graph, std::vector<NodeId> nodes, double max_lin
   std::vector<EdgeId> links;
   for (const NodeId node : nodes) {
     for (const EdgeId id : graph.IncidentEdges(node)) {
-      const SkeletonEdge& edge = graph.edge(id);
-      const NodeId other = edge.nodes[0] == node ? edge.nodes[1] : edge.nodes[0];
+      const NodeId other = graph.OtherEnd(id, node);
       if (other < node || !std::binary_search(nodes.begin(), nodes.end(), other)) continue;
-      if (Length(edge.points) <= max_link) links.push_back(id);
+      if (Length(graph.edge(id).points) <= max_link) links.push_back(id);
     }
   }
   for (const EdgeId id : links)

@@ -240,24 +240,19 @@ std::vector<RidgeSeed> TrueRidgeSeeds(const std::vector<RidgeSeed>& seeds, int w
 // of a ridge may be the sides of its own thick wire.
 RidgePoints WiresOfTheirOwn(const ObservedPoints& points, const std::vector<RidgeSeed>& seeds,
                             int widest_level, const RidgeContrastOptions& options) {
-  RidgePoints ridge;
+  std::vector<Vec3> positions, directions;
   for (const RidgeSeed& seed : seeds) {
-    ridge.positions.push_back(seed.position);
-    ridge.directions.push_back(seed.direction);
-    ridge.strengths.push_back(seed.strength);
+    positions.push_back(seed.position);
+    directions.push_back(seed.direction);
   }
-  const std::vector<char> stands_out =
-      StandsOut(points, ridge.positions, ridge.directions, options);
-  size_t kept = 0;
-  for (size_t i = 0; i < ridge.size(); ++i) {
+  const std::vector<char> stands_out = StandsOut(points, positions, directions, options);
+  RidgePoints ridge;
+  for (size_t i = 0; i < seeds.size(); ++i) {
     if (!stands_out[i] && seeds[i].level != widest_level) continue;
-    ridge.positions[kept] = ridge.positions[i];
-    ridge.directions[kept] = ridge.directions[i];
-    ridge.strengths[kept++] = ridge.strengths[i];
+    ridge.positions.push_back(seeds[i].position);
+    ridge.directions.push_back(seeds[i].direction);
+    ridge.strengths.push_back(seeds[i].strength);
   }
-  ridge.positions.resize(kept);
-  ridge.directions.resize(kept);
-  ridge.strengths.resize(kept);
   return ridge;
 }
 

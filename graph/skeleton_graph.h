@@ -92,6 +92,9 @@ class SkeletonGraph {
   std::span<const EdgeId> IncidentEdges(NodeId node) const;
   int Degree(NodeId node) const { return static_cast<int>(IncidentEdges(node).size()); }
 
+  /// The node at which an edge ends that begins at `node`; for a self-loop the same.
+  NodeId OtherEnd(EdgeId edge, NodeId node) const;
+
   /// Sum of the lengths of all edges in metres.
   double TotalLength() const;
 
@@ -108,7 +111,6 @@ class SkeletonGraph {
   };
   void Detach(NodeId node, EdgeId edge);
   bool IsInsideCurve(NodeId node) const;
-  NodeId OtherEnd(EdgeId edge, NodeId node) const;
   SkeletonEdge TakeChain(NodeId first, EdgeId next);
   void DissolveChainsFrom(NodeId node);
 

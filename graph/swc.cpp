@@ -59,7 +59,7 @@ class SwcWriter {
     const SkeletonEdge& edge = graph_.edge(id);
     std::vector<int> curve = curves_.curves[curve_of_.at(id)];
     if (edge.nodes[0] != node) std::reverse(curve.begin(), curve.end());
-    const NodeId other = edge.nodes[0] == node ? edge.nodes[1] : edge.nodes[0];
+    const NodeId other = graph_.OtherEnd(id, node);
     int parent = sample_of_.at(node);
     for (size_t i = 1; i + 1 < curve.size(); ++i) parent = AddSample(curve[i], parent);
     const int last = AddSample(curve.back(), parent);

@@ -17,4 +17,11 @@ RigidTransform RigidMotion(const Vec3& rotation_vector, const Vec3& translation)
   return motion;
 }
 
+RigidTransform RigidMotionAbout(const Vec3& center, const Vec3& rotation_vector,
+                                const Vec3& translation) {
+  RigidTransform motion = RigidMotion(rotation_vector, center + translation);
+  motion.translate(-center);
+  return motion;
+}
+
 }  // namespace curvefusion

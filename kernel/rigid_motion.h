@@ -10,4 +10,8 @@ Vec3 RotationVector(const RigidTransform& T);
 /// The motion that turns by a rotation vector about the origin and then moves by a translation.
 RigidTransform RigidMotion(const Vec3& rotation_vector, const Vec3& translation);
 
+/// The motion that turns by a rotation vector about a centre and then moves by a translation.
+RigidTransform RigidMotionAbout(const Vec3& center, const Vec3& rotation_vector,
+                                const Vec3& translation);
+
 }  // namespace curvefusion

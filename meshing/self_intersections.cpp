@@ -121,7 +121,7 @@ std::vector<std::pair<int, int>> FindSelfIntersections(const TriangleMesh& mesh,
   return Meeting(mesh, CandidatePairs(mesh, 0), limit);
 }
 
-std::vector<std::pair<int, int>> FindSelfIntersectionsInFiles(const TriangleMesh& mesh) {
+std::vector<std::pair<int, int>> FindSelfIntersectionsInFiles(const TriangleMesh& mesh, int limit) {
   TriangleMesh millimetres = mesh;
   float farthest = 0;
   for (Vec3f& v : millimetres.vertices) {
@@ -131,9 +131,8 @@ std::vector<std::pair<int, int>> FindSelfIntersectionsInFiles(const TriangleMesh
   // Rounding moves a coordinate by less.
   const double margin = farthest * std::numeric_limits<float>::epsilon();
   const std::vector<std::pair<int, int>> candidates = CandidatePairs(mesh, margin);
-  constexpr int kLimit = 1000;
-  std::vector<std::pair<int, int>> found = Meeting(mesh, candidates, kLimit);
-  const std::vector<std::pair<int, int>> rounded = Meeting(millimetres, candidates, kLimit);
+  std::vector<std::pair<int, int>> found = Meeting(mesh, candidates, limit);
+  const std::vector<std::pair<int, int>> rounded = Meeting(millimetres, candidates, limit);
   found.insert(found.end(), rounded.begin(), rounded.end());
   return found;
 }

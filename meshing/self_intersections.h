@@ -13,7 +13,8 @@ namespace curvefusion {
 std::vector<std::pair<int, int>> FindSelfIntersections(const TriangleMesh& mesh, int limit = 1000);
 
 /// The same for the coordinates as they are, then for those rounded in millimetres, as in files of
-/// that unit; a pair may stand there twice.
-std::vector<std::pair<int, int>> FindSelfIntersectionsInFiles(const TriangleMesh& mesh);
+/// that unit; a pair may stand there twice. At most about `limit` pairs of each.
+std::vector<std::pair<int, int>> FindSelfIntersectionsInFiles(const TriangleMesh& mesh,
+                                                              int limit = 1000);
 
 }  // namespace curvefusion

@@ -163,6 +163,10 @@ double TurnAngle(const Vec3& before, const Vec3& after) {
   return std::atan2(before.cross(after).norm(), before.dot(after));
 }
 
+double TurnAngleAt(const Polyline& points, size_t i) {
+  return TurnAngle(points[i] - points[i - 1], points[i + 1] - points[i]);
+}
+
 bool StripFolds(double length, double radius, double first_turn, double last_turn) {
   const double reach =
       std::tan(std::min(first_turn, 3.0) / 2) + std::tan(std::min(last_turn, 3.0) / 2);
@@ -178,7 +182,7 @@ std::vector<int> FindCuts(const TubeAxis& axis, double max_turn) {
     cut[i] = i > 0 && i + 1 < n;
   };
   for (int i = 1; i + 1 < n; ++i) {
-    turn[i] = TurnAngle(axis.points[i] - axis.points[i - 1], axis.points[i + 1] - axis.points[i]);
+    turn[i] = TurnAngleAt(axis.points, i);
     if (turn[i] > max_turn) cut_at(i);
   }
   for (int i = 0; i + 1 < n; ++i) {

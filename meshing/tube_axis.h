@@ -34,6 +34,9 @@ TubeAxis SimplifyAxis(const TubeAxis& axis, const AxisOptions& options);
 /// The angle in radians by which a curve turns between two directions (any length > 0).
 double TurnAngle(const Vec3& before, const Vec3& after);
 
+/// The same at an inner point of a polyline.
+double TurnAngleAt(const Polyline& points, size_t i);
+
 /// Whether the strip of a tube between two mitred rings would fold over: the rings lie `length`
 /// apart, and the axis turns by these angles at them.
 bool StripFolds(double length, double radius, double first_turn, double last_turn);

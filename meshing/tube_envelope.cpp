@@ -35,8 +35,7 @@ struct BallRow {
     for (size_t i = 1; i < p.size(); ++i) {
       along.push_back(along.back() + (p[i] - p[i - 1]).norm());
       const bool inner = i + 1 < p.size();
-      turning.push_back(turning.back() +
-                        (inner ? TurnAngle(p[i] - p[i - 1], p[i + 1] - p[i]) : 0.0));
+      turning.push_back(turning.back() + (inner ? TurnAngleAt(p, i) : 0.0));
     }
   }
 
@@ -162,9 +161,7 @@ TubeAxis Smoothed(const FittedRow& fitted) {
 
 bool IsRough(const TubeAxis& axis) {
   double turning = 0;
-  for (size_t i = 1; i + 1 < axis.points.size(); ++i) {
-    turning += TurnAngle(axis.points[i] - axis.points[i - 1], axis.points[i + 1] - axis.points[i]);
-  }
+  for (size_t i = 1; i + 1 < axis.points.size(); ++i) turning += TurnAngleAt(axis.points, i);
   return turning >= kLeastTurning;
 }
 

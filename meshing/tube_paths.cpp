@@ -41,8 +41,7 @@ double TurnBefore(const TubeNetwork& network, const Chaining& chaining, BranchEn
   const Polyline& points = network.branches[end.branch].axis.points;
   const size_t n = points.size();
   if (n == 2) return chaining.turn[end.branch][1 - end.side];
-  const size_t i = end.side == 0 ? 1 : n - 2;
-  return TurnAngle(points[i] - points[i - 1], points[i + 1] - points[i]);
+  return TurnAngleAt(points, end.side == 0 ? 1 : n - 2);
 }
 
 bool WouldFold(const TubeNetwork& network, const Chaining& chaining, BranchEnd end, double turn,

@@ -13,6 +13,14 @@ TEST(RigidMotion, TurnsAboutTheOriginAndThenMoves) {
   EXPECT_LT((motion * Vec3(1, 0, 0) - Vec3(1, 3, 3)).norm(), 1e-15);
 }
 
+TEST(RigidMotion, AboutACentreMovesTheCentreByTheTranslation) {
+  const Vec3 center(1, -2, 0.5);
+  const RigidTransform motion = RigidMotionAbout(center, {0, 0, std::numbers::pi / 2}, {3, 0, 1});
+  // Rounding of a sine and a cosine.
+  EXPECT_LT((motion * center - Vec3(4, -2, 1.5)).norm(), 1e-15);
+  EXPECT_LT((motion * (center + Vec3::UnitX()) - Vec3(4, -1, 1.5)).norm(), 1e-15);
+}
+
 TEST(RigidMotion, WithoutRotationIsAnExactTranslation) {
   EXPECT_EQ(RigidMotion(Vec3::Zero(), {1, 2, 3}).matrix(),
             RigidTransform(Eigen::Translation3d(1, 2, 3)).matrix());
