@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -47,13 +48,50 @@ Json DiameterJson(double radius) {
   return radius > 0 ? Json(2 * radius / kMillimetre) : Json(nullptr);
 }
 
-Json SkeletonJson(const SkeletonGraph& graph, double global_radius) {
-  const GraphFigures figures = MeasureGraph(graph);
-  Json edges = Json::array();
-  for (size_t i = 0; i < figures.edge_length.size(); ++i) {
-    edges.push_back({{"length", figures.edge_length[i]},
-                     {"diameter_mm", DiameterJson(figures.edge_radius[i])}});
+Json ViewsJson(const ViewCount& views) { return {{"looked", views.looked}, {"seen", views.seen}}; }
+
+// What single edges rest on, in the order of skeleton.json.
+Json EdgesJson(const GraphFigures& figures, const Reconstruction& reconstruction) {
+  const std::vector<EdgeId> ids = reconstruction.skeleton.Edges();
+  std::map<EdgeId, EdgeRadius> measured;
+  for (const EdgeRadius& radius : reconstruction.radii.edges) measured[radius.edge] = radius;
+  std::map<EdgeId, ViewCount> views;
+  for (const EdgeViews& edge : reconstruction.views.edges) {
+    views[edge.edge] = TypicalViews(edge.points);
   }
+  Json edges = Json::array();
+  for (size_t i = 0; i < ids.size(); ++i) {
+    const EdgeRadius& radius = measured[ids[i]];
+    edges.push_back({{"length", figures.edge_length[i]},
+                     {"diameter_mm", DiameterJson(figures.edge_radius[i])},
+                     {"diameter_deviation_mm", DiameterJson(radius.spread)},
+                     {"strips", radius.count},
+                     {"images", ViewsJson(views[ids[i]])}});
+  }
+  return edges;
+}
+
+Json JunctionsJson(const Reconstruction& reconstruction) {
+  const SkeletonGraph& graph = reconstruction.skeleton;
+  std::map<NodeId, ViewCount> views;
+  for (const EdgeViews& edge : reconstruction.views.edges) {
+    const auto& nodes = graph.edge(edge.edge).nodes;
+    views[nodes[0]] = edge.points.front();
+    views[nodes[1]] = edge.points.back();
+  }
+  Json junctions = Json::array();
+  for (const NodeId node : graph.Nodes()) {
+    if (graph.Degree(node) < 3) continue;
+    const Vec3& p = graph.position(node);
+    junctions.push_back({{"position", {p.x(), p.y(), p.z()}},
+                         {"degree", graph.Degree(node)},
+                         {"images", ViewsJson(views[node])}});
+  }
+  return junctions;
+}
+
+Json SkeletonJson(const Reconstruction& reconstruction) {
+  const GraphFigures figures = MeasureGraph(reconstruction.skeleton);
   return {{"nodes", figures.nodes},
           {"edges", figures.edges},
           {"junctions", figures.junctions},
@@ -61,8 +99,10 @@ Json SkeletonJson(const SkeletonGraph& graph, double global_radius) {
           {"components", figures.components},
           {"cycles", figures.cycles},
           {"length", figures.length},
-          {"global_diameter_mm", DiameterJson(global_radius)},
-          {"per_edge", edges}};
+          {"global_diameter_mm", DiameterJson(reconstruction.radii.global_radius)},
+          {"images_looked_through", reconstruction.views.frames},
+          {"per_edge", EdgesJson(figures, reconstruction)},
+          {"per_junction", JunctionsJson(reconstruction)}};
 }
 
 Json MeshJson(const MeshRecord& mesh) {
@@ -121,20 +161,19 @@ constexpr const char* kNothingThinText =
 std::string ReportJson(const RunRecord& record) {
   const Reconstruction& reconstruction = record.reconstruction;
   const int frames = record.sequence.frame_count();
-  const Json report = {
-      {"format", "curvefusion-report"},
-      {"version", 1},
-      {"profile", ProfileName(record.config.profile)},
-      {"sequence", SequenceJson(record.sequence)},
-      {"seconds", record.seconds},
-      {"seconds_per_30_frames",
-       frames > 0 ? Json(record.seconds * kBundle / frames) : Json(nullptr)},
-      {"peak_memory_bytes", record.peak_memory},
-      {"stages", StagesJson(reconstruction.stages)},
-      {"points", reconstruction.points.size()},
-      {"skeleton", SkeletonJson(reconstruction.skeleton, reconstruction.global_radius)},
-      {"mesh", record.mesh ? MeshJson(*record.mesh) : Json(nullptr)},
-      {"warnings", AllWarnings(record)}};
+  const Json report = {{"format", "curvefusion-report"},
+                       {"version", 1},
+                       {"profile", ProfileName(record.config.profile)},
+                       {"sequence", SequenceJson(record.sequence)},
+                       {"seconds", record.seconds},
+                       {"seconds_per_30_frames",
+                        frames > 0 ? Json(record.seconds * kBundle / frames) : Json(nullptr)},
+                       {"peak_memory_bytes", record.peak_memory},
+                       {"stages", StagesJson(reconstruction.stages)},
+                       {"points", reconstruction.points.size()},
+                       {"skeleton", SkeletonJson(reconstruction)},
+                       {"mesh", record.mesh ? MeshJson(*record.mesh) : Json(nullptr)},
+                       {"warnings", AllWarnings(record)}};
   return report.dump(2) + "\n";
 }
 

@@ -43,4 +43,14 @@ void ForEachFrame(const Sequence& sequence, int first, int last, const FrameStre
   ForEachFrame(sequence, frames, options, body);
 }
 
+std::vector<int> EvenlyThinned(const std::vector<int>& frames, int max_frames) {
+  const auto count = static_cast<int64_t>(frames.size());
+  if (count <= max_frames) return frames;
+  std::vector<int> thinned;
+  for (int64_t i = 0; i < max_frames; ++i) {
+    thinned.push_back(frames[static_cast<size_t>((2 * i + 1) * count / (2 * max_frames))]);
+  }
+  return thinned;
+}
+
 }  // namespace curvefusion

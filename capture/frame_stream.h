@@ -32,4 +32,7 @@ void ForEachFrame(const Sequence& sequence, const std::vector<int>& frames,
 void ForEachFrame(const Sequence& sequence, int first, int last, const FrameStreamOptions& options,
                   const std::function<void(const DecodedFrame&)>& body);
 
+/// The frames, or max_frames of them that are evenly spread where there are more.
+std::vector<int> EvenlyThinned(const std::vector<int>& frames, int max_frames);
+
 }  // namespace curvefusion

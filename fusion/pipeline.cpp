@@ -208,10 +208,9 @@ void ContractCarriedPoints(const SegmentedScan& scan, RunContext& run, Reconstru
   result.skeleton = Contract(result.points, "registered_frames", run);
 }
 
-RadiusEstimate AssignMeasuredRadii(RunContext& run, Reconstruction& result) {
-  RadiusEstimate estimate = MeasureRadii(result.skeleton, result.sequence, run);
-  AssignRadii(estimate, run.options.radius, result.skeleton);
-  return estimate;
+void AssignMeasuredRadii(RunContext& run, Reconstruction& result) {
+  result.radii = MeasureRadii(result.skeleton, result.sequence, run);
+  AssignRadii(result.radii, run.options.radius, result.skeleton);
 }
 
 void ReportAdjustment(const ColourAdjustment& adjusted, StageLog& log) {
@@ -248,6 +247,15 @@ bool RefineInColour(const Sequence& given, RunContext& run, Reconstruction& resu
   return adjusted.skipped.empty();
 }
 
+// In how many images every place of the result was looked for and seen.
+void LookForEvidence(RunContext& run, Reconstruction& result) {
+  const StageLog::Timer timer(run.log, "evidence");
+  result.views = CountViews(result.skeleton, result.sequence, run.options.evidence);
+  if (run.options.carry_points) AssignObservations(result.views, result.skeleton);
+  run.log.Count("evidence", "frames", result.views.frames);
+  run.observer.OnProgress("evidence", 1, 1);
+}
+
 // Everything after the volume.
 Reconstruction ReconstructThinParts(const TsdfVolume& volume, const Sequence& sequence,
                                     RunContext& run) {
@@ -261,11 +269,10 @@ Reconstruction ReconstructThinParts(const TsdfVolume& volume, const Sequence& se
     for (const ObservedPoints& bundle : scan.bundles) Append(result.points, bundle);
     result.skeleton = FuseBundleSkeletons(scan, run);
   }
-  result.global_radius = AssignMeasuredRadii(run, result).global_radius;
-  if (RefineInColour(sequence, run, result)) {
-    result.global_radius = AssignMeasuredRadii(run, result).global_radius;
-  }
+  AssignMeasuredRadii(run, result);
+  if (RefineInColour(sequence, run, result)) AssignMeasuredRadii(run, result);
   DropThickParts(run.options.radius, result.skeleton);
+  LookForEvidence(run, result);
   result.stages = run.log.stages();
   return result;
 }

@@ -14,6 +14,7 @@
 #include "fusion/skeleton_fusion.h"
 #include "fusion/stage_log.h"
 #include "fusion/tsdf_volume.h"
+#include "fusion/view_evidence.h"
 #include "graph/l1_contraction.h"
 #include "graph/ridge_skeleton.h"
 #include "graph/skeleton_graph.h"
@@ -41,6 +42,7 @@ struct PipelineOptions {
   SkeletonFusionOptions fusion;
   RadiusOptions radius;
   ColourAdjustmentOptions colour_adjustment;
+  ViewEvidenceOptions evidence;
 };
 
 /// The options a profile starts from, before the config file and --set.
@@ -66,9 +68,12 @@ class PipelineObserver {
 
 /// The outcome of a run. An empty skeleton means: nothing thin was found, an expected outcome.
 struct Reconstruction {
-  SkeletonGraph skeleton;    ///< radii at every vertex where any could be measured
-  ObservedPoints points;     ///< the points the skeleton was made from
-  double global_radius = 0;  ///< the paper's one radius for all, metres; 0 = not measurable
+  /// Radii at every vertex where any could be measured. Observations: in the paper profile bundles,
+  /// otherwise images of `views` that saw the point.
+  SkeletonGraph skeleton;
+  ObservedPoints points;  ///< the points the skeleton was made from
+  RadiusEstimate radii;   ///< may hold edges that the skeleton no longer has
+  ViewEvidence views;     ///< of the skeleton
   /// The sequence with its poses corrected by the registration of frames and the adjustment to
   /// colours, which corrects the colour camera's principal point too (as given otherwise).
   Sequence sequence;

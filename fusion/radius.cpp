@@ -25,17 +25,6 @@ constexpr double kBorderPx = 8;           // samples nearer to the image border 
 constexpr double kAgreement = 0.25;       // strips this near to the mode count, relative
 constexpr int kMinOwnStrips = 20;         // to tell that a piece of a wire is thicker or thinner
 
-// At most max_frames of the frames, evenly spread.
-std::vector<int> ThinFrames(const std::vector<int>& frames, int max_frames) {
-  const auto count = static_cast<int64_t>(frames.size());
-  if (count <= max_frames) return frames;
-  std::vector<int> thinned;
-  for (int64_t i = 0; i < max_frames; ++i) {
-    thinned.push_back(frames[static_cast<size_t>((2 * i + 1) * count / (2 * max_frames))]);
-  }
-  return thinned;
-}
-
 template <class T>
 void Append(std::vector<T> more, std::vector<T>& all) {
   all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
@@ -124,7 +113,7 @@ RadiusEstimate EstimateRadius(const SkeletonGraph& skeleton, const Sequence& seq
   const std::vector<CurveSample> neighbours = SampleStrips(skeleton, kNeighbourStep);
   std::vector<FoundStrip> found;
   ForEachFrame(
-      sequence, ThinFrames(frames, options.max_frames), {false, true},
+      sequence, EvenlyThinned(frames, options.max_frames), {false, true},
       [&](const DecodedFrame& frame) {
         const RigidTransform T_camera_world =
             sequence.T_color_depth * sequence.frames[frame.index].T_world_camera.inverse();

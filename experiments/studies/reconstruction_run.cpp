@@ -68,7 +68,7 @@ RunOutcome ReconstructAndEvaluate(const RunInput& input) {
       CostOf([&] { result = Reconstruct(sequence, input.study_case.config.pipeline, observer); });
   RunOutcome outcome = EvaluateAndKeep(result.skeleton, input);
   AddCost(cost, sequence.frame_count(), outcome.figures);
-  outcome.figures["global_diameter_mm"] = 2 * result.global_radius / kMillimetre;
+  outcome.figures["global_diameter_mm"] = 2 * result.radii.global_radius / kMillimetre;
   return outcome;
 }
 

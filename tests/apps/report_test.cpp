@@ -78,6 +78,32 @@ TEST(Report, TellsTheFiguresOfTheSkeleton) {
   EXPECT_TRUE(skeleton["global_diameter_mm"].is_null());
 }
 
+TEST(Report, TellsWhatEdgesAndJunctionsRestOn) {
+  YRun run;
+  Reconstruction& reconstruction = run.reconstruction;
+  const std::vector<EdgeId> edges = reconstruction.skeleton.Edges();
+  // The second edge was not measured; a fourth was, but is no part of the result any more.
+  reconstruction.radii.edges = {
+      {edges[0], 0.002, 0.0001, 12}, {edges[2], 0.003, 0.0002, 9}, {edges[2] + 1, 0.009, 0, 5}};
+  reconstruction.views.frames = 20;
+  for (const EdgeId edge : edges) {
+    reconstruction.views.edges.push_back({edge, {{10, 7}, {8 - edge, 5 - edge}}});
+  }
+  const auto skeleton = nlohmann::json::parse(ReportJson(run.Record()))["skeleton"];
+  EXPECT_EQ(skeleton["images_looked_through"], 20);
+  ASSERT_EQ(skeleton["per_edge"].size(), 3u);
+  EXPECT_NEAR(skeleton["per_edge"][0]["diameter_deviation_mm"], 0.2, 1e-12);
+  EXPECT_EQ(skeleton["per_edge"][0]["strips"], 12);
+  EXPECT_TRUE(skeleton["per_edge"][1]["diameter_deviation_mm"].is_null());
+  EXPECT_EQ(skeleton["per_edge"][1]["strips"], 0);
+  EXPECT_EQ(skeleton["per_edge"][2]["strips"], 9);
+  EXPECT_EQ(skeleton["per_edge"][2]["images"]["looked"], 10);
+  ASSERT_EQ(skeleton["per_junction"].size(), 1u);
+  EXPECT_EQ(skeleton["per_junction"][0]["degree"], 3);
+  EXPECT_EQ(skeleton["per_junction"][0]["position"], nlohmann::json({0.0, 0.0, 0.0}));
+  EXPECT_EQ(skeleton["per_junction"][0]["images"]["seen"], 7);
+}
+
 TEST(Summary, NamesFindingsFilesAndWarnings) {
   YRun run;
   const std::string summary = Summary(run.Record(), "out");

@@ -48,6 +48,13 @@ TEST_F(FrameStreamTest, AnEmptyRangeIsFine) {
   ForEachFrame(sequence_, 2, 2, {}, [](const DecodedFrame&) { ADD_FAILURE(); });
 }
 
+TEST(EvenlyThinned, SpreadsFramesOverAll) {
+  EXPECT_THAT(EvenlyThinned({1, 5, 7}, 3), ElementsAre(1, 5, 7));
+  // The middles of three thirds.
+  EXPECT_THAT(EvenlyThinned({0, 1, 2, 3, 4, 5, 6, 7, 8}, 3), ElementsAre(1, 4, 7));
+  EXPECT_THAT(EvenlyThinned({}, 3), ElementsAre());
+}
+
 TEST_F(FrameStreamTest, ABrokenImageThrows) {
   Truncate(sequence_.frames[3].depth_path, 0.5);
   EXPECT_THROW(ForEachFrame(sequence_, 0, 4, {}, [](const DecodedFrame&) {}), Error);

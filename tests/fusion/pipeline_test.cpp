@@ -68,7 +68,7 @@ TEST(Pipeline, ReconstructsTheSimulatedCube) {
   EXPECT_GE(ShareWithin(truth, found, 0.005), 0.95);
   EXPECT_EQ(result.skeleton.ComponentCount(), 1);
   EXPECT_NEAR(JunctionCount(result.skeleton), 13, 3);
-  EXPECT_NEAR(2 * result.global_radius, 0.0045, 0.0005);
+  EXPECT_NEAR(2 * result.radii.global_radius, 0.0045, 0.0005);
 }
 
 TEST(Pipeline, TheSameBytesForAnyNumberOfThreads) {
@@ -95,8 +95,8 @@ TEST(Pipeline, FindsTheRealCableAsOneCurve) {
     longest = std::max(longest, Length(result.skeleton.edge(id).points));
   }
   EXPECT_GE(longest, 0.8 * result.skeleton.TotalLength());  // one dominant curve
-  EXPECT_NEAR(longest, 0.25, 0.05);                      // of about 0.3 m of cable that has depth
-  EXPECT_NEAR(2 * result.global_radius, 0.0067, 0.001);  // 6.7 mm by its width in the images
+  EXPECT_NEAR(longest, 0.25, 0.05);  // of about 0.3 m of cable that has depth
+  EXPECT_NEAR(2 * result.radii.global_radius, 0.0067, 0.001);  // 6.7 mm by its width in the images
 }
 
 TEST(Pipeline, PaperProfileFindsTheSimulatedCube) {
