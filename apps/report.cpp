@@ -64,7 +64,7 @@ Json EdgesJson(const GraphFigures& figures, const Reconstruction& reconstruction
     const EdgeRadius& radius = measured[ids[i]];
     edges.push_back({{"length", figures.edge_length[i]},
                      {"diameter_mm", DiameterJson(figures.edge_radius[i])},
-                     {"diameter_deviation_mm", DiameterJson(radius.spread)},
+                     {"diameter_error_mm", DiameterJson(radius.error)},
                      {"strips", radius.count},
                      {"images", ViewsJson(views[ids[i]])}});
   }

@@ -11,6 +11,7 @@
 #include "fusion/strip_samples.h"
 #include "fusion/strip_widths.h"
 #include "fusion/wire_chains.h"
+#include "fusion/wire_gauges.h"
 #include "graph/curve_network.h"
 #include "kernel/polyline.h"
 #include "kernel/quantile.h"
@@ -24,6 +25,8 @@ constexpr double kMaxClearancePx = 40;    // a strip and its background fit in
 constexpr double kBorderPx = 8;           // samples nearer to the image border are left out
 constexpr double kAgreement = 0.25;       // strips this near to the mode count, relative
 constexpr int kMinOwnStrips = 20;         // to tell that a piece of a wire is thicker or thinner
+constexpr double kAlikeStrips = 3;        // so many strips err together
+constexpr double kCommonError = 0.015;    // relative; of blur and shade, in all strips of a wire
 
 template <class T>
 void Append(std::vector<T> more, std::vector<T>& all) {
@@ -73,6 +76,28 @@ Agreement ChooseAgreement(const Agreement& own, const Agreement& wire) {
   return differs && own.count >= kMinOwnStrips ? own : wire;
 }
 
+// The standard error of a diameter, as calibrated on simulated scans.
+double StandardError(const Agreement& agreement) {
+  const double of_strips = agreement.spread * std::sqrt(kAlikeStrips / agreement.count);
+  return std::hypot(of_strips, kCommonError * agreement.diameter);
+}
+
+std::map<int, Agreement> AgreeByWire(const std::map<int, std::vector<double>>& diameters,
+                                     const RadiusOptions& options) {
+  std::map<int, Agreement> agreements;
+  for (const auto& [wire, of_wire] : diameters) agreements[wire] = Agree(of_wire, options);
+  return agreements;
+}
+
+std::vector<MeasuredDiameter> GaugesOf(const std::map<int, Agreement>& wires,
+                                       const RadiusOptions& options) {
+  std::vector<MeasuredDiameter> measured;
+  for (const auto& [wire, agreed] : wires) {
+    if (agreed.count >= options.min_strips) measured.push_back({agreed.diameter, agreed.count});
+  }
+  return FindGauges(std::move(measured));
+}
+
 void Summarize(const SkeletonGraph& skeleton, const RadiusOptions& options,
                RadiusEstimate& estimate) {
   const std::map<EdgeId, int> wires = WiresOfEdges(skeleton);
@@ -86,21 +111,24 @@ void Summarize(const SkeletonGraph& skeleton, const RadiusOptions& options,
   }
   estimate.global_radius = 0.5 * (options.strip_model ? Agree(all, options).diameter
                                                       : MostProminent(all, options.histogram_bin));
-  std::vector<double> radii_of_wires;
-  for (const auto& [wire, diameters] : by_wire) {
-    const Agreement agreed = Agree(diameters, options);
-    if (agreed.count >= options.min_strips) radii_of_wires.push_back(0.5 * agreed.diameter);
+  std::map<int, Agreement> agreed_by_wire;
+  std::vector<MeasuredDiameter> gauges;
+  if (options.per_wire) {
+    agreed_by_wire = AgreeByWire(by_wire, options);
+    gauges = GaugesOf(agreed_by_wire, options);
   }
-  estimate.unmeasured_radius = options.per_wire && !radii_of_wires.empty()
-                                   ? Quantile(std::move(radii_of_wires), 0.25)
-                                   : estimate.global_radius;
+  estimate.unmeasured_radius =
+      gauges.empty() ? estimate.global_radius : 0.5 * gauges.front().diameter;
   for (const EdgeId edge : skeleton.Edges()) {
     Agreement agreed = Agree(by_edge[edge], options);
-    if (options.per_wire) {
-      agreed = ChooseAgreement(agreed, Agree(by_wire[wires.at(edge)], options));
+    if (options.per_wire) agreed = ChooseAgreement(agreed, agreed_by_wire[wires.at(edge)]);
+    if (agreed.count < options.min_strips) {
+      estimate.edges.push_back({edge, 0, 0, agreed.count});
+      continue;
     }
-    const double radius = agreed.count >= options.min_strips ? 0.5 * agreed.diameter : 0;
-    estimate.edges.push_back({edge, radius, 0.5 * agreed.spread, agreed.count});
+    const double diameter =
+        DrawnToGauge({agreed.diameter, agreed.count}, gauges, options.gauge_strips);
+    estimate.edges.push_back({edge, 0.5 * diameter, 0.5 * StandardError(agreed), agreed.count});
   }
 }
 
@@ -193,6 +221,11 @@ void VisitOptions(RadiusOptions& options, OptionVisitor& visitor) {
                  "Deviation: edges that go straight on through a junction are pieces of one wire "
                  "and share their strips: between near junctions too few are free of other wires."},
                 options.per_wire);
+  visitor.Visit({"gauge_strips", "", 0, 100000,
+                 "Deviation: an object is made of few gauges of wire: the diameter of a wire is "
+                 "drawn to that "
+                 "of the wires like it, with the weight of so many strips."},
+                options.gauge_strips);
   visitor.Visit({"search_px", "px", 0, 40,
                  "Deviation: how far from its projection a strip is looked for by the strip model, "
                  "since poses drift."},

@@ -18,6 +18,7 @@ struct RadiusOptions {
   bool strip_model = true;
   bool per_edge = true;
   bool per_wire = true;
+  double gauge_strips = 100;
   double search_px = 10;
   double max_diameter = 0.025;
   double max_mean_diameter = 0;
@@ -40,16 +41,15 @@ struct StripWidth {
 struct EdgeRadius {
   EdgeId edge = 0;
   double radius = 0;  ///< metres; 0 = too few strips
-  double spread = 0;  ///< robust standard deviation of a single strip's radius, metres
+  double error = 0;   ///< standard error, metres
   int count = 0;      ///< strips that agree with the radius
 };
 
 /// Radii of a wire object.
 struct RadiusEstimate {
   double global_radius = 0;  ///< the most prominent value, metres; 0 = not measurable
-  /// What edges without enough strips are given, metres: with options.per_wire the lower quartile
-  /// of the wires' radii, for thin wires stand close together and hide one another; else the global
-  /// one.
+  /// What edges without enough strips are given, metres: with options.per_wire that of the thinnest
+  /// gauge, for thin wires stand close together and hide one another; else the global one.
   double unmeasured_radius = 0;
   std::vector<EdgeRadius> edges;   ///< one per edge, ascending
   std::vector<StripWidth> strips;  ///< every accepted strip, by frame, edge and arc length
@@ -60,9 +60,9 @@ struct RadiusEstimate {
 /// sequence.frames, evenly thinned), the strip found near each is measured across the curve and
 /// converted to metres. The most prominent value of all is the global radius; each edge gets the
 /// value that the strips of its wire (all edges that go straight on into one another) agree on, or,
-/// where that clearly differs, its own. Places where another strand of the skeleton lies within 1.5
-/// widths are left out. Throws Error(kBadInput) for images that cannot be decoded. Cost: 10 ms a
-/// frame for 3 m of wire.
+/// where that clearly differs, its own, drawn to the gauge of the wires like it. Places where
+/// another strand of the skeleton lies within 1.5 widths are left out. Throws Error(kBadInput) for
+/// images that cannot be decoded. Cost: 10 ms a frame for 3 m of wire.
 RadiusEstimate EstimateRadius(const SkeletonGraph& skeleton, const Sequence& sequence,
                               const std::vector<int>& frames, const RadiusOptions& options);
 

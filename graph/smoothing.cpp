@@ -43,10 +43,11 @@ std::vector<double> Corners(const Polyline& points, double angle, double window)
   }
   std::vector<double> corners;
   for (const auto& [arc, turn] : turns) {
-    const bool is_largest = std::all_of(turns.begin(), turns.end(), [&](const auto& other) {
-      return std::abs(other.first - arc) > window || other.second < turn ||
-             (other.second == turn && other.first >= arc);
-    });
+    const bool is_largest =
+        std::all_of(turns.begin(), turns.end(), [&, arc = arc, turn = turn](const auto& other) {
+          return std::abs(other.first - arc) > window || other.second < turn ||
+                 (other.second == turn && other.first >= arc);
+        });
     if (is_largest) corners.push_back(arc);
   }
   return corners;

@@ -181,7 +181,10 @@ std::vector<Ablation> OfColours() {
           {"radius per edge", {"radius.per_edge=false"}, "Objects have wires of several widths."},
           {"radius per wire",
            {"radius.per_wire=false"},
-           "Between near junctions too few strips are free of other wires."}};
+           "Between near junctions too few strips are free of other wires."},
+          {"gauges",
+           {"radius.gauge_strips=0"},
+           "Wires that are hardly measured are like those of their gauge."}};
 }
 
 }  // namespace

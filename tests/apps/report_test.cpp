@@ -92,9 +92,9 @@ TEST(Report, TellsWhatEdgesAndJunctionsRestOn) {
   const auto skeleton = nlohmann::json::parse(ReportJson(run.Record()))["skeleton"];
   EXPECT_EQ(skeleton["images_looked_through"], 20);
   ASSERT_EQ(skeleton["per_edge"].size(), 3u);
-  EXPECT_NEAR(skeleton["per_edge"][0]["diameter_deviation_mm"], 0.2, 1e-12);
+  EXPECT_NEAR(skeleton["per_edge"][0]["diameter_error_mm"], 0.2, 1e-12);
   EXPECT_EQ(skeleton["per_edge"][0]["strips"], 12);
-  EXPECT_TRUE(skeleton["per_edge"][1]["diameter_deviation_mm"].is_null());
+  EXPECT_TRUE(skeleton["per_edge"][1]["diameter_error_mm"].is_null());
   EXPECT_EQ(skeleton["per_edge"][1]["strips"], 0);
   EXPECT_EQ(skeleton["per_edge"][2]["strips"], 9);
   EXPECT_EQ(skeleton["per_edge"][2]["images"]["looked"], 10);

@@ -83,7 +83,7 @@ TEST_F(RadiusTest, EachEdgeHasItsOwnRadius) {
   EXPECT_NEAR(2 * estimate.edges[0].radius, 0.005, 0.05 * 0.005);
   EXPECT_NEAR(2 * estimate.edges[1].radius, 0.008, 0.05 * 0.008);
   EXPECT_GT(estimate.edges[0].count, 30);
-  EXPECT_LT(estimate.edges[0].spread, 0.0005);
+  EXPECT_LT(estimate.edges[0].error, 0.0002);
 }
 
 TEST_F(RadiusTest, AnErrorOfTheSkeletonDoesNotMatter) {
