@@ -25,6 +25,7 @@ PipelineOptions PaperOptions() {
   options.radius.strip_model = false;
   options.radius.per_edge = false;
   options.radius.per_wire = false;
+  options.radius.along_edge = false;
   return options;
 }
 

@@ -27,6 +27,10 @@ constexpr double kAgreement = 0.25;       // strips this near to the mode count,
 constexpr int kMinOwnStrips = 20;         // to tell that a piece of a wire is thicker or thinner
 constexpr double kAlikeStrips = 3;        // so many strips err together
 constexpr double kCommonError = 0.015;    // relative; of blur and shade, in all strips of a wire
+constexpr double kStretch = 0.03;         // metres, of an edge whose radius may vary
+constexpr size_t kStretchStrips = 20;     // at least, in every stretch
+constexpr double kClearChange = 0.3;      // relative; less may come of other wires near by
+constexpr double kErrorsApart = 4;
 
 template <class T>
 void Append(std::vector<T> more, std::vector<T>& all) {
@@ -98,15 +102,45 @@ std::vector<MeasuredDiameter> GaugesOf(const std::map<int, Agreement>& wires,
   return FindGauges(std::move(measured));
 }
 
+// The radii of the stretches of one edge, from its strips.
+std::vector<RadiusAt> RadiiAlong(std::vector<StripWidth> strips, const RadiusOptions& options) {
+  std::sort(strips.begin(), strips.end(),
+            [](const auto& a, const auto& b) { return a.arc_length < b.arc_length; });
+  std::vector<RadiusAt> along;
+  Agreement least, most;
+  for (size_t begin = 0, end = 0; begin < strips.size(); begin = end) {
+    std::vector<double> diameters, places;
+    for (; end < strips.size(); ++end) {
+      const double place = strips[end].arc_length;
+      if (diameters.size() >= kStretchStrips && place > places.front() + kStretch) break;
+      diameters.push_back(strips[end].diameter);
+      places.push_back(place);
+    }
+    const Agreement agreed = Agree(diameters, options);
+    if (agreed.count < static_cast<int>(kStretchStrips)) continue;
+    along.push_back({Median(std::move(places)), 0.5 * agreed.diameter});
+    if (least.count == 0 || agreed.diameter < least.diameter) least = agreed;
+    if (most.count == 0 || agreed.diameter > most.diameter) most = agreed;
+  }
+  const double difference = most.diameter - least.diameter;
+  const bool varies =
+      along.size() > 1 && difference > kClearChange * least.diameter &&
+      difference > kErrorsApart * std::hypot(StandardError(least), StandardError(most));
+  if (!varies) along.clear();
+  return along;
+}
+
 void Summarize(const SkeletonGraph& skeleton, const RadiusOptions& options,
                RadiusEstimate& estimate) {
   const std::map<EdgeId, int> wires = WiresOfEdges(skeleton);
   std::vector<double> all;
   std::map<EdgeId, std::vector<double>> by_edge;
+  std::map<EdgeId, std::vector<StripWidth>> strips_by_edge;
   std::map<int, std::vector<double>> by_wire;
   for (const StripWidth& strip : estimate.strips) {
     all.push_back(strip.diameter);
     by_edge[strip.edge].push_back(strip.diameter);
+    strips_by_edge[strip.edge].push_back(strip);
     by_wire[wires.at(strip.edge)].push_back(strip.diameter);
   }
   estimate.global_radius = 0.5 * (options.strip_model ? Agree(all, options).diameter
@@ -123,13 +157,33 @@ void Summarize(const SkeletonGraph& skeleton, const RadiusOptions& options,
     Agreement agreed = Agree(by_edge[edge], options);
     if (options.per_wire) agreed = ChooseAgreement(agreed, agreed_by_wire[wires.at(edge)]);
     if (agreed.count < options.min_strips) {
-      estimate.edges.push_back({edge, 0, 0, agreed.count});
+      estimate.edges.push_back({edge, 0, 0, agreed.count, {}});
       continue;
     }
     const double diameter =
         DrawnToGauge({agreed.diameter, agreed.count}, gauges, options.gauge_strips);
-    estimate.edges.push_back({edge, 0.5 * diameter, 0.5 * StandardError(agreed), agreed.count});
+    estimate.edges.push_back({edge, 0.5 * diameter, 0.5 * StandardError(agreed), agreed.count, {}});
+    if (options.along_edge) {
+      estimate.edges.back().along = RadiiAlong(strips_by_edge[edge], options);
+    }
   }
+}
+
+// Linear between the places, constant beyond them.
+std::vector<double> InterpolatedRadii(const Polyline& points, const std::vector<RadiusAt>& along) {
+  std::vector<double> radii;
+  for (const double place : CumulativeLength(points)) {
+    const auto after = std::find_if(along.begin(), along.end(),
+                                    [&](const RadiusAt& at) { return at.arc_length >= place; });
+    if (after == along.begin() || after == along.end()) {
+      radii.push_back(after == along.end() ? along.back().radius : after->radius);
+      continue;
+    }
+    const RadiusAt& before = *std::prev(after);
+    const double share = (place - before.arc_length) / (after->arc_length - before.arc_length);
+    radii.push_back(before.radius + share * (after->radius - before.radius));
+  }
+  return radii;
 }
 
 }  // namespace
@@ -164,14 +218,12 @@ void AssignRadii(const RadiusEstimate& estimate, const RadiusOptions& options,
   if (estimate.global_radius <= 0) return;
   for (const EdgeRadius& own : estimate.edges) {
     if (!skeleton.HasEdge(own.edge)) continue;
-    const bool use_own = options.per_edge && own.radius > 0;
     const SkeletonEdge& edge = skeleton.edge(own.edge);
-    skeleton.SetCurve(own.edge, edge.points,
-                      std::vector<double>(edge.points.size(),
-                                          use_own ? own.radius
-                                                  : (options.per_edge ? estimate.unmeasured_radius
-                                                                      : estimate.global_radius)),
-                      edge.observations);
+    double radius = estimate.global_radius;
+    if (options.per_edge) radius = own.radius > 0 ? own.radius : estimate.unmeasured_radius;
+    std::vector<double> radii(edge.points.size(), radius);
+    if (options.per_edge && !own.along.empty()) radii = InterpolatedRadii(edge.points, own.along);
+    skeleton.SetCurve(own.edge, edge.points, std::move(radii), edge.observations);
   }
 }
 
@@ -185,7 +237,7 @@ void DropThickParts(const RadiusOptions& options, SkeletonGraph& skeleton) {
       if (edge.radii.empty()) continue;
       const double edge_length = Length(edge.points);
       length += edge_length;
-      diameters += 2 * edge.radii.front() * edge_length;  // AssignRadii gives one to each edge
+      diameters += 2 * Median(edge.radii) * edge_length;
     }
     if (diameters <= options.max_mean_diameter * length) continue;
     for (const EdgeId id : part) skeleton.RemoveEdge(id);
@@ -221,6 +273,9 @@ void VisitOptions(RadiusOptions& options, OptionVisitor& visitor) {
                  "Deviation: edges that go straight on through a junction are pieces of one wire "
                  "and share their strips: between near junctions too few are free of other wires."},
                 options.per_wire);
+  visitor.Visit({"along_edge", "", 0, 1,
+                 "Deviation: the radius varies along an edge whose thickness clearly changes."},
+                options.along_edge);
   visitor.Visit({"gauge_strips", "", 0, 100000,
                  "Deviation: an object is made of few gauges of wire: the diameter of a wire is "
                  "drawn to that "

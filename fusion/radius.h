@@ -18,6 +18,7 @@ struct RadiusOptions {
   bool strip_model = true;
   bool per_edge = true;
   bool per_wire = true;
+  bool along_edge = true;
   double gauge_strips = 100;
   double search_px = 10;
   double max_diameter = 0.025;
@@ -37,12 +38,21 @@ struct StripWidth {
   double diameter = 0;    ///< metres
 };
 
+/// The radius at one place of an edge.
+struct RadiusAt {
+  double arc_length = 0;  ///< metres from the front of the edge
+  double radius = 0;      ///< metres
+};
+
 /// What was measured along one edge.
 struct EdgeRadius {
   EdgeId edge = 0;
   double radius = 0;  ///< metres; 0 = too few strips
   double error = 0;   ///< standard error, metres
   int count = 0;      ///< strips that agree with the radius
+  /// Where the thickness clearly changes along the edge: ascending places, between which it changes
+  /// linearly; empty otherwise.
+  std::vector<RadiusAt> along;
 };
 
 /// Radii of a wire object.
@@ -60,15 +70,17 @@ struct RadiusEstimate {
 /// sequence.frames, evenly thinned), the strip found near each is measured across the curve and
 /// converted to metres. The most prominent value of all is the global radius; each edge gets the
 /// value that the strips of its wire (all edges that go straight on into one another) agree on, or,
-/// where that clearly differs, its own, drawn to the gauge of the wires like it. Places where
-/// another strand of the skeleton lies within 1.5 widths are left out. Throws Error(kBadInput) for
-/// images that cannot be decoded. Cost: 10 ms a frame for 3 m of wire.
+/// where that clearly differs, its own, drawn to the gauge of the wires like it. With
+/// options.along_edge an edge is cut into stretches of 30 mm, and where their diameters differ by
+/// 30 % and more than their errors explain, its radius varies. Places where another strand of the
+/// skeleton lies within 1.5 widths are left out. Throws Error(kBadInput) for images that cannot be
+/// decoded. Cost: 10 ms a frame for 3 m of wire.
 RadiusEstimate EstimateRadius(const SkeletonGraph& skeleton, const Sequence& sequence,
                               const std::vector<int>& frames, const RadiusOptions& options);
 
-/// Sets the radius at every vertex: each edge's own with options.per_edge (unmeasured_radius where
-/// it has none), the global one otherwise. Does nothing where nothing was measured at all
-/// (estimate.global_radius == 0).
+/// Sets the radius at every vertex: each edge's own with options.per_edge, at that place of the
+/// edge where it changes along it (unmeasured_radius where it has none), the global one otherwise.
+/// Does nothing where nothing was measured at all (estimate.global_radius == 0).
 void AssignRadii(const RadiusEstimate& estimate, const RadiusOptions& options,
                  SkeletonGraph& skeleton);
 

@@ -182,6 +182,9 @@ std::vector<Ablation> OfColours() {
           {"radius per wire",
            {"radius.per_wire=false"},
            "Between near junctions too few strips are free of other wires."},
+          {"radius along an edge",
+           {"radius.along_edge=false"},
+           "Grips and sleeves are thicker than the wire in them."},
           {"gauges",
            {"radius.gauge_strips=0"},
            "Wires that are hardly measured are like those of their gauge."}};

@@ -23,20 +23,19 @@ class RadiusTest : public testing::Test {
  protected:
   static constexpr int kFrames = 4;
 
-  static void SetUpTestSuite() {
-    folder_ =
-        std::filesystem::temp_directory_path() / fmt::format("curvefusion_radius_{}", getpid());
-    std::filesystem::create_directories(folder_);
-    for (int i = 0; i < kFrames; ++i) WriteFrame(i);
+  static void SetUpTestSuite() { WriteFrames(MakeSequence(), Wires()); }
+  static void TearDownTestSuite() { std::filesystem::remove_all(Folder()); }
+
+  static std::filesystem::path Folder() {
+    return std::filesystem::temp_directory_path() / fmt::format("curvefusion_radius_{}", getpid());
   }
-  static void TearDownTestSuite() { std::filesystem::remove_all(folder_); }
 
   static std::vector<RenderedWire> Wires() {
     return {{{-0.12, -0.06, 0.55}, {0.12, -0.04, 0.65}, 0.005, {60, 160, 70}},
             {{-0.12, 0.04, 0.6}, {0.12, 0.06, 0.6}, 0.008, {60, 160, 70}}};
   }
 
-  static Sequence MakeSequence() {
+  static Sequence MakeSequence(const std::string& name = "wires") {
     Sequence sequence;
     sequence.depth_camera = sequence.color_camera = {320, 240, 480, 480, 159.5, 119.5};
     for (int i = 0; i < kFrames; ++i) {
@@ -44,20 +43,21 @@ class RadiusTest : public testing::Test {
       frame.T_world_camera = RigidTransform::Identity();
       frame.T_world_camera.translation() = Vec3(0.01 * i, -0.01 * i, 0.02 * i);
       frame.T_world_camera.linear() = Eigen::AngleAxisd(0.1 * i, Vec3::UnitZ()).toRotationMatrix();
-      frame.color_path = folder_ / fmt::format("{}.jpg", i);
+      frame.color_path = Folder() / fmt::format("{}_{}.jpg", name, i);
       sequence.frames.push_back(frame);
     }
     return sequence;
   }
 
-  static void WriteFrame(int i) {
-    const Sequence sequence = MakeSequence();
-    ColorImage image =
-        RenderWires(Wires(), sequence.color_camera, sequence.frames[i].T_world_camera, 0.8);
-    cv::Mat bgr;
-    cv::cvtColor(cv::Mat(image.height(), image.width(), CV_8UC3, image.data()), bgr,
-                 cv::COLOR_RGB2BGR);
-    cv::imwrite(sequence.frames[i].color_path.string(), bgr);
+  static void WriteFrames(const Sequence& sequence, const std::vector<RenderedWire>& wires) {
+    std::filesystem::create_directories(Folder());
+    for (const SequenceFrame& frame : sequence.frames) {
+      ColorImage image = RenderWires(wires, sequence.color_camera, frame.T_world_camera, 0.8);
+      cv::Mat bgr;
+      cv::cvtColor(cv::Mat(image.height(), image.width(), CV_8UC3, image.data()), bgr,
+                   cv::COLOR_RGB2BGR);
+      cv::imwrite(frame.color_path.string(), bgr);
+    }
   }
 
   // The wires' axes, moved by an error of the reconstruction.
@@ -70,10 +70,7 @@ class RadiusTest : public testing::Test {
   }
 
   static std::vector<int> AllFrames() { return {0, 1, 2, 3}; }
-
-  static std::filesystem::path folder_;
 };
-std::filesystem::path RadiusTest::folder_;
 
 TEST_F(RadiusTest, EachEdgeHasItsOwnRadius) {
   const RadiusEstimate estimate =
@@ -91,6 +88,34 @@ TEST_F(RadiusTest, AnErrorOfTheSkeletonDoesNotMatter) {
       EstimateRadius(Skeleton({0.001, 0.003, 0.002}), MakeSequence(), AllFrames(), {});
   EXPECT_NEAR(2 * estimate.edges[0].radius, 0.005, 0.05 * 0.005);
   EXPECT_NEAR(2 * estimate.edges[1].radius, 0.008, 0.05 * 0.008);
+}
+
+// The wire's second half is a sleeve of 8 mm; the skeleton has one edge.
+TEST_F(RadiusTest, TheRadiusVariesAlongAnEdgeWhoseThicknessChanges) {
+  const Sequence sequence = MakeSequence("sleeve");
+  WriteFrames(sequence, {{{-0.12, 0, 0.6}, {0, 0, 0.6}, 0.005, {60, 160, 70}},
+                         {{0, 0, 0.6}, {0.12, 0, 0.6}, 0.008, {60, 160, 70}}});
+  SkeletonGraph skeleton;
+  Polyline points;
+  for (int i = 0; i <= 24; ++i) points.emplace_back(-0.12 + 0.01 * i, 0, 0.6);
+  const EdgeId edge = skeleton.AddPolyline(points);
+  AssignRadii(EstimateRadius(skeleton, sequence, AllFrames(), {}), {}, skeleton);
+  const std::vector<double>& radii = skeleton.edge(edge).radii;
+  for (size_t i = 0; i < radii.size(); ++i) {
+    // 10 %: all strips of an edge are measured as wide as most of them. Around the step the radius
+    // changes over a stretch to either side.
+    if (std::abs(points[i].x()) < 0.055) continue;
+    const double truth = points[i].x() < 0 ? 0.0025 : 0.004;
+    EXPECT_NEAR(radii[i], truth, 0.1 * truth) << points[i].x();
+  }
+  AssignRadii(EstimateRadius(skeleton, sequence, AllFrames(), {.along_edge = false}), {}, skeleton);
+  EXPECT_EQ(skeleton.edge(edge).radii, std::vector<double>(25, skeleton.edge(edge).radii[0]));
+}
+
+TEST_F(RadiusTest, AWireOfOneThicknessHasOneRadius) {
+  const RadiusEstimate estimate =
+      EstimateRadius(Skeleton(Vec3::Zero()), MakeSequence(), AllFrames(), {});
+  for (const EdgeRadius& edge : estimate.edges) EXPECT_TRUE(edge.along.empty());
 }
 
 TEST_F(RadiusTest, ThePaperCountsPixels) {
