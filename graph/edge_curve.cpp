@@ -157,12 +157,14 @@ void RemoveRepeatedPoints(SkeletonEdge& edge) {
 
 void RemoveZeroLengthSegments(SkeletonGraph& graph, int since) {
   for (const EdgeId id : graph.Edges(since)) {
+    if (!graph.HasEdge(id)) continue;  // merging nodes removes edges
     const Polyline& points = graph.edge(id).points;
     if (std::adjacent_find(points.begin(), points.end()) == points.end()) continue;
     SkeletonEdge edge = graph.edge(id);
     RemoveRepeatedPoints(edge);
     if (edge.points.size() == 2 && edge.points[0] == edge.points[1]) {
       graph.RemoveEdge(id);
+      graph.MergeNodes(edge.nodes[0], edge.nodes[1]);
     } else {
       SetEdgeCurve(graph, id, std::move(edge));
     }

@@ -32,8 +32,8 @@ void ResampleGraph(SkeletonGraph& graph, double step);
 /// two.
 void RemoveRepeatedPoints(SkeletonEdge& edge);
 
-/// RemoveRepeatedPoints for every edge that changed after a version, and edges of no length
-/// removed.
+/// RemoveRepeatedPoints for every edge that changed after a version; an edge of no length is removed
+/// and its nodes become one.
 void RemoveZeroLengthSegments(SkeletonGraph& graph, int since = 0);
 
 /// Gives each edge at a node a point at `reach` metres from it where its segment there goes on for

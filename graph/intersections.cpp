@@ -12,6 +12,7 @@
 #include "graph/edge_curve.h"
 #include "graph/merge.h"
 #include "graph/validate.h"
+#include "kernel/disjoint_sets.h"
 #include "kernel/error.h"
 
 namespace curvefusion {
@@ -56,8 +57,17 @@ void Tidy(SkeletonGraph& graph, double threshold, int since) {
   }
 }
 
+// Removes an edge, or where others hang together by nothing else shrinks it to a node.
+void DropEdge(SkeletonGraph& graph, EdgeId edge) {
+  const auto [kept, other] = graph.edge(edge).nodes;
+  const int components = graph.ComponentCount();
+  graph.RemoveEdge(edge);
+  if (graph.ComponentCount() > components) graph.MergeNodes(kept, other);
+}
+
 // Merges vertices of a tidy graph; where rounding hides them, drops the shorter edge of the first
-// contact and returns false. Either way there are fewer vertices or edges afterwards.
+// contact and returns false. Either way there are fewer vertices or edges afterwards, and what
+// hangs together stays together.
 bool MergeOrDrop(SkeletonGraph& graph, const std::vector<Contact>& contacts, double threshold) {
   const size_t vertices = CountsOf(graph).vertices;
   const EdgeId a = contacts[0].closest.first.edge;
@@ -68,10 +78,27 @@ bool MergeOrDrop(SkeletonGraph& graph, const std::vector<Contact>& contacts, dou
   MergeContactVertices(graph, contacts);
   Tidy(graph, threshold, before);
   if (CountsOf(graph).vertices < vertices) return true;
-  dropped.RemoveEdge(shorter);
+  DropEdge(dropped, shorter);
   graph = std::move(dropped);
   Tidy(graph, threshold, before);
   return false;
+}
+
+// Contacts of curves that do not hang together yet.
+std::vector<Contact> ContactsBetweenComponents(const SkeletonGraph& graph,
+                                               const std::vector<Contact>& contacts) {
+  const std::vector<NodeId> nodes = graph.Nodes();
+  DisjointSets sets(nodes.empty() ? 0 : static_cast<size_t>(nodes.back()) + 1);
+  for (const EdgeId id : graph.Edges())
+    sets.Unite(graph.edge(id).nodes[0], graph.edge(id).nodes[1]);
+  const auto component = [&](const CurveLocation& place) {
+    return sets.Root(graph.edge(place.edge).nodes[0]);
+  };
+  std::vector<Contact> between;
+  for (const Contact& contact : contacts)
+    if (component(contact.closest.first) != component(contact.closest.second))
+      between.push_back(contact);
+  return between;
 }
 
 // The state of one resolution.
@@ -98,22 +125,46 @@ class Resolution {
     const double scale = std::max(threshold_, SegmentTable(graph_).Resolution());
     if (scale <= scale_) return false;
     scale_ = scale;
-    Tidy(graph_, scale, 0);
+    if (threshold_ > 0) {
+      Tidy(graph_, scale, 0);
+      tidied_ = graph_.version();
+    } else {
+      // Curves stay where they are until all that touches them is tied to them by a node.
+      RemoveZeroLengthSegments(graph_);
+      graph_.DissolveDegree2Nodes();
+      tidied_ = 0;
+    }
     return true;
+  }
+
+  void Join(const std::vector<Contact>& contacts) {
+    ++rounds_.joining;
+    JoinContacts(graph_, contacts, scale_,
+                 scale_ > threshold_ ? JoinSelection::kAll : JoinSelection::kApart);
+    Tidy(graph_, scale_, tidied_);
+    tidied_ = graph_.version();
+  }
+
+  // A step after which there are fewer components or, with as many, fewer vertices or edges.
+  void StepDown(const std::vector<Contact>& contacts) {
+    std::vector<Contact> between;
+    if (threshold_ == 0) between = ContactsBetweenComponents(graph_, contacts);
+    if (!between.empty()) {
+      Join(between);
+      return;
+    }
+    ++(MergeOrDrop(graph_, contacts, scale_) ? rounds_.merging : rounds_.dropping);
+    tidied_ = graph_.version();
   }
 
   void Step(const std::vector<Contact>& contacts) {
     if (is_stuck_ || rounds_.joining >= kMaxJoiningRounds) {
-      ++(MergeOrDrop(graph_, contacts, scale_) ? rounds_.merging : rounds_.dropping);
+      StepDown(contacts);
       is_stuck_ = false;
       return;
     }
     const Counts before = CountsOf(graph_);
-    const int version = graph_.version();
-    ++rounds_.joining;
-    JoinContacts(graph_, contacts, scale_,
-                 scale_ > threshold_ ? JoinSelection::kAll : JoinSelection::kApart);
-    Tidy(graph_, scale_, version);
+    Join(contacts);
     const Counts after = CountsOf(graph_);
     const bool is_stall = after.nodes == before.nodes && after.edges == before.edges &&
                           contacts.size() == last_contacts_;
@@ -126,6 +177,7 @@ class Resolution {
   double threshold_;
   ContactSearch search_;
   double scale_ = -1;
+  int tidied_ = 0;  // the version up to which the graph is tidy
   ResolutionRounds rounds_;
   bool is_stuck_ = false;
   int stalls_ = 0;

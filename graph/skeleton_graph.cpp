@@ -169,7 +169,8 @@ void SkeletonGraph::MergeNodes(NodeId kept, NodeId merged) {
   nodes_[merged]->edges.clear();
   RemoveNode(merged);
   for (const EdgeId id : moved) {
-    if (HasEdge(id) && Length(edge(id).points) <= 0) RemoveEdge(id);
+    if (!HasEdge(id) || edge(id).nodes[0] != edge(id).nodes[1]) continue;
+    if (Length(edge(id).points) <= 0) RemoveEdge(id);
   }
 }
 

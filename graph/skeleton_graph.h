@@ -62,7 +62,8 @@ class SkeletonGraph {
   NodeId SplitEdge(EdgeId edge, size_t point_index);
 
   /// Makes `merged` disappear into `kept`: its edges end in `kept`'s position from now on. Edges
-  /// that shrink to a point are removed.
+  /// between the two that shrink to a point are removed. One to a third node at the same position
+  /// has no length then, but ties that node (RemoveZeroLengthSegments makes it one with `kept`).
   void MergeNodes(NodeId kept, NodeId merged);
 
   /// Joins the two edges of every node of degree 2, of those that changed after a version, into

@@ -2,6 +2,7 @@
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 
@@ -21,7 +22,17 @@ struct Piece {
   std::array<int, 2> names;
   Point a, b;
   double arc_a, arc_b, curve_length;
+  Eigen::AlignedBox3d box;
 };
+
+Eigen::AlignedBox3d BoxOf(const Vec3& a, const Vec3& b) { return {a.cwiseMin(b), a.cwiseMax(b)}; }
+
+// Whether a coordinate alone keeps two pieces apart. The factor of two outweighs the rounding of
+// the difference; whether that is above zero is exact.
+bool AreFarApart(const Piece& s, const Piece& t, double threshold) {
+  const Vec3 gap = (s.box.min() - t.box.max()).cwiseMax(t.box.min() - s.box.max());
+  return gap.maxCoeff() > 2 * threshold;
+}
 
 std::vector<Piece> Pieces(const SkeletonGraph& graph) {
   std::vector<Piece> pieces;
@@ -47,7 +58,8 @@ std::vector<Piece> Pieces(const SkeletonGraph& graph) {
                         point(i + 1),
                         arcs[i],
                         arcs[i + 1],
-                        arcs.back()});
+                        arcs.back(),
+                        BoxOf(edge.points[i], edge.points[i + 1])});
     number += static_cast<int>(edge.points.size());
     ++curve;
   }
@@ -162,7 +174,8 @@ std::vector<SegmentPair> AllPairsInContact(const SkeletonGraph& graph, double th
   std::vector<SegmentPair> pairs;
   for (size_t i = 0; i < pieces.size(); ++i)
     for (size_t j = i + 1; j < pieces.size(); ++j)
-      if (AreInContactByDefinition(pieces[i], pieces[j], threshold))
+      if (!AreFarApart(pieces[i], pieces[j], threshold) &&
+          AreInContactByDefinition(pieces[i], pieces[j], threshold))
         pairs.push_back({pieces[i].number, pieces[j].number});
   return pairs;
 }
