@@ -36,61 +36,101 @@ int Compare(const SkeletonEdge& a, bool a_reversed, const SkeletonEdge& b, bool 
   return order;
 }
 
-struct DirectedEdge {
-  Vec3 first;  // at hand, as it mostly decides
-  const SkeletonEdge* edge;
-  bool reversed;
+// Places of nodes in ascending order, found by their first coordinate alone where that decides.
+struct SortedNode {
+  double x;
+  NodeId node;
 };
 
-bool ComesBefore(const DirectedEdge& a, const DirectedEdge& b) {
-  const int order = Compare(a.first, b.first);
-  return order != 0 ? order < 0 : Compare(*a.edge, a.reversed, *b.edge, b.reversed) < 0;
-}
-
-std::vector<DirectedEdge> SortedEdges(const SkeletonGraph& graph) {
-  std::vector<DirectedEdge> edges;
-  edges.reserve(graph.edge_count());
-  for (const EdgeId id : graph.Edges()) {
-    const SkeletonEdge& edge = graph.edge(id);
-    const bool reversed = Compare(edge, true, edge, false) < 0;
-    edges.push_back({reversed ? edge.points.back() : edge.points.front(), &edge, reversed});
-  }
-  std::sort(edges.begin(), edges.end(), ComesBefore);
-  return edges;
+std::vector<SortedNode> SortedNodes(const SkeletonGraph& graph) {
+  std::vector<SortedNode> sorted;
+  sorted.reserve(graph.node_count());
+  for (const NodeId node : graph.Nodes())
+    if (graph.Degree(node) > 0) sorted.push_back({graph.position(node).x(), node});
+  std::sort(sorted.begin(), sorted.end(), [&graph](const SortedNode& a, const SortedNode& b) {
+    if (a.x != b.x) return a.x < b.x;
+    return Compare(graph.position(a.node), graph.position(b.node)) < 0;
+  });
+  return sorted;
 }
 
 // Adds a node for each position at which edges end, in ascending order: of each old node, the new.
 std::vector<NodeId> AddNodes(const SkeletonGraph& graph, SkeletonGraph& canonical) {
-  std::vector<std::pair<Vec3, NodeId>> nodes;
-  nodes.reserve(graph.node_count());
-  for (const NodeId node : graph.Nodes()) {
-    // Adding zero makes the two zeros one.
-    if (graph.Degree(node) > 0) nodes.emplace_back(graph.position(node) + Vec3::Zero(), node);
-  }
-  std::vector<NodeId> new_nodes(nodes.empty() ? 0 : nodes.back().second + 1, -1);
-  std::sort(nodes.begin(), nodes.end(),
-            [](const auto& a, const auto& b) { return Compare(a.first, b.first) < 0; });
+  std::vector<NodeId> new_nodes;
   NodeId last = -1;
-  for (const auto& [position, node] : nodes) {
+  for (const auto& [x, node] : SortedNodes(graph)) {
+    // Adding zero makes the two zeros one.
+    const Vec3 position = graph.position(node) + Vec3::Zero();
     if (last < 0 || canonical.position(last) != position) last = canonical.AddNode(position);
+    if (static_cast<size_t>(node) >= new_nodes.size()) new_nodes.resize(node + 1, -1);
     new_nodes[node] = last;
   }
   return new_nodes;
 }
 
-}  // namespace
+struct DirectedEdge {
+  NodeId first;  // in the canonical form
+  EdgeId edge;
+  bool reversed;
+};
 
-SkeletonGraph CanonicalForm(const SkeletonGraph& graph) {
+bool IsReversed(const SkeletonEdge& edge, NodeId front, NodeId back) {
+  return front != back ? back < front : Compare(edge, true, edge, false) < 0;
+}
+
+// New nodes are in the order of their positions, so edges are by that of their first one, and only
+// edges from the same node have to be compared.
+std::vector<DirectedEdge> SortedEdges(const SkeletonGraph& graph,
+                                      const std::vector<NodeId>& new_nodes, int new_node_count) {
+  std::vector<DirectedEdge> edges;
+  edges.reserve(graph.edge_count());
+  std::vector<int> begins(static_cast<size_t>(new_node_count) + 1, 0);
+  for (const EdgeId id : graph.Edges()) {
+    const SkeletonEdge& edge = graph.edge(id);
+    const NodeId front = new_nodes[edge.nodes[0]];
+    const NodeId back = new_nodes[edge.nodes[1]];
+    const bool reversed = IsReversed(edge, front, back);
+    edges.push_back({reversed ? back : front, id, reversed});
+    ++begins[edges.back().first + 1];
+  }
+  std::partial_sum(begins.begin(), begins.end(), begins.begin());
+  std::vector<DirectedEdge> sorted(edges.size());
+  std::vector<int> ends(begins.begin(), begins.end() - 1);
+  for (const DirectedEdge& edge : edges) sorted[ends[edge.first]++] = edge;
+  for (size_t node = 0; node < ends.size(); ++node)
+    if (ends[node] - begins[node] > 1)
+      std::sort(sorted.begin() + begins[node], sorted.begin() + ends[node],
+                [&graph](const DirectedEdge& a, const DirectedEdge& b) {
+                  return Compare(graph.edge(a.edge), a.reversed, graph.edge(b.edge), b.reversed) <
+                         0;
+                });
+  return sorted;
+}
+
+// `take` gives an edge of the graph by its handle.
+template <class Take>
+SkeletonGraph InCanonicalOrder(const SkeletonGraph& graph, const Take& take) {
   SkeletonGraph canonical;
+  canonical.Reserve(graph.node_count(), graph.edge_count());
   const std::vector<NodeId> new_nodes = AddNodes(graph, canonical);
-  for (const DirectedEdge& directed : SortedEdges(graph)) {
-    SkeletonEdge edge = *directed.edge;
+  for (const DirectedEdge& directed : SortedEdges(graph, new_nodes, canonical.node_count())) {
+    SkeletonEdge edge = take(directed.edge);
     if (directed.reversed) Reverse(edge);
     for (NodeId& node : edge.nodes) node = new_nodes[node];
     for (Vec3& p : edge.points) p += Vec3::Zero();
     canonical.AddEdge(std::move(edge));
   }
   return canonical;
+}
+
+}  // namespace
+
+SkeletonGraph CanonicalForm(const SkeletonGraph& graph) {
+  return InCanonicalOrder(graph, [&graph](EdgeId id) { return graph.edge(id); });
+}
+
+SkeletonGraph CanonicalForm(SkeletonGraph&& graph) {
+  return InCanonicalOrder(graph, [&graph](EdgeId id) { return graph.TakeEdge(id); });
 }
 
 }  // namespace curvefusion

@@ -251,8 +251,7 @@ Contact ToContact(const SegmentTable& table, const Stretch& stretch, double over
 }
 
 std::vector<Contact> ContactsOf(const SegmentTable& table, const std::vector<SegmentPair>& pairs,
-                                double threshold) {
-  const double radius = std::max(threshold, table.Resolution());
+                                double threshold, double radius) {
   // Two lines that cross at the angle of arms that have parted within the reach; where only lines
   // that have a point in common are in contact, lines that have more.
   const double overlap_extent =
@@ -276,13 +275,12 @@ std::vector<Contact> FindContacts(const SkeletonGraph& graph, double threshold) 
   return ContactSearch(threshold).Find(graph);
 }
 
-ContactSearch::ContactSearch(double threshold) : threshold_(threshold), table_(SkeletonGraph()) {}
+ContactSearch::ContactSearch(double threshold) : threshold_(threshold), pairs_(threshold) {}
 
 std::vector<Contact> ContactSearch::Find(const SkeletonGraph& graph) {
-  SegmentTable table(graph, table_);
-  pairs_ = SegmentPairsInContact(table, threshold_, table_, pairs_);
-  table_ = std::move(table);
-  return ContactsOf(table_, pairs_, threshold_);
+  pairs_.Update(graph);
+  const double radius = std::max(threshold_, ResolutionAt(pairs_.largest_coordinate()));
+  return ContactsOf(pairs_.table(), pairs_.pairs(), threshold_, radius);
 }
 
 std::vector<LocationPair> PlacesToJoin(const Contact& contact, double threshold) {

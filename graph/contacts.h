@@ -40,10 +40,12 @@ class ContactSearch {
   /// The same contacts as FindContacts.
   std::vector<Contact> Find(const SkeletonGraph& graph);
 
+  double largest_coordinate() const { return pairs_.largest_coordinate(); }  ///< of the last graph
+  size_t point_count() const { return pairs_.point_count(); }                ///< on all its edges
+
  private:
   double threshold_;
-  SegmentTable table_;              // of the last graph
-  std::vector<SegmentPair> pairs_;  // in contact there
+  SegmentPairSearch pairs_;
 };
 
 /// The places that have to become one node to resolve a contact: the nearest ones, or where these

@@ -6,7 +6,6 @@
 #include <map>
 #include <numeric>
 #include <queue>
-#include <set>
 #include <tuple>
 #include <utility>
 
@@ -195,14 +194,15 @@ void DropShortLoops(SkeletonGraph& graph, double min_length) {
 
 std::vector<std::vector<EdgeId>> ConnectedEdges(const SkeletonGraph& graph) {
   std::vector<std::vector<EdgeId>> parts;
-  std::set<EdgeId> visited;
-  for (const EdgeId first : graph.Edges()) {
-    if (!visited.insert(first).second) continue;
+  const std::vector<EdgeId> edges = graph.Edges();
+  std::vector<char> visited(edges.empty() ? 0 : edges.back() + 1, false);
+  for (const EdgeId first : edges) {
+    if (std::exchange(visited[first], true)) continue;
     std::vector<EdgeId> part = {first};
     for (size_t i = 0; i < part.size(); ++i) {
       for (const NodeId node : graph.edge(part[i]).nodes) {
         for (const EdgeId next : graph.IncidentEdges(node)) {
-          if (visited.insert(next).second) part.push_back(next);
+          if (!std::exchange(visited[next], true)) part.push_back(next);
         }
       }
     }

@@ -1,6 +1,7 @@
 #include "graph/edge_curve.h"
 
 #include <algorithm>
+#include <boost/container/small_vector.hpp>
 #include <cassert>
 #include <utility>
 
@@ -27,6 +28,9 @@ Place PlaceAt(const std::vector<double>& arc_lengths, double s) {
   return {i, (s - arc_lengths[i]) / (arc_lengths[i + 1] - arc_lengths[i])};
 }
 
+// Most parts of curves are short.
+using Places = boost::container::small_vector<Place, 8>;
+
 template <class T>
 T Interpolated(const std::vector<T>& values, const Place& place) {
   if (place.fraction == 0) return values[place.index];
@@ -35,10 +39,10 @@ T Interpolated(const std::vector<T>& values, const Place& place) {
 }
 
 // The places of a part: its two cuts and the vertices between them.
-std::vector<Place> PlacesBetween(const std::vector<double>& arc_lengths, double from, double to) {
+Places PlacesBetween(const std::vector<double>& arc_lengths, double from, double to) {
   const Place first = PlaceAt(arc_lengths, from);
   const Place last = PlaceAt(arc_lengths, to);
-  std::vector<Place> places;
+  Places places;
   places.reserve(last.index - first.index + 2);
   places.push_back(first);
   const size_t begin = first.index + (first.fraction > 1 - kSplinter ? 2 : 1);
@@ -49,7 +53,7 @@ std::vector<Place> PlacesBetween(const std::vector<double>& arc_lengths, double 
 }
 
 template <class T>
-std::vector<T> ValuesAt(const std::vector<T>& values, const std::vector<Place>& places) {
+std::vector<T> ValuesAt(const std::vector<T>& values, const Places& places) {
   std::vector<T> result;
   if (values.empty()) return result;
   result.reserve(places.size());
@@ -57,22 +61,67 @@ std::vector<T> ValuesAt(const std::vector<T>& values, const std::vector<Place>& 
   return result;
 }
 
-SkeletonEdge EdgeAt(const SkeletonEdge& edge, const std::vector<Place>& places) {
+SkeletonEdge EdgeAt(const SkeletonEdge& edge, const Places& places) {
   return {edge.nodes, ValuesAt(edge.points, places), ValuesAt(edge.radii, places),
           ValuesAt(edge.observations, places)};
 }
 
-void Fade(Polyline& points, const Vec3& displacement, double reach) {
-  const std::vector<double> arc_lengths = CumulativeLength(points);
-  reach = std::min(reach, arc_lengths.back());
-  for (size_t i = 1; i + 1 < points.size() && arc_lengths[i] < reach; ++i)
-    points[i] += displacement * (1 - arc_lengths[i] / reach);
+// The index of a value counted from one end (0: the front, 1: the back) of n.
+size_t FromEnd(int end, size_t i, size_t n) { return end == 0 ? i : n - 1 - i; }
+
+// Moves the points near an end of a curve, but for that end.
+void Fade(Polyline& points, int end, const Vec3& displacement, double reach) {
+  const size_t n = points.size();
+  const auto point = [&](size_t i) -> Vec3& { return points[FromEnd(end, i, n)]; };
+  double length = 0;
+  for (size_t i = 1; i < n; ++i) length += (point(i) - point(i - 1)).norm();
+  reach = std::min(reach, length);
+  Vec3 last = point(0);
+  double arc = 0;
+  for (size_t i = 1; i + 1 < n; ++i) {
+    const Vec3 here = point(i);
+    arc += (here - last).norm();
+    if (arc >= reach) return;
+    point(i) = here + displacement * (1 - arc / reach);
+    last = here;
+  }
+}
+
+// Adds a value between two that follow one another.
+template <class T>
+void InsertBetween(std::vector<T>& values, size_t from, size_t to, double fraction) {
+  if (values.empty()) return;
+  const T between =
+      fraction == 0 ? values[from] : T(values[from] + fraction * (values[to] - values[from]));
+  values.insert(values.begin() + static_cast<std::ptrdiff_t>(std::max(from, to)), between);
+}
+
+// Adds a point at `reach` metres from an end of an edge where its segment there goes on for as long
+// again; whether it does.
+bool AddBendPoint(SkeletonEdge& edge, int end, double reach) {
+  const size_t n = edge.points.size();
+  double arc = 0;
+  double next = 0;
+  size_t i = 0;
+  for (; i + 1 < n; ++i) {
+    next = arc + (edge.points[FromEnd(end, i + 1, n)] - edge.points[FromEnd(end, i, n)]).norm();
+    if (next > reach) break;
+    arc = next;
+  }
+  if (next <= 2 * reach) return false;
+  const size_t from = FromEnd(end, i, n);
+  const size_t to = FromEnd(end, i + 1, n);
+  const double fraction = (reach - arc) / (next - arc);
+  InsertBetween(edge.points, from, to, fraction);
+  InsertBetween(edge.radii, from, to, fraction);
+  InsertBetween(edge.observations, from, to, fraction);
+  return true;
 }
 
 // The edges at a node, each once.
-std::vector<EdgeId> EdgesAt(const SkeletonGraph& graph, NodeId node) {
+boost::container::small_vector<EdgeId, 8> EdgesAt(const SkeletonGraph& graph, NodeId node) {
   const std::span<const EdgeId> incident = graph.IncidentEdges(node);
-  std::vector<EdgeId> edges(incident.begin(), incident.end());
+  boost::container::small_vector<EdgeId, 8> edges(incident.begin(), incident.end());
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   return edges;
@@ -80,6 +129,24 @@ std::vector<EdgeId> EdgesAt(const SkeletonGraph& graph, NodeId node) {
 
 void SetEdgeCurve(SkeletonGraph& graph, EdgeId id, SkeletonEdge edge) {
   graph.SetCurve(id, std::move(edge.points), std::move(edge.radii), std::move(edge.observations));
+}
+
+void MoveNodeAndFade(SkeletonGraph& graph, NodeId node, const Vec3& position, double reach,
+                     bool adds_bend_points) {
+  const Vec3 displacement = position - graph.position(node);
+  if (displacement.isZero(0)) return;
+  for (const EdgeId id : EdgesAt(graph, node)) {
+    SkeletonEdge edge = graph.edge(id);
+    bool has_bend_point = false;
+    for (int end = 0; end < 2; ++end)
+      if (adds_bend_points && edge.nodes[end] == node && AddBendPoint(edge, end, reach))
+        has_bend_point = true;
+    if (has_bend_point) RemoveRepeatedPoints(edge);
+    for (int end = 0; end < 2; ++end)
+      if (edge.nodes[end] == node) Fade(edge.points, end, displacement, reach);
+    SetEdgeCurve(graph, id, std::move(edge));
+  }
+  graph.MoveNode(node, position);
 }
 
 }  // namespace
@@ -90,21 +157,9 @@ SkeletonEdge PartOfEdge(const SkeletonEdge& edge, const std::vector<double>& arc
   return EdgeAt(edge, PlacesBetween(arc_lengths, from, to));
 }
 
-SkeletonEdge WithPointAt(const SkeletonEdge& edge, const std::vector<double>& arc_lengths,
-                         double arc_length) {
-  const Place place = PlaceAt(arc_lengths, arc_length);
-  std::vector<Place> places;
-  places.reserve(edge.points.size() + 1);
-  for (size_t i = 0; i < edge.points.size(); ++i) {
-    places.push_back({i, 0.0});
-    if (i == place.index) places.push_back(place);
-  }
-  return EdgeAt(edge, places);
-}
-
 SkeletonEdge SampledAt(const SkeletonEdge& edge, const std::vector<double>& arc_lengths,
                        const std::vector<double>& at) {
-  std::vector<Place> places;
+  Places places;
   places.reserve(at.size());
   const size_t last = arc_lengths.size() - 2;
   size_t i = 0;
@@ -122,7 +177,7 @@ SkeletonEdge Resampled(const SkeletonEdge& edge, double step) {
   const double length = arc_lengths.back();
   if (length <= 0) return edge;
   const int segments = std::max(1, static_cast<int>(std::lround(length / step)));
-  std::vector<Place> places;
+  Places places;
   places.reserve(segments + 1);
   for (int i = 0; i < segments; ++i) places.push_back(PlaceAt(arc_lengths, length * i / segments));
   places.push_back(PlaceAt(arc_lengths, length));
@@ -172,39 +227,12 @@ void RemoveZeroLengthSegments(SkeletonGraph& graph, int since) {
   graph.RemoveIsolatedNodes(since);
 }
 
-void AddBendPoints(SkeletonGraph& graph, NodeId node, double reach) {
-  for (const EdgeId id : EdgesAt(graph, node)) {
-    SkeletonEdge edge = graph.edge(id);
-    bool added = false;
-    for (int end = 0; end < 2; ++end) {
-      if (edge.nodes[0] == node) {
-        const std::vector<double> arcs = CumulativeLength(edge.points);
-        const auto next = std::upper_bound(arcs.begin(), arcs.end(), reach);
-        if (next != arcs.end() && *next > 2 * reach) {
-          edge = WithPointAt(edge, arcs, reach);
-          added = true;
-        }
-      }
-      Reverse(edge);
-    }
-    if (!added) continue;
-    RemoveRepeatedPoints(edge);
-    SetEdgeCurve(graph, id, std::move(edge));
-  }
+void MoveNodeSmoothly(SkeletonGraph& graph, NodeId node, const Vec3& position, double reach) {
+  MoveNodeAndFade(graph, node, position, reach, false);
 }
 
-void MoveNodeSmoothly(SkeletonGraph& graph, NodeId node, const Vec3& position, double reach) {
-  const Vec3 displacement = position - graph.position(node);
-  if (displacement.isZero(0)) return;
-  for (const EdgeId id : EdgesAt(graph, node)) {
-    SkeletonEdge edge = graph.edge(id);
-    for (int end = 0; end < 2; ++end) {
-      if (edge.nodes[0] == node) Fade(edge.points, displacement, reach);
-      Reverse(edge);
-    }
-    SetEdgeCurve(graph, id, std::move(edge));
-  }
-  graph.MoveNode(node, position);
+void MoveNodeWithBends(SkeletonGraph& graph, NodeId node, const Vec3& position, double reach) {
+  MoveNodeAndFade(graph, node, position, reach, true);
 }
 
 }  // namespace curvefusion

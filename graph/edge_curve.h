@@ -13,10 +13,6 @@ namespace curvefusion {
 SkeletonEdge PartOfEdge(const SkeletonEdge& edge, const std::vector<double>& arc_lengths,
                         double from, double to);
 
-/// The edge with a point added at an arc length.
-SkeletonEdge WithPointAt(const SkeletonEdge& edge, const std::vector<double>& arc_lengths,
-                         double arc_length);
-
 /// The values of an edge at ascending arc lengths, interpolated. Linear in both.
 SkeletonEdge SampledAt(const SkeletonEdge& edge, const std::vector<double>& arc_lengths,
                        const std::vector<double>& at);
@@ -32,16 +28,16 @@ void ResampleGraph(SkeletonGraph& graph, double step);
 /// two.
 void RemoveRepeatedPoints(SkeletonEdge& edge);
 
-/// RemoveRepeatedPoints for every edge that changed after a version; an edge of no length is removed
-/// and its nodes become one.
+/// RemoveRepeatedPoints for every edge that changed after a version; an edge of no length is
+/// removed and its nodes become one.
 void RemoveZeroLengthSegments(SkeletonGraph& graph, int since = 0);
-
-/// Gives each edge at a node a point at `reach` metres from it where its segment there goes on for
-/// as long again: a bend that ends there does not reach farther.
-void AddBendPoints(SkeletonGraph& graph, NodeId node, double reach);
 
 /// Moves a node and, with it, the near parts of its edges: the displacement fades linearly to zero
 /// over `reach` metres of arc length (at most the whole edge), so that no kink is left at the end.
 void MoveNodeSmoothly(SkeletonGraph& graph, NodeId node, const Vec3& position, double reach);
+
+/// MoveNodeSmoothly for edges that first get a point at `reach` metres from the node where their
+/// segment there goes on for as long again, so that the bend does not reach farther.
+void MoveNodeWithBends(SkeletonGraph& graph, NodeId node, const Vec3& position, double reach);
 
 }  // namespace curvefusion

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -36,11 +37,17 @@ struct Counts {
   bool operator==(const Counts&) const = default;
 };
 
+// `points` are those of all edges.
+Counts CountsOf(const SkeletonGraph& graph, size_t points) {
+  const auto nodes = static_cast<size_t>(graph.node_count());
+  const auto edges = static_cast<size_t>(graph.edge_count());
+  return {graph.node_count(), graph.edge_count(), nodes + points - 2 * edges};
+}
+
 Counts CountsOf(const SkeletonGraph& graph) {
-  Counts counts{graph.node_count(), graph.edge_count(), 0};
-  counts.vertices = counts.nodes;
-  for (const EdgeId id : graph.Edges()) counts.vertices += graph.edge(id).points.size() - 2;
-  return counts;
+  size_t points = 0;
+  for (const EdgeId id : graph.Edges()) points += graph.edge(id).points.size();
+  return CountsOf(graph, points);
 }
 
 // Brings a graph to the form in which contacts are looked for; every step removes edges, so it
@@ -108,21 +115,23 @@ class Resolution {
       : graph_(std::move(graph)), threshold_(threshold), search_(threshold) {}
 
   void Run() {
-    while (TidyAtScale()) {
+    double largest = LargestCoordinate(graph_);
+    while (TidyAtScale(std::max(threshold_, ResolutionAt(largest)))) {
       for (std::vector<Contact> contacts = search_.Find(graph_); !contacts.empty();
            contacts = search_.Find(graph_))
         Step(contacts);
+      largest = search_.largest_coordinate();
     }
   }
 
   const SkeletonGraph& graph() const { return graph_; }
+  SkeletonGraph TakeGraph() { return std::move(graph_); }
   const ResolutionRounds& rounds() const { return rounds_; }
 
  private:
   // Where the threshold is below what rounding amounts to, junctions are still made at its scale.
   // That grows with the coordinates, by powers of two; false where it has not since the last call.
-  bool TidyAtScale() {
-    const double scale = std::max(threshold_, SegmentTable(graph_).Resolution());
+  bool TidyAtScale(double scale) {
     if (scale <= scale_) return false;
     scale_ = scale;
     if (threshold_ > 0) {
@@ -157,20 +166,27 @@ class Resolution {
     tidied_ = graph_.version();
   }
 
+  // Whether the last round joined and that left the graph as it was, or the numbers for some
+  // rounds.
+  bool IsStuck(const Counts& now) {
+    if (!joined_) return false;
+    const bool is_stall =
+        now.nodes == joined_->nodes && now.edges == joined_->edges && is_repeated_;
+    stalls_ = is_stall ? stalls_ + 1 : 0;
+    return now == *joined_ || stalls_ > kMaxStalls;
+  }
+
   void Step(const std::vector<Contact>& contacts) {
-    if (is_stuck_ || rounds_.joining >= kMaxJoiningRounds) {
+    const Counts now = CountsOf(graph_, search_.point_count());
+    if (IsStuck(now) || rounds_.joining >= kMaxJoiningRounds) {
       StepDown(contacts);
-      is_stuck_ = false;
+      joined_.reset();
       return;
     }
-    const Counts before = CountsOf(graph_);
-    Join(contacts);
-    const Counts after = CountsOf(graph_);
-    const bool is_stall = after.nodes == before.nodes && after.edges == before.edges &&
-                          contacts.size() == last_contacts_;
-    stalls_ = is_stall ? stalls_ + 1 : 0;
-    is_stuck_ = after == before || stalls_ > kMaxStalls;
+    joined_ = now;
+    is_repeated_ = contacts.size() == last_contacts_;
     last_contacts_ = contacts.size();
+    Join(contacts);
   }
 
   SkeletonGraph graph_;
@@ -179,7 +195,8 @@ class Resolution {
   double scale_ = -1;
   int tidied_ = 0;  // the version up to which the graph is tidy
   ResolutionRounds rounds_;
-  bool is_stuck_ = false;
+  std::optional<Counts> joined_;  // before the last round, where that joined
+  bool is_repeated_ = false;      // it found as many contacts as the one before
   int stalls_ = 0;
   size_t last_contacts_ = 0;
 };
@@ -197,8 +214,8 @@ ResolutionRounds ResolveIntersections(SkeletonGraph& graph, double threshold) {
   RequireFinite(graph, "graph with intersections to resolve");
   Resolution resolution(CanonicalForm(graph), threshold);
   resolution.Run();
-  if (CountsOf(resolution.graph()) != CountsOf(graph) || resolution.rounds().joining > 0)
-    graph = CanonicalForm(resolution.graph());
+  if (resolution.rounds().joining > 0 || CountsOf(resolution.graph()) != CountsOf(graph))
+    graph = CanonicalForm(resolution.TakeGraph());
   return resolution.rounds();
 }
 

@@ -1,6 +1,7 @@
 #include "graph/junctions.h"
 
 #include <algorithm>
+#include <boost/container/small_vector.hpp>
 #include <iterator>
 #include <tuple>
 
@@ -23,55 +24,56 @@ class EdgeCutter {
  public:
   EdgeCutter(SkeletonGraph& graph, double snap) : graph_(graph), snap_(snap) {}
 
-  void Add(const CurveLocation& location) { places_.push_back(location); }
-
-  // Splits all edges at their places.
-  void Cut() {
-    std::sort(places_.begin(), places_.end(), ComesBefore);
+  // Splits all edges at their places; of each pair of places, the nodes they have become.
+  std::vector<std::pair<NodeId, NodeId>> Cut(const std::vector<LocationPair>& pairs) {
+    places_.reserve(2 * pairs.size());
+    for (const auto& [a, b] : pairs)
+      for (const CurveLocation& location : {a, b})
+        places_.push_back({location.edge, static_cast<int>(places_.size()), location.arc_length});
+    std::sort(places_.begin(), places_.end());
+    nodes_.resize(places_.size());
     for (size_t i = 0; i < places_.size();) {
       size_t j = i;
       while (j < places_.size() && places_[j].edge == places_[i].edge) ++j;
       CutEdge(i, j);
       i = j;
     }
-  }
-
-  NodeId NodeOf(const CurveLocation& location) const {
-    const auto next = std::upper_bound(
-        cuts_.begin(), cuts_.end(), location,
-        [](const CurveLocation& a, const PlacedNode& b) { return ComesBefore(a, b.place); });
-    return std::prev(next)->node;
+    std::vector<std::pair<NodeId, NodeId>> nodes;
+    nodes.reserve(pairs.size());
+    for (size_t i = 0; i < nodes_.size(); i += 2) nodes.emplace_back(nodes_[i], nodes_[i + 1]);
+    return nodes;
   }
 
  private:
-  // The node of the places from this one to the next on the same edge.
-  struct PlacedNode {
-    CurveLocation place;
-    NodeId node;
+  struct Place {
+    EdgeId edge;
+    int number;  // in the order in which places are given
+    double arc_length;
+    bool operator<(const Place& other) const {
+      return std::tie(edge, arc_length) < std::tie(other.edge, other.arc_length);
+    }
   };
 
-  static bool ComesBefore(const CurveLocation& a, const CurveLocation& b) {
-    return std::tie(a.edge, a.arc_length) < std::tie(b.edge, b.arc_length);
-  }
+  // Arc lengths at which an edge is split, and the nodes there.
+  using Splits = boost::container::small_vector<std::pair<double, NodeId>, 8>;
 
   // Cuts the edge that a range of places is on.
   void CutEdge(size_t begin, size_t end) {
     const EdgeId id = places_[begin].edge;
-    const SkeletonEdge whole = graph_.edge(id);
-    const std::vector<double> lengths = CumulativeLength(whole.points);
-    std::vector<std::pair<double, NodeId>> splits = {{0.0, whole.nodes[0]}};
+    const std::vector<double> lengths = CumulativeLength(graph_.edge(id).points);
+    Splits splits;
+    splits.emplace_back(0.0, graph_.edge(id).nodes[0]);
     for (size_t i = begin; i < end;) {
       double sum = 0;
       size_t j = i;
       for (; j < end && places_[j].arc_length - places_[i].arc_length <= snap_; ++j)
         sum += places_[j].arc_length;
-      const double arc = sum / static_cast<double>(j - i);
-      cuts_.push_back({places_[i], NodeAt(whole, lengths, arc, splits)});
-      i = j;
+      const NodeId node = NodeAt(id, lengths, sum / static_cast<double>(j - i), splits);
+      for (; i < j; ++i) nodes_[places_[i].number] = node;
     }
     if (splits.size() == 1) return;
+    const SkeletonEdge whole = graph_.TakeEdge(id);
     splits.emplace_back(lengths.back(), whole.nodes[1]);
-    graph_.RemoveEdge(id);
     for (size_t i = 0; i + 1 < splits.size(); ++i) {
       SkeletonEdge part = PartOfEdge(whole, lengths, splits[i].first, splits[i + 1].first);
       part.nodes = {splits[i].second, splits[i + 1].second};
@@ -79,8 +81,8 @@ class EdgeCutter {
     }
   }
 
-  NodeId NodeAt(const SkeletonEdge& whole, const std::vector<double>& lengths, double arc,
-                std::vector<std::pair<double, NodeId>>& splits) {
+  NodeId NodeAt(EdgeId id, const std::vector<double>& lengths, double arc, Splits& splits) {
+    const SkeletonEdge& whole = graph_.edge(id);
     const double length = lengths.back();
     if (std::min(arc, length - arc) <= snap_) return whole.nodes[arc <= length - arc ? 0 : 1];
     const SkeletonEdge place = PartOfEdge(whole, lengths, arc, arc);
@@ -91,8 +93,8 @@ class EdgeCutter {
 
   SkeletonGraph& graph_;
   double snap_;
-  std::vector<CurveLocation> places_;
-  std::vector<PlacedNode> cuts_;  // in the order of places
+  std::vector<Place> places_;
+  std::vector<NodeId> nodes_;  // of places by their number
 };
 
 // Removes the edges within a group that are no longer than max_link.
@@ -127,9 +129,10 @@ std::vector<NodeGroup> LinkedGroups(const std::vector<std::pair<NodeId, NodeId>>
   for (const auto& [a, b] : links) nodes.insert(nodes.end(), {a, b});
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  const auto index = [&nodes](NodeId node) {
-    return static_cast<int>(std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin());
-  };
+  if (nodes.empty()) return {};
+  std::vector<int> numbers(nodes.back() - nodes.front() + 1);
+  for (size_t i = 0; i < nodes.size(); ++i) numbers[nodes[i] - nodes.front()] = static_cast<int>(i);
+  const auto index = [&](NodeId node) { return numbers[node - nodes.front()]; };
   DisjointSets sets(nodes.size());
   for (const auto& [a, b] : links) sets.Unite(index(a), index(b));
   std::vector<NodeGroup> groups(nodes.size());
@@ -152,8 +155,7 @@ void Bend(SkeletonGraph& graph, NodeId node, const Vec3& position, double max_li
     graph.MoveNode(node, position);
     return;
   }
-  AddBendPoints(graph, node, kReach * moved);
-  MoveNodeSmoothly(graph, node, position, kReach * moved);
+  MoveNodeWithBends(graph, node, position, kReach * moved);
 }
 
 void MergeGroups(SkeletonGraph& graph, const std::vector<NodeGroup>& groups, double max_link) {
@@ -181,15 +183,7 @@ void MergeNodeGroups(SkeletonGraph& graph, const std::vector<NodeGroup>& groups,
 
 void JoinLocations(SkeletonGraph& graph, const std::vector<LocationPair>& pairs, double snap) {
   const int before = graph.version();
-  EdgeCutter cutter(graph, snap);
-  for (const auto& [a, b] : pairs) {
-    cutter.Add(a);
-    cutter.Add(b);
-  }
-  cutter.Cut();
-  std::vector<std::pair<NodeId, NodeId>> links;
-  links.reserve(pairs.size());
-  for (const auto& [a, b] : pairs) links.emplace_back(cutter.NodeOf(a), cutter.NodeOf(b));
+  const std::vector<std::pair<NodeId, NodeId>> links = EdgeCutter(graph, snap).Cut(pairs);
   MergeGroups(graph, LinkedGroups(links, graph), kLinkInSnaps * snap);
   RemoveZeroLengthSegments(graph, before);
 }

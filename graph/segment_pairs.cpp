@@ -2,10 +2,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <boost/container/static_vector.hpp>
 #include <cmath>
 #include <utility>
-
-#include "kernel/box_pairs.h"
 
 namespace curvefusion {
 
@@ -28,7 +27,10 @@ double SizeOf(const LinearGap& way) {
          std::max(std::abs(way.t_at_a), std::abs(way.t_at_b));
 }
 
-void AddIfShort(const LinearGap& way, double reach, std::vector<LinearGap>& ways) {
+// One along a common curve and one for each pair of ends that may be one node.
+using Ways = boost::container::static_vector<LinearGap, 5>;
+
+void AddIfShort(const LinearGap& way, double reach, Ways& ways) {
   if (LeastOf(way) <= reach + kMargin * (reach + SizeOf(way))) ways.push_back(way);
 }
 
@@ -50,7 +52,7 @@ bool MayReachNode(const SegmentTable& table, int k, double reach) {
 }
 
 void AddWaysOverNodes(const SegmentTable& table, const SegmentPair& pair, double reach,
-                      std::vector<LinearGap>& ways) {
+                      Ways& ways) {
   const int curve_s = table.curves[pair.s];
   const int curve_t = table.curves[pair.t];
   for (int i = 0; i < 2; ++i) {
@@ -92,17 +94,32 @@ bool Meet(const SegmentTable& table, const SegmentPair& pair) {
                  table.points[pair.t + 1 - shared.side_t]);
 }
 
-bool AreOnOneShortWay(const std::vector<LinearGap>& ways, double reach) {
+Ways FindShortWays(const SegmentTable& table, const SegmentPair& pair, double reach) {
+  Ways ways;
+  const auto [s, t] = pair;
+  if (table.curves[s] == table.curves[t])
+    AddIfShort({-table.arcs[s], -table.arcs[s + 1], table.arcs[t], table.arcs[t + 1]}, reach, ways);
+  if (MayReachNode(table, s, reach) && MayReachNode(table, t, reach))
+    AddWaysOverNodes(table, pair, reach, ways);
+  return ways;
+}
+
+bool AreOnOneShortWay(const Ways& ways, double reach) {
   return std::any_of(ways.begin(), ways.end(), [reach](const LinearGap& way) {
     return GreatestOf(way) < reach - kMargin * (reach + SizeOf(way));
   });
 }
 
-std::vector<int> SegmentsOf(const SegmentTable& table) {
+// The segments of the curves from one on that are marked; of all where there are no marks.
+std::vector<int> SegmentsFrom(const SegmentTable& table, int first_curve,
+                              const std::vector<char>& marks = {}) {
   std::vector<int> segments;
-  segments.reserve(table.points.size());
-  for (int k = 0; k < table.point_count(); ++k)
-    if (table.IsSegment(k)) segments.push_back(k);
+  segments.reserve(table.point_count() - table.first_points[first_curve]);
+  for (int curve = first_curve; curve < table.curve_count(); ++curve) {
+    if (!marks.empty() && !marks[curve]) continue;
+    for (int k = table.first_points[curve]; k + 1 < table.first_points[curve + 1]; ++k)
+      segments.push_back(k);
+  }
   return segments;
 }
 
@@ -113,81 +130,143 @@ Eigen::AlignedBox3d InflatedBox(const Segment& segment, double threshold) {
   return {segment.a.cwiseMin(segment.b) - margin, segment.a.cwiseMax(segment.b) + margin};
 }
 
-// Pairs of an earlier table of which both curves were kept, in a table.
-std::vector<SegmentPair> KeptPairs(const SegmentTable& earlier,
-                                   const std::vector<SegmentPair>& pairs,
-                                   const std::vector<int>& kept_curves, const SegmentTable& table) {
-  std::vector<SegmentPair> kept;
-  const auto segment_now = [&](int k) {
-    const int now = kept_curves[earlier.curves[k]];
-    return now < 0 ? -1 : table.first_points[now] + k - earlier.first_points[earlier.curves[k]];
-  };
-  for (const SegmentPair& pair : pairs) {
-    const SegmentPair now{segment_now(pair.s), segment_now(pair.t)};
-    if (now.s >= 0 && now.t >= 0) kept.push_back(now);
-  }
-  return kept;
+std::vector<Eigen::AlignedBox3d> InflatedBoxes(const SegmentTable& table,
+                                               const std::vector<int>& segments, double threshold) {
+  std::vector<Eigen::AlignedBox3d> boxes;
+  boxes.reserve(segments.size());
+  for (const int k : segments) boxes.push_back(InflatedBox(table.At(k), threshold));
+  return boxes;
 }
 
-// Those pairs in contact of which a segment is on a marked curve; all where none is marked.
-std::vector<SegmentPair> MarkedPairs(const SegmentTable& table, double threshold,
-                                     const std::vector<char>& marked_curves) {
-  const std::vector<int> segments = SegmentsOf(table);
-  std::vector<Eigen::AlignedBox3d> boxes;
-  BoxPairFilter filter;
-  boxes.reserve(segments.size());
-  for (const int k : segments) {
-    boxes.push_back(InflatedBox(table.At(k), threshold));
-    if (!marked_curves.empty()) filter.marks.push_back(marked_curves[table.curves[k]]);
-  }
-  filter.keep = [&](int i, int j) {
+// Pairs of the boxes of a tree as pairs of the segments that they are of.
+std::vector<SegmentPair> PairsOfSegments(const BoxTree::Pairs& boxes, const std::vector<int>& s,
+                                         const std::vector<int>& t) {
+  std::vector<SegmentPair> pairs;
+  pairs.reserve(boxes.size());
+  for (const auto& [i, j] : boxes) pairs.push_back({s[i], t[j]});
+  return pairs;
+}
+
+std::vector<SegmentPair> PairsInTree(const BoxTree& tree, const std::vector<int>& segments,
+                                     const SegmentTable& table, double threshold) {
+  const auto keep = [&](int i, int j) {
     return AreInContact(table, {segments[i], segments[j]}, threshold);
   };
-  std::vector<SegmentPair> pairs;
-  for (const auto& [i, j] : OverlappingBoxes(boxes, filter))
-    pairs.push_back({segments[i], segments[j]});
-  return pairs;
+  return PairsOfSegments(tree.OverlappingPairs(keep), segments, segments);
 }
 
 }  // namespace
 
 std::vector<LinearGap> ShortWays(const SegmentTable& table, const SegmentPair& pair, double reach) {
-  std::vector<LinearGap> ways;
-  const auto [s, t] = pair;
-  if (table.curves[s] == table.curves[t])
-    AddIfShort({-table.arcs[s], -table.arcs[s + 1], table.arcs[t], table.arcs[t + 1]}, reach, ways);
-  if (MayReachNode(table, s, reach) && MayReachNode(table, t, reach))
-    AddWaysOverNodes(table, pair, reach, ways);
-  return ways;
+  const Ways ways = FindShortWays(table, pair, reach);
+  return {ways.begin(), ways.end()};
 }
 
 bool AreInContact(const SegmentTable& table, const SegmentPair& pair, double threshold) {
   const double reach = kConnectedReach * threshold;
-  std::vector<LinearGap> ways;
-  if (HangTogether(table, pair)) ways = ShortWays(table, pair, reach);
+  Ways ways;
+  if (HangTogether(table, pair)) ways = FindShortWays(table, pair, reach);
   if (ways.empty()) return AreWithin(table.At(pair.s), table.At(pair.t), threshold);
   if (Meet(table, pair)) return true;
   if (threshold <= 0 || AreOnOneShortWay(ways, reach)) return false;
-  return AreWithinBeyond(table.At(pair.s), table.At(pair.t), threshold, ways, reach);
+  return AreWithinBeyond(table.At(pair.s), table.At(pair.t), threshold, {ways.begin(), ways.end()},
+                         reach);
 }
 
 std::vector<SegmentPair> SegmentPairsInContact(const SegmentTable& table, double threshold) {
-  return MarkedPairs(table, threshold, {});
+  const std::vector<int> segments = SegmentsFrom(table, 0);
+  return PairsInTree(BoxTree(InflatedBoxes(table, segments, threshold)), segments, table,
+                     threshold);
 }
 
-std::vector<SegmentPair> SegmentPairsInContact(const SegmentTable& table, double threshold,
-                                               const SegmentTable& earlier,
-                                               const std::vector<SegmentPair>& earlier_pairs) {
-  const std::vector<int> kept_curves = table.NumbersOf(earlier);
-  std::vector<char> has_changed(table.edges.size(), true);
-  for (const int curve : kept_curves)
-    if (curve >= 0) has_changed[curve] = false;
-  std::vector<SegmentPair> pairs = KeptPairs(earlier, earlier_pairs, kept_curves, table);
-  const std::vector<SegmentPair> changed = MarkedPairs(table, threshold, has_changed);
-  const auto kept_count = static_cast<std::ptrdiff_t>(pairs.size());
-  pairs.insert(pairs.end(), changed.begin(), changed.end());
-  std::inplace_merge(pairs.begin(), pairs.begin() + kept_count, pairs.end());
-  return pairs;
+void SegmentPairSearch::Update(const SkeletonGraph& graph) {
+  const std::vector<EdgeId> changed = graph.Edges(version_);
+  version_ = graph.version();
+  size_t count = table_.points.size();
+  for (const EdgeId id : changed) count += graph.edge(id).points.size();
+  if (static_cast<double>(count) > (1 + SegmentTable::kRoom) * tree_points_) {
+    Restart(graph);
+  } else {
+    DropChanged(graph);
+    Extend(graph, changed);
+    CollectPart(graph);
+  }
+  Measure();
+}
+
+void SegmentPairSearch::Restart(const SkeletonGraph& graph) {
+  table_ = SegmentTable(graph);
+  is_current_.assign(table_.edges.size(), true);
+  tree_segments_ = SegmentsFrom(table_, 0);
+  tree_ = BoxTree(InflatedBoxes(table_, tree_segments_, threshold_));
+  tree_curves_ = table_.curve_count();
+  tree_points_ = table_.point_count();
+  pairs_ = PairsInTree(tree_, tree_segments_, table_, threshold_);
+}
+
+void SegmentPairSearch::DropChanged(const SkeletonGraph& graph) {
+  for (int curve = 0; curve < table_.curve_count(); ++curve)
+    is_current_[curve] =
+        is_current_[curve] && graph.version(table_.edges[curve]) == table_.versions[curve];
+  std::erase_if(pairs_, [&](const SegmentPair& pair) {
+    return !is_current_[table_.curves[pair.s]] || !is_current_[table_.curves[pair.t]];
+  });
+}
+
+void SegmentPairSearch::Extend(const SkeletonGraph& graph, const std::vector<EdgeId>& changed) {
+  const int first_curve = table_.curve_count();
+  const int first_point = table_.point_count();
+  table_.Append(graph, changed);
+  is_current_.resize(table_.edges.size(), true);
+  const std::vector<int> added = SegmentsFrom(table_, first_curve);
+  const auto keep = [&](int i, int j) {
+    const int s = tree_segments_[i];
+    return is_current_[table_.curves[s]] && AreInContact(table_, {s, added[j]}, threshold_);
+  };
+  std::vector<SegmentPair> found =
+      PairsOfSegments(tree_.OverlappingPairs(InflatedBoxes(table_, added, threshold_), keep),
+                      tree_segments_, added);
+  pairs_.insert(pairs_.end(), found.begin(), found.end());
+  const std::vector<int> extension = SegmentsFrom(table_, tree_curves_, is_current_);
+  const auto keep_new = [&](int i, int j) {
+    return extension[j] >= first_point &&
+           AreInContact(table_, {extension[i], extension[j]}, threshold_);
+  };
+  found = PairsOfSegments(
+      BoxTree(InflatedBoxes(table_, extension, threshold_)).OverlappingPairs(keep_new), extension,
+      extension);
+  pairs_.insert(pairs_.end(), found.begin(), found.end());
+}
+
+void SegmentPairSearch::CollectPart(const SkeletonGraph& graph) {
+  std::vector<EdgeId> edges;
+  for (const SegmentPair& pair : pairs_)
+    for (const int k : {pair.s, pair.t}) edges.push_back(table_.edges[table_.curves[k]]);
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  part_ = SegmentTable(graph, edges);
+  const auto number = [&](int k) {
+    const int curve = table_.curves[k];
+    const auto at = std::lower_bound(edges.begin(), edges.end(), table_.edges[curve]);
+    return part_.first_points[at - edges.begin()] + k - table_.first_points[curve];
+  };
+  part_pairs_.clear();
+  for (const SegmentPair& pair : pairs_) {
+    const auto [s, t] = std::minmax({number(pair.s), number(pair.t)});
+    part_pairs_.push_back({s, t});
+  }
+  std::sort(part_pairs_.begin(), part_pairs_.end());
+}
+
+void SegmentPairSearch::Measure() {
+  largest_coordinate_ = 0;
+  point_count_ = 0;
+  for (int curve = 0; curve < table_.curve_count(); ++curve) {
+    if (!is_current_[curve]) continue;
+    point_count_ += table_.PointCount(curve);
+    for (int k = table_.first_points[curve]; k < table_.first_points[curve + 1]; ++k)
+      largest_coordinate_ = std::max(largest_coordinate_, table_.points[k].cwiseAbs().maxCoeff());
+  }
 }
 
 }  // namespace curvefusion

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "graph/segment_table.h"
+#include "kernel/box_pairs.h"
 
 namespace curvefusion {
 
@@ -30,14 +31,48 @@ std::vector<LinearGap> ShortWays(const SegmentTable& table, const SegmentPair& p
 /// may have length zero. O(n log n + k) in segments and in pairs whose boxes meet.
 std::vector<SegmentPair> SegmentPairsInContact(const SegmentTable& table, double threshold);
 
-/// The same, given the pairs in contact of an earlier state of the graph at the same threshold.
-/// Whether two segments are in contact depends on their own edges only, so pairs on edges that have
-/// not changed need not be decided again.
-std::vector<SegmentPair> SegmentPairsInContact(const SegmentTable& table, double threshold,
-                                               const SegmentTable& earlier,
-                                               const std::vector<SegmentPair>& earlier_pairs);
-
 /// Whether one pair is in contact.
 bool AreInContact(const SegmentTable& table, const SegmentPair& pair, double threshold);
+
+/// SegmentPairsInContact for one graph that changes from call to call. Whether two segments are in
+/// contact depends on their own edges only, so of pairs only those are decided of which an edge has
+/// changed since the last call.
+class SegmentPairSearch {
+ public:
+  explicit SegmentPairSearch(double threshold) : threshold_(threshold) {}
+
+  /// Looks at the graph as it is now.
+  void Update(const SkeletonGraph& graph);
+
+  /// Curves of the graph, ascending: at least those in contact.
+  const SegmentTable& table() const { return HasExtension() ? part_ : table_; }
+  /// All pairs in contact, as numbers of that table, ascending.
+  const std::vector<SegmentPair>& pairs() const { return HasExtension() ? part_pairs_ : pairs_; }
+
+  double largest_coordinate() const { return largest_coordinate_; }  ///< of the graph
+  size_t point_count() const { return point_count_; }                ///< on all its edges
+
+ private:
+  bool HasExtension() const { return table_.curve_count() > tree_curves_; }
+  void DropChanged(const SkeletonGraph& graph);
+  void Restart(const SkeletonGraph& graph);
+  void Extend(const SkeletonGraph& graph, const std::vector<EdgeId>& changed);
+  void CollectPart(const SkeletonGraph& graph);
+  void Measure();
+
+  double threshold_;
+  SegmentTable table_;              // curves of the tree, then those that have changed since
+  std::vector<char> is_current_;    // of each curve: its edge has not changed
+  std::vector<SegmentPair> pairs_;  // in contact there, on current curves
+  BoxTree tree_;
+  std::vector<int> tree_segments_;  // of each box of the tree
+  int tree_curves_ = 0;
+  int tree_points_ = 0;
+  SegmentTable part_;
+  std::vector<SegmentPair> part_pairs_;
+  int version_ = 0;
+  double largest_coordinate_ = 0;
+  size_t point_count_ = 0;
+};
 
 }  // namespace curvefusion

@@ -52,6 +52,13 @@ void Reverse(SkeletonEdge& edge) {
   std::reverse(edge.observations.begin(), edge.observations.end());
 }
 
+void SkeletonGraph::Reserve(size_t nodes, size_t edges) {
+  nodes_.reserve(nodes_.size() + nodes);
+  node_versions_.reserve(node_versions_.size() + nodes);
+  edges_.reserve(edges_.size() + edges);
+  edge_versions_.reserve(edge_versions_.size() + edges);
+}
+
 NodeId SkeletonGraph::AddNode(const Vec3& position) {
   const auto id = static_cast<NodeId>(nodes_.size());
   nodes_.emplace_back(Node{position, {}});
@@ -92,12 +99,14 @@ void SkeletonGraph::Detach(NodeId node, EdgeId edge) {
   TouchNode(node);
 }
 
-void SkeletonGraph::RemoveEdge(EdgeId edge) {
+SkeletonEdge SkeletonGraph::TakeEdge(EdgeId edge) {
   assert(HasEdge(edge));
-  for (const NodeId node : edges_[edge]->nodes) Detach(node, edge);
+  SkeletonEdge taken = std::move(*edges_[edge]);
+  for (const NodeId node : taken.nodes) Detach(node, edge);
   edges_[edge].reset();
   edge_versions_[edge] = 0;
   --edge_count_;
+  return taken;
 }
 
 void SkeletonGraph::RemoveNode(NodeId node) {
@@ -136,10 +145,9 @@ void SkeletonGraph::SetCurve(EdgeId edge, Polyline points, std::vector<double> r
 }
 
 NodeId SkeletonGraph::SplitEdge(EdgeId edge, size_t point_index) {
-  const SkeletonEdge whole = this->edge(edge);
-  assert(point_index > 0 && point_index + 1 < whole.points.size());
-  const NodeId middle = AddNode(whole.points[point_index]);
-  RemoveEdge(edge);
+  assert(point_index > 0 && point_index + 1 < this->edge(edge).points.size());
+  const NodeId middle = AddNode(this->edge(edge).points[point_index]);
+  const SkeletonEdge whole = TakeEdge(edge);
   const size_t n = whole.points.size();
   AddEdge({{whole.nodes[0], middle},
            Slice(whole.points, 0, point_index + 1),
@@ -184,14 +192,12 @@ NodeId SkeletonGraph::OtherEnd(EdgeId edge, NodeId node) const {
 }
 
 SkeletonEdge SkeletonGraph::TakeChain(NodeId first, EdgeId next) {
-  SkeletonEdge chain = edge(next);
+  SkeletonEdge chain = TakeEdge(next);
   if (chain.nodes[0] != first) Reverse(chain);
-  RemoveEdge(next);
   for (NodeId node = chain.nodes[1]; node != first && Degree(node) == 1; node = chain.nodes[1]) {
     next = IncidentEdges(node)[0];
-    SkeletonEdge link = edge(next);
+    SkeletonEdge link = TakeEdge(next);
     if (link.nodes[0] != node) Reverse(link);
-    RemoveEdge(next);
     RemoveNode(node);
     Append(link, chain);
   }

@@ -32,6 +32,9 @@ void Reverse(SkeletonEdge& edge);
 /// Copyable; a value like any other.
 class SkeletonGraph {
  public:
+  /// Makes room for nodes and edges that are to be added.
+  void Reserve(size_t nodes, size_t edges);
+
   /// Adds an isolated node.
   NodeId AddNode(const Vec3& position);
 
@@ -42,7 +45,10 @@ class SkeletonGraph {
   EdgeId AddPolyline(Polyline points);
 
   /// Removes an edge; its nodes stay.
-  void RemoveEdge(EdgeId edge);
+  void RemoveEdge(EdgeId edge) { TakeEdge(edge); }
+
+  /// Removes an edge and returns it.
+  SkeletonEdge TakeEdge(EdgeId edge);
 
   /// Removes a node without edges.
   void RemoveNode(NodeId node);

@@ -1,25 +1,54 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <functional>
 #include <utility>
 #include <vector>
 
 namespace curvefusion {
 
-/// Which pairs of overlapping boxes are wanted; all of them as it stands.
-struct BoxPairFilter {
-  /// Of each box, whether it must be looked at: a pair counts if either of its boxes is marked.
-  /// Empty: all are. Boxes without a mark cost little.
-  std::vector<char> marks = {};
-  /// Whether a pair (i < j) of boxes that overlap counts; called in parallel. Empty: all do.
-  std::function<bool(int i, int j)> keep = nullptr;
+/// A tree of boxes for questions about which of them overlap or touch; split at medians, so boxes
+/// may be of any size. Building takes O(n log n), an answer is near-linear in boxes asked for and
+/// pairs, and found in parallel.
+class BoxTree {
+ public:
+  using Box = Eigen::AlignedBox3d;
+  using Pairs = std::vector<std::pair<int, int>>;
+  /// Whether a pair of boxes that overlap counts; called in parallel. None: all do.
+  using Filter = std::function<bool(int i, int j)>;
+
+  explicit BoxTree(const std::vector<Box>& boxes = {});
+
+  /// All pairs (i < j, ascending) of boxes that overlap and pass the filter.
+  Pairs OverlappingPairs(const Filter& keep = nullptr) const;
+
+  /// All pairs (i, j), ascending, of a box i of the tree and a box j of others that overlap and
+  /// pass the filter.
+  Pairs OverlappingPairs(const std::vector<Box>& others, const Filter& keep = nullptr) const;
+
+ private:
+  struct Entry;
+  void Sort(std::vector<Entry>& entries, size_t first_leaf, size_t last_leaf) const;
+  void BoundNodes();
+  size_t FirstOf(size_t leaf) const;
+  template <class Visit>
+  void VisitPairsWithin(size_t node, const Visit& visit) const;
+  template <class Visit>
+  void VisitPairsBetween(size_t a, size_t b, const Visit& visit) const;
+  template <class Visit>
+  void VisitOverlapping(const Box& box, const Visit& visit) const;
+  template <class Visit>
+  void VisitLeaf(size_t leaf, size_t first, const Box& box, const Visit& visit) const;
+
+  size_t leaves_ = 1;         // a power of two
+  std::vector<int> numbers_;  // of boxes, in the order of the leaves
+  std::vector<Box> boxes_;    // in the same order
+  std::vector<Box> nodes_;  // the children of node i are 2 i and 2 i + 1, the root is 1; leaf k is
+                            // node leaves_ + k
 };
 
-/// All pairs (i < j, ascending) of boxes that overlap or touch and pass the filter. By a tree of
-/// boxes, split at medians, in parallel: near-linear in boxes and pairs for boxes of any size, with
-/// O(m log m) for the tree of the m marked boxes. Memory O(n + pairs that pass).
-std::vector<std::pair<int, int>> OverlappingBoxes(const std::vector<Eigen::AlignedBox3d>& boxes,
-                                                  const BoxPairFilter& filter = {});
+/// All pairs (i < j, ascending) of boxes that overlap or touch, by a BoxTree.
+BoxTree::Pairs OverlappingBoxes(const std::vector<BoxTree::Box>& boxes);
 
 }  // namespace curvefusion

@@ -1,12 +1,16 @@
 #include <benchmark/benchmark.h>
 
+#include <boost/graph/connected_components.hpp>
 #include <cmath>
 #include <random>
 
+#include "graph/boost_graph.h"
+#include "graph/curve_network.h"
 #include "graph/graph_smoother.h"
 #include "graph/intersections.h"
 #include "graph/merge.h"
 #include "graph/segment_pairs.h"
+#include "graph/sparse_solver.h"
 #include "kernel/parallel.h"
 
 namespace curvefusion {
@@ -101,6 +105,10 @@ BENCHMARK(FindPairs<Wires>)
     ->RangeMultiplier(10)
     ->Range(1000, 1000000)
     ->Unit(benchmark::kMillisecond);
+BENCHMARK(FindPairs<Lattice>)
+    ->RangeMultiplier(10)
+    ->Range(1000, 1000000)
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK(FindPairs<RandomSegments>)
     ->RangeMultiplier(10)
     ->Range(1000, 1000000)
@@ -120,6 +128,7 @@ void FindPairsAmongAll(benchmark::State& state) {
   }
 }
 BENCHMARK(FindPairsAmongAll<Wires>)->Arg(1000)->Arg(3000)->Unit(benchmark::kMillisecond);
+BENCHMARK(FindPairsAmongAll<Lattice>)->Arg(1000)->Arg(3000)->Unit(benchmark::kMillisecond);
 BENCHMARK(FindPairsAmongAll<RandomSegments>)->Arg(1000)->Arg(3000)->Unit(benchmark::kMillisecond);
 
 // Two wavy curves of n points from node to node, 1 mm apart.
@@ -162,24 +171,88 @@ void FindParallelByProjection(benchmark::State& state) {
 }
 BENCHMARK(FindParallelByProjection)->Arg(1000)->Arg(10000)->Unit(benchmark::kMillisecond);
 
-SkeletonGraph ResolvedWires(int64_t segments) {
-  SkeletonGraph graph = Wires(segments);
+template <SkeletonGraph (*kMake)(int64_t)>
+SkeletonGraph Resolved(int64_t segments) {
+  SkeletonGraph graph = kMake(segments);
   ResolveIntersections(graph, kThreshold);
   return graph;
 }
 
 void Smooth(benchmark::State& state) {
-  const SkeletonGraph graph = ResolvedWires(state.range(0));
+  const SkeletonGraph graph = Resolved<Wires>(state.range(0));
   for (auto _ : state) benchmark::DoNotOptimize(SmoothGraph(graph, {}));
 }
 void SmoothAgain(benchmark::State& state) {
-  const SkeletonGraph graph = ResolvedWires(state.range(0));
+  const SkeletonGraph graph = Resolved<Wires>(state.range(0));
   GraphSmoother smoother;
   smoother.Smooth(graph, {});
   for (auto _ : state) benchmark::DoNotOptimize(smoother.Smooth(graph, {}));
 }
 BENCHMARK(SmoothAgain)->Arg(10000)->Arg(100000)->Unit(benchmark::kMillisecond);
 BENCHMARK(Smooth)->Arg(10000)->Arg(100000)->Unit(benchmark::kMillisecond);
+
+// The lower triangle of the system that smooths one curve of so many points.
+Eigen::SparseMatrix<double> CurveSystem(int points) {
+  constexpr double kLambda = 60;
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int i = 0; i < points; ++i) entries.emplace_back(i, i, 1);
+  for (int i = 1; i + 1 < points; ++i) {
+    const double bend[] = {1, -2, 1};
+    for (int a = 0; a < 3; ++a)
+      for (int b = 0; b <= a; ++b)
+        entries.emplace_back(i - 1 + a, i - 1 + b, kLambda * bend[a] * bend[b]);
+  }
+  Eigen::SparseMatrix<double> lower(points, points);
+  lower.setFromTriplets(entries.begin(), entries.end());
+  return lower;
+}
+
+void SolveSparse(benchmark::State& state) {
+  const Eigen::SparseMatrix<double> lower = CurveSystem(static_cast<int>(state.range(0)));
+  const Eigen::MatrixX3d data = Eigen::MatrixX3d::Random(lower.rows(), 3);
+  for (auto _ : state) {
+    SparseSolver solver;
+    solver.Factorise(lower);
+    benchmark::DoNotOptimize(solver.Solve(data));
+  }
+}
+BENCHMARK(SolveSparse)->Arg(1000)->Arg(100000)->Unit(benchmark::kMillisecond);
+
+// The reference: the same system as a full matrix.
+void SolveDense(benchmark::State& state) {
+  const Eigen::MatrixXd lower = CurveSystem(static_cast<int>(state.range(0)));
+  const Eigen::MatrixX3d data = Eigen::MatrixX3d::Random(lower.rows(), 3);
+  for (auto _ : state) {
+    const Eigen::MatrixX3d solution = lower.selfadjointView<Eigen::Lower>().llt().solve(data);
+    benchmark::DoNotOptimize(solution.data());
+  }
+}
+BENCHMARK(SolveDense)->Arg(1000)->Unit(benchmark::kMillisecond);
+
+void CountComponents(benchmark::State& state) {
+  const SkeletonGraph graph = Resolved<RandomSegments>(state.range(0));
+  for (auto _ : state) benchmark::DoNotOptimize(graph.ComponentCount());
+}
+BENCHMARK(CountComponents)->Arg(100000)->Unit(benchmark::kMillisecond);
+
+void ListComponents(benchmark::State& state) {
+  const SkeletonGraph graph = Resolved<RandomSegments>(state.range(0));
+  for (auto _ : state) benchmark::DoNotOptimize(ConnectedEdges(graph));
+}
+BENCHMARK(ListComponents)->Arg(100000)->Unit(benchmark::kMillisecond);
+
+// The reference for both: the search of Boost Graph.
+void LabelComponentsWithBoost(benchmark::State& state) {
+  const SkeletonGraph graph = Resolved<RandomSegments>(state.range(0));
+  for (auto _ : state) {
+    const BoostView view(graph);
+    std::vector<int> components(view.nodes().size());
+    benchmark::DoNotOptimize(boost::connected_components(
+        view,
+        boost::make_iterator_property_map(components.begin(), get(boost::vertex_index, view))));
+  }
+}
+BENCHMARK(LabelComponentsWithBoost)->Arg(100000)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace curvefusion

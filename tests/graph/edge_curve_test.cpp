@@ -56,6 +56,33 @@ TEST(EdgeCurve, AnEdgeThatIsAPointDisappears) {
   EXPECT_EQ(graph.edge(1).points.size(), 3u);
 }
 
+TEST(EdgeCurve, WhatHangsTogetherByAnEdgeThatIsAPointStaysTogether) {
+  SkeletonGraph graph;
+  for (const double x : {-1.0, 0.0, 0.0, 1.0}) graph.AddNode({x, 0, 0});
+  for (int i = 0; i < 3; ++i)
+    graph.AddEdge({{i, i + 1}, {graph.position(i), graph.position(i + 1)}, {}, {}});
+  RemoveZeroLengthSegments(graph);
+  EXPECT_EQ(graph.Nodes(), (std::vector<NodeId>{0, 1, 3}));
+  EXPECT_EQ(graph.Edges(), (std::vector<EdgeId>{0, 2}));
+  EXPECT_EQ(graph.Degree(1), 2);
+}
+
+TEST(EdgeCurve, ABendEndsAtAPointOfItsOwnOnALongSegment) {
+  SkeletonGraph graph;
+  const NodeId node = graph.AddNode(Vec3::Zero());
+  const NodeId far = graph.AddNode({0.1, 0, 0});
+  const NodeId near = graph.AddNode({0, 0.03, 0});
+  // One begins at the node, the other ends there.
+  graph.AddEdge({{node, far}, {{0, 0, 0}, {0.1, 0, 0}}, {1, 2}, {}});
+  graph.AddEdge({{near, node}, {{0, 0.03, 0}, {0, 0, 0}}, {}, {}});
+  MoveNodeWithBends(graph, node, {0, 0, 0.004}, 0.02);
+  ASSERT_EQ(graph.edge(0).points.size(), 3u);
+  EXPECT_EQ(graph.edge(0).points[0], Vec3(0, 0, 0.004));
+  EXPECT_NEAR((graph.edge(0).points[1] - Vec3(0.02, 0, 0)).norm(), 0, 1e-17);  // rounding
+  EXPECT_NEAR(graph.edge(0).radii[1], 1.2, 1e-15);
+  EXPECT_EQ(graph.edge(1).points, (Polyline{{0, 0.03, 0}, {0, 0, 0.004}}));  // too short for one
+}
+
 TEST(EdgeCurve, ADisplacementFadesOut) {
   SkeletonGraph graph;
   graph.AddPolyline(StraightLine({0, 0, 0}, {0.1, 0, 0}));

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <array>
 #include <cstdlib>
 #include <functional>
 #include <map>
@@ -71,6 +72,7 @@ std::string CheckResolution(const RandomNetwork& network, uint64_t seed) {
   if (!AllPairsInContact(resolved, network.threshold).empty())
     return "resolved: the oracle finds a contact";
   // Above zero, making two curves one may move them away from a third.
+  // Above zero, making two curves one may move them away from a third.
   if (network.threshold == 0 &&
       resolved.ComponentCount() >
           ComponentsWithContacts(WithoutPoints(network.graph), network.threshold))
@@ -129,19 +131,30 @@ bool IsOfObjectSize(const RandomNetwork& network) {
   return true;
 }
 
+// Pairs of segments by edge and place on it, which do not depend on the table.
+std::vector<std::array<int, 4>> Named(const SegmentTable& table,
+                                      const std::vector<SegmentPair>& pairs) {
+  std::vector<std::array<int, 4>> named;
+  for (const auto& [s, t] : pairs)
+    named.push_back({table.edges[table.curves[s]], s - table.first_points[table.curves[s]],
+                     table.edges[table.curves[t]], t - table.first_points[table.curves[t]]});
+  return named;
+}
+
 std::string CheckOperations(const RandomNetwork& network) {
   if (!IsOfObjectSize(network)) return "";
   const SkeletonGraph original = WithoutPoints(network.graph);
-  const SegmentTable before(original);
-  const std::vector<SegmentPair> pairs_before = SegmentPairsInContact(before, network.threshold);
+  SegmentPairSearch searched(network.threshold);
+  searched.Update(original);
   for (const NamedOperation& operation : Operations()) {
     SkeletonGraph graph = original;
     operation.run(graph, network.threshold);
     const std::string fault = FirstOf(Faults(graph));
     if (!fault.empty()) return std::string(operation.name) + ": " + fault;
-    const SegmentTable after(graph, before);
-    if (SegmentPairsInContact(after, network.threshold, before, pairs_before) !=
-        SegmentPairsInContact(SegmentTable(graph), network.threshold))
+    SegmentPairSearch search = searched;
+    search.Update(graph);
+    if (Named(search.table(), search.pairs()) !=
+        Named(SegmentTable(graph), SegmentPairsInContact(SegmentTable(graph), network.threshold)))
       return std::string(operation.name) + ": a change is not noticed";
   }
   return "";

@@ -69,5 +69,24 @@ TEST(SkeletonGraph, MergedNodesShareAllEdges) {
   EXPECT_EQ(graph.edge_count(), 1);
 }
 
+TEST(SkeletonGraph, MergingKeepsTheTieToAThirdNodeAtTheSamePlace) {
+  SkeletonGraph graph;
+  graph.AddPolyline({{0, 0, 0}, {1, 0, 0}});
+  const NodeId third = graph.AddNode(Vec3::Zero());
+  graph.AddEdge({{1, third}, {{1, 0, 0}, {0, 0, 0}}, {}, {}});
+  graph.MergeNodes(0, 1);
+  EXPECT_EQ(graph.Edges(), std::vector<EdgeId>{1});
+  EXPECT_EQ(graph.OtherEnd(1, third), 0);
+}
+
+TEST(SkeletonGraph, ATakenEdgeIsNoLongerThere) {
+  SkeletonGraph graph;
+  const EdgeId id = graph.AddPolyline({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}});
+  const SkeletonEdge edge = graph.TakeEdge(id);
+  EXPECT_EQ(edge.points.size(), 3u);
+  EXPECT_FALSE(graph.HasEdge(id));
+  EXPECT_EQ(graph.Degree(edge.nodes[0]), 0);
+}
+
 }  // namespace
 }  // namespace curvefusion

@@ -29,13 +29,12 @@ Boxes RandomBoxes(int count, std::mt19937& random) {
   return boxes;
 }
 
-Pairs AllPairs(const Boxes& boxes, const BoxPairFilter& filter) {
+Pairs AllPairs(const Boxes& boxes, const BoxTree::Filter& keep = nullptr) {
   Pairs pairs;
   for (int i = 0; i < static_cast<int>(boxes.size()); ++i) {
     for (int j = i + 1; j < static_cast<int>(boxes.size()); ++j) {
       if (!boxes[i].intersects(boxes[j])) continue;
-      if (!filter.marks.empty() && filter.marks[i] == 0 && filter.marks[j] == 0) continue;
-      if (!filter.keep || filter.keep(i, j)) pairs.emplace_back(i, j);
+      if (!keep || keep(i, j)) pairs.emplace_back(i, j);
     }
   }
   return pairs;
@@ -45,33 +44,50 @@ TEST(OverlappingBoxes, EqualBruteForce) {
   std::mt19937 random(7);
   for (int round = 0; round < 20; ++round) {
     const Boxes boxes = RandomBoxes(20 * round, random);
-    EXPECT_EQ(OverlappingBoxes(boxes), AllPairs(boxes, {}));
+    EXPECT_EQ(OverlappingBoxes(boxes), AllPairs(boxes));
   }
 }
 
-TEST(OverlappingBoxes, OfMarkedBoxesAndThoseKeptEqualBruteForce) {
+// Of numbers far above the boxes of one parallel task too.
+TEST(BoxTree, PairsThatAreKeptEqualBruteForce) {
   std::mt19937 random(8);
-  for (int marked_of_ten = 0; marked_of_ten <= 10; ++marked_of_ten) {
-    const Boxes boxes = RandomBoxes(300, random);
-    BoxPairFilter filter;
-    for (size_t i = 0; i < boxes.size(); ++i)
-      filter.marks.push_back(static_cast<int>(random() % 10) < marked_of_ten);
-    EXPECT_EQ(OverlappingBoxes(boxes, filter), AllPairs(boxes, filter));
-    filter.keep = [](int i, int j) { return i < j && (i + j) % 3 == 0; };
-    EXPECT_EQ(OverlappingBoxes(boxes, filter), AllPairs(boxes, filter));
+  const auto keep = [](int i, int j) { return i < j && (i + j) % 3 == 0; };
+  for (const int count : {0, 1, 7, 300, 4000}) {
+    const Boxes boxes = RandomBoxes(count, random);
+    EXPECT_EQ(BoxTree(boxes).OverlappingPairs(keep), AllPairs(boxes, keep)) << count;
+  }
+}
+
+TEST(BoxTree, PairsWithOtherBoxesEqualBruteForce) {
+  std::mt19937 random(10);
+  for (const auto& [count, other_count] : {std::pair(0, 5), {5, 0}, {1, 1}, {300, 100}}) {
+    const Boxes boxes = RandomBoxes(count, random);
+    const Boxes others = RandomBoxes(other_count, random);
+    Pairs expected;
+    Pairs expected_kept;
+    for (int i = 0; i < static_cast<int>(boxes.size()); ++i) {
+      for (int j = 0; j < static_cast<int>(others.size()); ++j) {
+        if (!boxes[i].intersects(others[j])) continue;
+        expected.emplace_back(i, j);
+        if (i > j) expected_kept.emplace_back(i, j);
+      }
+    }
+    EXPECT_EQ(BoxTree(boxes).OverlappingPairs(others), expected);
+    EXPECT_EQ(BoxTree(boxes).OverlappingPairs(others, [](int i, int j) { return i > j; }),
+              expected_kept);
   }
 }
 
 TEST(OverlappingBoxes, DoNotDependOnTheNumberOfThreads) {
   std::mt19937 random(9);
   const Boxes boxes = RandomBoxes(20000, random);
+  const auto keep = [](int i, int) { return i % 50 == 0; };
   Pairs serial;
   {
     const ThreadLimit one(1);
-    serial = OverlappingBoxes(boxes, {.marks = {}, .keep = [](int i, int) { return i % 50 == 0; }});
+    serial = BoxTree(boxes).OverlappingPairs(keep);
   }
-  EXPECT_EQ(OverlappingBoxes(boxes, {.marks = {}, .keep = [](int i, int) { return i % 50 == 0; }}),
-            serial);
+  EXPECT_EQ(BoxTree(boxes).OverlappingPairs(keep), serial);
 }
 
 TEST(OverlappingBoxes, CanBeNoneOneOrWithoutEnd) {
