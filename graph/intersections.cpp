@@ -52,15 +52,18 @@ Counts CountsOf(const SkeletonGraph& graph) {
 
 // Brings a graph to the form in which contacts are looked for; every step removes edges, so it
 // ends. Edges that were split only to become parallel are merged before their nodes dissolve. What
-// was tidy for the same threshold at a version and has not changed since is left alone.
+// was tidy for the same threshold at a version and has not changed since is left alone. There must
+// be no segments of length zero.
 void Tidy(SkeletonGraph& graph, double threshold, int since) {
-  RemoveZeroLengthSegments(graph, since);
   for (bool changed = true; changed;) {
+    const int before = graph.version();
     RemoveSmallLoops(graph, kLoop * threshold, since);
     const int edges = graph.edge_count();
     MergeParallelEdges(graph, kParallelSlack * threshold, since);
     graph.DissolveDegree2Nodes(since);
     changed = graph.edge_count() != edges;
+    if (changed) RemoveZeroLengthSegments(graph, before);
+    since = before;
   }
 }
 
@@ -86,6 +89,7 @@ bool MergeOrDrop(SkeletonGraph& graph, const std::vector<Contact>& contacts, dou
   Tidy(graph, threshold, before);
   if (CountsOf(graph).vertices < vertices) return true;
   DropEdge(dropped, shorter);
+  RemoveZeroLengthSegments(dropped, before);
   graph = std::move(dropped);
   Tidy(graph, threshold, before);
   return false;
@@ -134,12 +138,12 @@ class Resolution {
   bool TidyAtScale(double scale) {
     if (scale <= scale_) return false;
     scale_ = scale;
+    RemoveZeroLengthSegments(graph_);
     if (threshold_ > 0) {
       Tidy(graph_, scale, 0);
       tidied_ = graph_.version();
     } else {
       // Curves stay where they are until all that touches them is tied to them by a node.
-      RemoveZeroLengthSegments(graph_);
       graph_.DissolveDegree2Nodes();
       tidied_ = 0;
     }

@@ -54,8 +54,10 @@ BoxTree::Pairs CollectInParallel(int64_t count, int64_t grain, const Add& add) {
 
 }  // namespace
 
+// A box while the tree is sorted, by its centre seen from that of the first box: where rounding
+// puts it decides nothing but the shape of the tree.
 struct BoxTree::Entry {
-  Vec3 centre;
+  Vec3f centre;
   int box;
 };
 
@@ -64,7 +66,8 @@ BoxTree::BoxTree(const std::vector<Box>& boxes) {
   std::vector<Entry> entries;
   entries.reserve(boxes.size());
   for (size_t i = 0; i < boxes.size(); ++i)
-    entries.push_back({CentreOf(boxes[i]), static_cast<int>(i)});
+    entries.push_back(
+        {(CentreOf(boxes[i]) - CentreOf(boxes[0])).cast<float>(), static_cast<int>(i)});
   numbers_.resize(boxes.size());
   Sort(entries, 0, leaves_);
   boxes_.reserve(boxes.size());
@@ -87,7 +90,7 @@ void BoxTree::Sort(std::vector<Entry>& entries, size_t first_leaf, size_t last_l
   Entry* first = entries.data() + FirstOf(first_leaf);
   Entry* middle = entries.data() + FirstOf(middle_leaf);
   Entry* last = entries.data() + FirstOf(last_leaf);
-  Box centres;
+  Eigen::AlignedBox3f centres;
   for (const Entry* entry = first; entry != last; ++entry) centres.extend(entry->centre);
   int axis = 0;
   centres.sizes().maxCoeff(&axis);
