@@ -129,7 +129,10 @@ class Resolution {
   }
 
   const SkeletonGraph& graph() const { return graph_; }
-  SkeletonGraph TakeGraph() { return std::move(graph_); }
+  SkeletonGraph TakeGraph() {
+    search_ = ContactSearch(threshold_);  // its memory is needed for the canonical form
+    return std::move(graph_);
+  }
   const ResolutionRounds& rounds() const { return rounds_; }
 
  private:

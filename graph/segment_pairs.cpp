@@ -195,6 +195,8 @@ void SegmentPairSearch::Update(const SkeletonGraph& graph) {
 }
 
 void SegmentPairSearch::Restart(const SkeletonGraph& graph) {
+  table_ = SegmentTable();  // the memory is needed for the new ones
+  tree_ = BoxTree();
   table_ = SegmentTable(graph);
   is_current_.assign(table_.edges.size(), true);
   tree_segments_ = SegmentsFrom(table_, 0);
