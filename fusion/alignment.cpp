@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "kernel/parallel.h"
 #include "kernel/quantile.h"
@@ -31,6 +33,8 @@ constexpr double kMinTangentCosine = 0.5;
 // Nearest target samples looked at for one of a similar direction.
 constexpr int kCandidates = 6;
 constexpr int64_t kGrain = 64;
+// What is searched first around a point, in metres: most find their target there.
+constexpr double kSearchRadius = 0.010;
 
 // What a source point is paired with; target < 0: nothing.
 struct Pair {
@@ -40,9 +44,11 @@ struct Pair {
 
 class ClosestPointAligner {
  public:
-  ClosestPointAligner(const CurveSamples& source, const CurveSamples& target,
+  ClosestPointAligner(const CurveSamples& source, const AlignmentTarget& target,
                       const AlignmentOptions& options)
-      : source_(source), target_(target), options_(options), index_(target.points) {}
+      : source_(source), target_(target.samples()), grid_(target.grid()), options_(options) {
+    if (!source_.tangents.empty() && !target_.tangents.empty()) index_.emplace(target_.points);
+  }
 
   // Starts wide and starts narrow, and takes what brings more points close. A wide start finds
   // large drifts; a narrow one is not drawn away by curves that have no counterpart.
@@ -57,6 +63,7 @@ class ClosestPointAligner {
     AlignmentResult result;
     if (source_.points.empty() || target_.points.empty()) return result;
     max_distance_ = std::min(max_distance, options_.max_distance);
+    pairs_.assign(source_.points.size(), {});
     for (int i = 0; i < options_.max_iterations && !result.converged; ++i) {
       FindPairs(result.T_target_source);
       UpdateGate();
@@ -99,19 +106,26 @@ class ClosestPointAligner {
   }
 
   int NearestCompatible(const Vec3& p, const Vec3& direction) const {
-    for (const int j : index_.NearestK(p, kCandidates))
+    for (const int j : index_->NearestK(p, kCandidates))
       if (std::abs(direction.dot(target_.tangents[j])) >= kMinTangentCosine) return j;
     return -1;
   }
 
+  // The target of the iteration before is near enough to spare most of the search.
+  int NearestWithin(const Vec3& p, const Pair& before) const {
+    double reach = max_distance_;
+    if (before.target >= 0) {
+      reach = std::min(reach, (1 + 1e-9) * (p - target_.points[before.target]).norm());
+    }
+    return grid_.Nearest(p, reach);
+  }
+
   void FindPairs(const RigidTransform& T) {
-    pairs_.resize(source_.points.size());
     moved_.resize(source_.points.size());
-    const bool by_direction = !source_.tangents.empty() && !target_.tangents.empty();
     ParallelFor(0, static_cast<int64_t>(pairs_.size()), kGrain, [&](int64_t i) {
       const Vec3 p = moved_[i] = T * source_.points[i];
-      const int j =
-          by_direction ? NearestCompatible(p, T.linear() * source_.tangents[i]) : index_.Nearest(p);
+      const int j = index_ ? NearestCompatible(p, T.linear() * source_.tangents[i])
+                           : NearestWithin(p, pairs_[i]);
       pairs_[i] = {};
       if (j < 0 || (p - target_.points[j]).norm() > max_distance_) return;
       pairs_[i] = {j, Residual(j, p - target_.points[j]).norm()};
@@ -199,8 +213,9 @@ class ClosestPointAligner {
 
   const CurveSamples& source_;
   const CurveSamples& target_;
+  const PointGrid& grid_;
   const AlignmentOptions& options_;
-  PointIndex index_;
+  std::optional<PointIndex> index_;  // where several nearest are looked at
   std::vector<Pair> pairs_;
   std::vector<Vec3> moved_;
   double max_distance_ = 0;
@@ -221,7 +236,7 @@ CurveSamples Thinned(const CurveSamples& samples, int count) {
   return thinned;
 }
 
-AlignmentResult Align(const CurveSamples& source, const CurveSamples& target,
+AlignmentResult Align(const CurveSamples& source, const AlignmentTarget& target,
                       const AlignmentOptions& options) {
   const CurveSamples thinned = Thinned(source, options.max_points);
   return ClosestPointAligner(thinned, target, options).Align();
@@ -259,23 +274,25 @@ AlignmentOptions PaperAlignmentOptions() {
   return options;
 }
 
-AlignmentResult AlignPointsToPoints(const std::vector<Vec3>& points,
-                                    const std::vector<Vec3>& target_points,
-                                    const std::vector<Vec3>& target_tangents,
-                                    const AlignmentOptions& options) {
-  assert(target_tangents.empty() || target_tangents.size() == target_points.size());
-  return Align({points, {}}, {target_points, target_tangents}, options);
+AlignmentTarget::AlignmentTarget(CurveSamples samples)
+    : samples_(std::move(samples)), grid_(samples_.points, kSearchRadius) {
+  assert(samples_.tangents.empty() || samples_.tangents.size() == samples_.points.size());
+}
+
+AlignmentResult AlignPoints(const std::vector<Vec3>& points, const AlignmentTarget& target,
+                            const AlignmentOptions& options) {
+  return Align({points, {}}, target, options);
 }
 
 AlignmentResult AlignPointsToCurves(const std::vector<Vec3>& points, const SkeletonGraph& target,
                                     const AlignmentOptions& options) {
-  return Align({points, {}}, SampleCurves(target, options.sample_step), options);
+  return AlignPoints(points, AlignmentTarget(SampleCurves(target, options.sample_step)), options);
 }
 
 AlignmentResult AlignSkeletons(const SkeletonGraph& source, const SkeletonGraph& target,
                                const AlignmentOptions& options) {
-  return Align(SampleCurves(source, options.sample_step), SampleCurves(target, options.sample_step),
-               options);
+  return Align(SampleCurves(source, options.sample_step),
+               AlignmentTarget(SampleCurves(target, options.sample_step)), options);
 }
 
 CurveSamples SampleCurves(const SkeletonGraph& graph, double step) {

@@ -5,6 +5,7 @@
 #include "graph/skeleton_graph.h"
 #include "kernel/geometry.h"
 #include "kernel/options.h"
+#include "kernel/point_grid.h"
 
 namespace curvefusion {
 
@@ -35,16 +36,35 @@ struct AlignmentResult {
   Vec3 center = Vec3::Zero();  ///< mean of the source points after the motion
 };
 
-/// Aligns points to points that lie on lines. `target_tangents` holds unit tangents, one per target
-/// point, or is empty: distances are then to points. Motions that the correspondences do not
-/// determine (along a straight line, around it) are left alone. Robust: only pairs within a gate
-/// that shrinks with the median distance count, with Tukey's weights; of a wide and a narrow first
-/// gate the better result is taken. Of more than `max_points`
-/// points evenly many are used. O(n log m) per iteration; the same bits for any number of threads.
-AlignmentResult AlignPointsToPoints(const std::vector<Vec3>& points,
-                                    const std::vector<Vec3>& target_points,
-                                    const std::vector<Vec3>& target_tangents,
-                                    const AlignmentOptions& options);
+/// Points with the directions of the lines through them.
+struct CurveSamples {
+  std::vector<Vec3> points;
+  std::vector<Vec3> tangents;  ///< of unit length; empty = directions are not known
+};
+
+/// Points every `step` along all curves of a graph, with their unit tangents.
+CurveSamples SampleCurves(const SkeletonGraph& graph, double step);
+
+/// What can be aligned to, many times.
+class AlignmentTarget {
+ public:
+  explicit AlignmentTarget(CurveSamples samples);
+  const CurveSamples& samples() const { return samples_; }
+  const PointGrid& grid() const { return grid_; }
+
+ private:
+  CurveSamples samples_;
+  PointGrid grid_;
+};
+
+/// Aligns points to points that lie on lines; where tangents are not known distances are to points.
+/// Motions that the correspondences do not determine (along a straight line, around it) are left
+/// alone. Robust: only pairs within a gate that shrinks with the median distance count, with
+/// Tukey's weights; of a wide and a narrow first gate the better result is taken. Of more than
+/// `max_points` points evenly many are used. About linear in them per iteration; the same bits for
+/// any number of threads.
+AlignmentResult AlignPoints(const std::vector<Vec3>& points, const AlignmentTarget& target,
+                            const AlignmentOptions& options);
 
 /// Aligns points to the curves of a graph, sampled every `sample_step`.
 AlignmentResult AlignPointsToCurves(const std::vector<Vec3>& points, const SkeletonGraph& target,
@@ -54,12 +74,5 @@ AlignmentResult AlignPointsToCurves(const std::vector<Vec3>& points, const Skele
 /// run in similar directions. CurveFusion 3.3 (i).
 AlignmentResult AlignSkeletons(const SkeletonGraph& source, const SkeletonGraph& target,
                                const AlignmentOptions& options);
-
-/// Points every `step` along all curves of a graph, with their unit tangents.
-struct CurveSamples {
-  std::vector<Vec3> points;
-  std::vector<Vec3> tangents;
-};
-CurveSamples SampleCurves(const SkeletonGraph& graph, double step);
 
 }  // namespace curvefusion

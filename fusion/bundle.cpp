@@ -40,13 +40,9 @@ std::vector<std::pair<int, int>> SplitIntoBundles(int frame_count, int frames_pe
 }
 
 BundleDifferenceSet::Voxel& BundleDifferenceSet::VoxelAt(const Vec3& p_bundle) {
-  const VoxelKey key = VoxelOf(p_bundle, options_.voxel_size);
-  const auto [it, is_new] = slot_of_voxel_.try_emplace(key, static_cast<int>(voxels_.size()));
-  if (is_new) {
-    keys_.push_back(key);
-    voxels_.emplace_back();
-  }
-  return voxels_[it->second];
+  const auto number = static_cast<size_t>(numbers_.Number(VoxelOf(p_bundle, options_.voxel_size)));
+  if (number == voxels_.size()) voxels_.emplace_back();
+  return voxels_[number];
 }
 
 void BundleDifferenceSet::AddFrame(const MaskImage& mask, const MaskImage& on_edge,
@@ -75,25 +71,33 @@ void BundleDifferenceSet::AddFrame(const MaskImage& mask, const MaskImage& on_ed
   }
 }
 
-int BundleDifferenceSet::FramesAround(const VoxelKey& key) const {
-  std::vector<uint8_t> seen(frame_count_, 0);
-  for (int dz = -1; dz <= 1; ++dz) {
-    for (int dy = -1; dy <= 1; ++dy) {
-      for (int dx = -1; dx <= 1; ++dx) {
-        const auto it = slot_of_voxel_.find({key.x + dx, key.y + dy, key.z + dz});
-        if (it == slot_of_voxel_.end()) continue;
-        for (const Sighting& sighting : voxels_[it->second].sightings) seen[sighting.frame] = 1;
-      }
+bool BundleDifferenceSet::IsSeenAround(const VoxelKey& key, int min_frames,
+                                       std::vector<int>& frames) const {
+  frames.clear();
+  const auto add_frames = [&](int voxel) {
+    for (const Sighting& sighting : voxels_[voxel].sightings) {
+      if (std::find(frames.begin(), frames.end(), sighting.frame) != frames.end()) continue;
+      frames.push_back(sighting.frame);
+      if (static_cast<int>(frames.size()) >= min_frames) return true;
     }
+    return false;
+  };
+  // Most are seen often enough themselves.
+  if (add_frames(numbers_.Find(key))) return true;
+  for (int i = 0; i < 27; ++i) {
+    const int voxel = numbers_.Find({key.x + i % 3 - 1, key.y + i / 3 % 3 - 1, key.z + i / 9 - 1});
+    if (voxel != VoxelNumbers::kNone && add_frames(voxel)) return true;
   }
-  return static_cast<int>(std::count(seen.begin(), seen.end(), 1));
+  return false;
 }
 
 BundlePoints BundleDifferenceSet::Points() const {
   BundlePoints bundle;
   const int min_frames = std::min(options_.min_frames, frame_count_);
+  std::vector<int> frames;
   for (size_t i = 0; i < voxels_.size(); ++i) {
-    if (min_frames > 1 && FramesAround(keys_[i]) < min_frames) continue;
+    const VoxelKey& key = numbers_.key(static_cast<int>(i));
+    if (min_frames > 1 && !IsSeenAround(key, min_frames, frames)) continue;
     Vec3 position_sum = Vec3::Zero(), ray_sum = Vec3::Zero();
     int pixels = 0;
     for (const Sighting& sighting : voxels_[i].sightings) {

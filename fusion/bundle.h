@@ -1,6 +1,5 @@
 #pragma once
 
-#include <unordered_map>
 #include <vector>
 
 #include "kernel/camera.h"
@@ -72,12 +71,12 @@ class BundleDifferenceSet {
     ColourEvidence evidence;
   };
   Voxel& VoxelAt(const Vec3& p_bundle);
-  int FramesAround(const VoxelKey& key) const;
+  // Whether the voxel and its neighbours were seen in at least so many frames; `frames` is scratch.
+  bool IsSeenAround(const VoxelKey& key, int min_frames, std::vector<int>& frames) const;
 
   BundleOptions options_;
   int frame_count_ = 0;
-  std::unordered_map<VoxelKey, int, VoxelKeyHash> slot_of_voxel_;
-  std::vector<VoxelKey> keys_;
+  VoxelNumbers numbers_;
   std::vector<Voxel> voxels_;
 };
 

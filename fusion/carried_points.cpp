@@ -20,7 +20,8 @@ AlignmentResult CarriedPoints::AddBundle(const ObservedPoints& bundle,
   AlignmentResult result;
   if (!points_.empty() && !bundle.empty()) {
     const RidgePoints curves = ProjectToRidges(points_, ridges);
-    result = AlignPointsToPoints(bundle.positions, curves.positions, curves.directions, alignment);
+    result = AlignPoints(bundle.positions, AlignmentTarget({curves.positions, curves.directions}),
+                         alignment);
     if (!result.converged || result.inlier_fraction < options_.min_inliers) {
       result.T_target_source = RigidTransform::Identity();
     }

@@ -20,13 +20,12 @@ ObservedPoints Merged(const std::vector<ObservedPoints>& frames,
 // The correction of a frame given a first one; without information where it sees too little of the
 // curves.
 MeasuredCorrection RegisterFrame(const ObservedPoints& frame, const RigidTransform& T,
-                                 const RidgePoints& curves, const AlignmentOptions& alignment,
+                                 const AlignmentTarget& curves, const AlignmentOptions& alignment,
                                  const FrameRegistrationOptions& options) {
   MeasuredCorrection correction;
   correction.T_registered_world = T;
   if (static_cast<int>(frame.size()) < options.min_points) return correction;
-  const AlignmentResult result = AlignPointsToPoints(
-      Transformed(frame, T).positions, curves.positions, curves.directions, alignment);
+  const AlignmentResult result = AlignPoints(Transformed(frame, T).positions, curves, alignment);
   // One frame on the wrong curves would draw its neighbours after it.
   const double moved = (result.T_target_source.inverse() * result.center - result.center).norm();
   if (result.inlier_fraction < options.min_inliers || moved > options.max_motion) return correction;
@@ -68,7 +67,8 @@ RegisteredFrames RegisterFrames(const std::vector<ObservedPoints>& frames,
   result.T_registered_world = start;
   std::vector<RigidTransform>& T = result.T_registered_world;
   for (int round = 0; round < options.rounds; ++round) {
-    const RidgePoints curves = ProjectToRidges(Merged(frames, T, options.voxel_size), ridges);
+    const RidgePoints ridge = ProjectToRidges(Merged(frames, T, options.voxel_size), ridges);
+    const AlignmentTarget curves({ridge.positions, ridge.directions});
     std::vector<MeasuredCorrection> measured(frames.size());
     ParallelFor(0, static_cast<int64_t>(frames.size()), 1, [&](int64_t i) {
       measured[i] = RegisterFrame(frames[i], T[i], curves, alignment, options);

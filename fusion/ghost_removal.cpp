@@ -4,13 +4,15 @@
 #include <vector>
 
 #include "kernel/dbscan.h"
-#include "kernel/spatial_search.h"
+#include "kernel/point_grid.h"
 
 namespace curvefusion {
 
 namespace {
 
 using Cluster = std::vector<int>;  // indices of points
+// What is searched first for a neighbour, metres.
+constexpr double kSearchRadius = 0.02;
 
 // Clusters of at least min_cluster_points, largest first.
 std::vector<Cluster> LargeClusters(const std::vector<Vec3>& points,
@@ -54,24 +56,29 @@ bool IsVerified(const BundlePoints& bundle, const Cluster& cluster,
          VerifiedOutline(bundle, cluster) >= options.verified_outline;
 }
 
-bool IsNear(const std::vector<Vec3>& points, const Cluster& cluster, const PointIndex& others,
-            const std::vector<Vec3>& other_points, double distance) {
-  return std::any_of(cluster.begin(), cluster.end(), [&](int i) {
-    return (other_points[others.Nearest(points[i])] - points[i]).norm() <= distance;
-  });
+std::vector<Vec3> PointsOf(const std::vector<Vec3>& points, const Cluster& cluster) {
+  std::vector<Vec3> of_cluster;
+  for (const int i : cluster) of_cluster.push_back(points[i]);
+  return of_cluster;
+}
+
+bool IsNear(const std::vector<Vec3>& points, const PointGrid& others, double distance) {
+  return std::any_of(points.begin(), points.end(),
+                     [&](const Vec3& p) { return others.Nearest(p, distance) >= 0; });
 }
 
 // Clusters within isolation_distance of a larger cluster that stays; the largest always stays.
 std::vector<Cluster> WithoutIsolated(const std::vector<Vec3>& points, std::vector<Cluster> clusters,
                                      const GhostRemovalOptions& options) {
   std::vector<Cluster> kept;
-  std::vector<Vec3> kept_points;
+  std::vector<PointGrid> kept_points;
   for (Cluster& cluster : clusters) {
-    if (!kept.empty() && !IsNear(points, cluster, PointIndex(kept_points), kept_points,
-                                 options.isolation_distance)) {
-      continue;
-    }
-    for (const int i : cluster) kept_points.push_back(points[i]);
+    const std::vector<Vec3> of_cluster = PointsOf(points, cluster);
+    const auto is_near = [&](const PointGrid& larger) {
+      return IsNear(of_cluster, larger, options.isolation_distance);
+    };
+    if (!kept.empty() && std::none_of(kept_points.begin(), kept_points.end(), is_near)) continue;
+    kept_points.emplace_back(of_cluster, kSearchRadius);
     kept.push_back(std::move(cluster));
   }
   return kept;

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cmath>
+#include <utility>
 #include <vector>
 
-#include "graph/point_grid.h"
 #include "kernel/geometry.h"
 #include "kernel/observed_points.h"
+#include "kernel/point_grid.h"
 
 namespace curvefusion {
 
@@ -24,45 +24,47 @@ struct KernelMoments {
   Mat3 covariance = Mat3::Zero();
 };
 
+/// A kernel at a place, `stretch` times as long along a unit direction as across it. Without a
+/// direction it is round.
+struct KernelPlace {
+  Vec3 position = Vec3::Zero();
+  Vec3 direction = Vec3::Zero();
+  double stretch = 1;
+};
+
 /// Points whose density is sought, with the width of their kernel. The points' counts weigh them.
 class DensityField {
  public:
-  /// The points must be finite. Queries may lie up to `slack` from where their neighbours were
-  /// gathered.
-  DensityField(const ObservedPoints& points, double sigma, double slack);
+  /// The points must be finite.
+  DensityField(const ObservedPoints& points, double sigma);
 
-  /// The points around a place, packed four by four.
+  /// The points around a place. Kept from query to query, as the next is likely nearby; clear it
+  /// where the result must not depend on the queries before.
   class Neighbours {
    public:
-    void Clear();
-    void Add(const Vec3f& offset, float weight);
+    void Clear() { is_gathered_ = false; }
 
    private:
     friend class DensityField;
-    using Lanes = Eigen::Array4f;
-    struct Packet {
-      Lanes x, y, z, weight;
-    };
-    std::vector<Packet> packets_;
-    int used_lanes_ = 4;
-    Vec3 origin_ = Vec3::Zero();
+    std::vector<std::pair<int, int>> ranges_;  // of points in the order of the grid
+    bool is_gathered_ = false;
+    KernelPlace place_;  // for which they were gathered
   };
 
-  /// All points that matter within the slack around p, into `neighbours` (overwritten).
-  void Gather(const Vec3& p, Neighbours& neighbours) const;
-
-  /// The moments at p from gathered neighbours, by a kernel that is `stretch` times as long along a
-  /// unit direction as across it.
-  KernelMoments Moments(const Neighbours& neighbours, const Vec3& p,
-                        const Vec3& direction = Vec3::Zero(), double stretch = 1) const;
+  /// The moments of the kernel there. `neighbours` are gathered anew where those it has will not
+  /// do. Linear in the points around.
+  KernelMoments Moments(const KernelPlace& place, Neighbours& neighbours) const;
 
   double sigma() const { return sigma_; }
 
  private:
+  bool Suffice(const Neighbours& neighbours, const KernelPlace& place) const;
+  void Gather(const KernelPlace& place, Neighbours& neighbours) const;
+
   double sigma_;
-  double reach_;
-  std::vector<float> weights_;
   PointGrid grid_;
+  Vec3 origin_;                             ///< the points are stored relative to it
+  std::vector<float> x_, y_, z_, weights_;  ///< in the order of the grid
 };
 
 }  // namespace curvefusion

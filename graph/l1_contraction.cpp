@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "graph/point_grid.h"
+#include "kernel/point_grid.h"
 #include "kernel/parallel.h"
 #include "kernel/spatial_search.h"
 

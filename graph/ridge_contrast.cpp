@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "graph/point_grid.h"
+#include "kernel/point_grid.h"
 #include "kernel/parallel.h"
 
 namespace curvefusion {

@@ -7,9 +7,9 @@
 #include <numeric>
 
 #include "graph/density_kernel.h"
-#include "graph/point_grid.h"
 #include "graph/ridge_scale.h"
 #include "kernel/parallel.h"
+#include "kernel/point_grid.h"
 #include "kernel/quantile.h"
 #include "kernel/voxel_grid.h"
 
@@ -23,6 +23,8 @@ constexpr int kGrain = 32;
 constexpr double kLevelRatio = 1.4142135623730951;
 // A density is smooth enough for points and seeds this far apart, in kernel widths.
 constexpr double kCellPerSigma = 0.7;
+// A ridge point comes from several seeds, so these may be farther apart than the ridge points.
+constexpr double kCellPerSpacing = 1.6;
 // After so many steps most seeds have come together and need not all be followed to the end.
 constexpr int kGatheringIterations = 3;
 
@@ -81,19 +83,14 @@ void EqualizeCounts(ObservedPoints& points, double radius, double least_relative
   }
 }
 
-// The density with one kernel. Seeds move up to its width and see as far as it reaches stretched.
-DensityField MakeLevel(const ObservedPoints& points, double sigma, double stretch) {
-  return DensityField(points, sigma, (1 + kKernelSupport * (stretch - 1)) * sigma);
-}
-
 // The density at growing kernel widths; wide kernels need fewer points.
 std::vector<DensityField> MakeLevels(const ObservedPoints& points,
                                      const RidgeProjectionOptions& options) {
-  std::vector<DensityField> levels{MakeLevel(points, options.kernel_sigma, options.stretch)};
+  std::vector<DensityField> levels;
+  levels.emplace_back(points, options.kernel_sigma);
   double sigma = kLevelRatio * options.kernel_sigma;
   for (; sigma < 1.01 * options.max_sigma; sigma *= kLevelRatio) {
-    levels.push_back(
-        MakeLevel(ResampleOnGrid(points, kCellPerSigma * sigma), sigma, options.stretch));
+    levels.emplace_back(ResampleOnGrid(points, kCellPerSigma * sigma), sigma);
   }
   return levels;
 }
@@ -102,17 +99,19 @@ std::vector<DensityField> MakeLevels(const ObservedPoints& points,
 std::vector<RidgeSeed> MakeSeeds(const ObservedPoints& points,
                                  const std::vector<DensityField>& levels,
                                  const RidgeProjectionOptions& options) {
-  const std::vector<Vec3> starts =
-      ResampleOnGrid(points, kCellPerSigma * options.kernel_sigma).positions;
+  const double cell =
+      std::max(kCellPerSigma * options.kernel_sigma, kCellPerSpacing * options.spacing);
+  const std::vector<Vec3> starts = ResampleOnGrid(points, cell).positions;
   RidgeScaleOptions scale;
   scale.sigma = options.kernel_sigma;
-  const std::vector<double> thickness = LocalThickness(points, starts, scale);
+  std::vector<double> limits;
+  for (size_t level = 0; level + 1 < levels.size(); ++level) {
+    limits.push_back(levels[level].sigma() / options.sigma_per_thickness);
+  }
+  const std::vector<int> level_of_start = LimitsExceeded(points, starts, limits, scale);
   std::vector<RidgeSeed> seeds;
   for (size_t i = 0; i < starts.size(); ++i) {
-    const double wanted = options.sigma_per_thickness * thickness[i];
-    size_t level = 0;
-    while (level + 1 < levels.size() && levels[level].sigma() < wanted) ++level;
-    seeds.push_back({starts[i], Vec3::Zero(), 0, 0, 0, static_cast<int>(level)});
+    seeds.push_back({starts[i], Vec3::Zero(), 0, 0, 0, level_of_start[i]});
   }
   return seeds;
 }
@@ -152,10 +151,10 @@ void UpdateDirection(const Mat3& spread, const Mat3& kernel, double variance_acr
 void ProjectSeed(const DensityField& field, const ProjectionRound& round, RidgeSeed& seed,
                  DensityField::Neighbours& neighbours) {
   const double variance_across = kKernelVariance * field.sigma() * field.sigma();
-  field.Gather(seed.position, neighbours);
+  neighbours.Clear();
   for (int iteration = 0; iteration < round.iterations; ++iteration) {
     const KernelMoments moments =
-        field.Moments(neighbours, seed.position, seed.direction, round.stretch);
+        field.Moments({seed.position, seed.direction, round.stretch}, neighbours);
     seed.strength = moments.weight;
     if (moments.weight <= 0) return;
     const Mat3 kernel = KernelCovariance(field.sigma(), seed.direction, round.stretch);

@@ -16,12 +16,13 @@ struct RidgeScaleOptions {
   double sample_spacing = 0.003;
 };
 
-/// The rms half width of the cloud across its curves around each query: the second principal
-/// spread in a kernel of width `sigma`, with the kernel's own cut-off divided out, and of the
-/// values within `window` the `quantile` one, so that junctions, where the spread is large, do not
-/// count as thick wires. Infinite values are possible where the cloud is no curve. Costs O(n k) for
-/// k points within the kernel.
-std::vector<double> LocalThickness(const ObservedPoints& points, const std::vector<Vec3>& queries,
-                                   const RidgeScaleOptions& options);
+/// How many of the `limits` (ascending, metres) the rms half width of the cloud across its curves
+/// exceeds around each query. The half width is the second principal spread in a kernel of width
+/// `sigma`, with the kernel's own cut-off divided out, and of the values within `window` the
+/// `quantile` one, so that junctions, where the spread is large, do not count as thick wires.
+/// Where the cloud is no curve it exceeds all limits. Costs O(n k) for k points within the kernel.
+std::vector<int> LimitsExceeded(const ObservedPoints& points, const std::vector<Vec3>& queries,
+                                const std::vector<double>& limits,
+                                const RidgeScaleOptions& options);
 
 }  // namespace curvefusion

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "kernel/geometry.h"
 #include "kernel/observed_points.h"
@@ -31,6 +33,30 @@ inline VoxelKey VoxelOf(const Vec3& p, double voxel_size) {
           static_cast<int>(std::floor(p.y() / voxel_size)),
           static_cast<int>(std::floor(p.z() / voxel_size))};
 }
+
+/// Numbers cells in the order in which they are first asked for: an open-addressing hash table.
+class VoxelNumbers {
+ public:
+  static constexpr int kNone = -1;
+
+  VoxelNumbers();
+
+  int size() const { return static_cast<int>(keys_.size()); }
+  /// The cell's number, or kNone.
+  int Find(const VoxelKey& key) const { return slots_[SlotOf(key)]; }
+  /// The cell's number, which is size() before the call where the cell is new.
+  int Number(const VoxelKey& key);
+  const VoxelKey& key(int number) const { return keys_[number]; }
+
+ private:
+  // The slot that holds the cell, or the empty one where it belongs.
+  size_t SlotOf(const VoxelKey& key) const;
+  void Rehash(size_t slot_count);
+
+  std::vector<VoxelKey> keys_;
+  std::vector<int> slots_;  ///< a power of two, at most half full
+  int slot_shift_ = 0;      ///< the hash's upper bits that index slots_
+};
 
 /// One point per occupied cell: the means of positions and rays weighted by counts (rays made unit
 /// again), the sum of counts. Ordered by first occurrence, so the result depends on input order

@@ -75,7 +75,7 @@ TEST(AlignPointsToCurves, NoisyPointsWithOutliersFindTheCurves) {
   EXPECT_NEAR(result.rms, 0.0015 * std::sqrt(2.0), 0.0007);  // two directions across the line
 }
 
-TEST(AlignPointsToPoints, WhatIsNotDeterminedStays) {
+TEST(AlignPoints, WhatIsNotDeterminedStays) {
   SkeletonGraph line;
   line.AddPolyline({{0, 0, 0}, {0.3, 0, 0}});
   const SkeletonGraph shifted = Transformed(line, Motion(0, Vec3::UnitX(), Vec3(0.02, 0.005, 0)));
@@ -86,16 +86,17 @@ TEST(AlignPointsToPoints, WhatIsNotDeterminedStays) {
   EXPECT_NEAR(moved.x(), 0.1, 1e-6);  // along the line nothing is known
 }
 
-TEST(AlignPointsToPoints, NothingToAlignIsNoConvergence) {
+TEST(AlignPoints, NothingToAlignIsNoConvergence) {
   const std::vector<Vec3> points = {{0, 0, 0}, {1, 0, 0}};
-  EXPECT_FALSE(AlignPointsToPoints({}, points, {}, {}).converged);
-  EXPECT_FALSE(AlignPointsToPoints(points, {}, {}, {}).converged);
-  EXPECT_FALSE(AlignPointsToPoints(points, points, {}, {}).converged);  // two pairs: too few
+  EXPECT_FALSE(AlignPoints({}, AlignmentTarget({points, {}}), {}).converged);
+  EXPECT_FALSE(AlignPoints(points, AlignmentTarget({{}, {}}), {}).converged);
+  EXPECT_FALSE(
+      AlignPoints(points, AlignmentTarget({points, {}}), {}).converged);  // two pairs: too few
   const AlignmentResult far = AlignPointsToCurves(points, Lattice(3, 3, 0.05, 1), {});
   EXPECT_TRUE(far.T_target_source.isApprox(RigidTransform::Identity()));
 }
 
-TEST(AlignPointsToPoints, TheNumberOfThreadsDoesNotMatter) {
+TEST(AlignPoints, TheNumberOfThreadsDoesNotMatter) {
   const SkeletonGraph target = Lattice(3, 3, 0.08);
   const std::vector<Vec3> points = NoisySamples(target, 0.001, 0.002);
   const auto align = [&](int threads) {
@@ -105,7 +106,7 @@ TEST(AlignPointsToPoints, TheNumberOfThreadsDoesNotMatter) {
   EXPECT_EQ(align(1), align(2));
 }
 
-TEST(AlignPointsToPoints, IsFastEnoughForEveryFrame) {
+TEST(AlignPoints, IsFastEnoughForEveryFrame) {
   const SkeletonGraph target = Lattice(10, 10, 0.05);
   const CurveSamples samples = SampleCurves(target, 0.00018);
   const RigidTransform truth = Motion(0.01, {3, 1, 0}, {0.004, 0.003, 0.002});
@@ -114,7 +115,7 @@ TEST(AlignPointsToPoints, IsFastEnoughForEveryFrame) {
   ASSERT_GT(points.size(), 19000u);
   ASSERT_GT(samples.points.size(), 49000u);
   const auto start = std::chrono::steady_clock::now();
-  const AlignmentResult result = AlignPointsToPoints(points, samples.points, samples.tangents, {});
+  const AlignmentResult result = AlignPoints(points, AlignmentTarget(samples), {});
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   EXPECT_TRUE(result.converged);

@@ -18,6 +18,20 @@ TEST(VoxelGrid, MergesPointsOfOneCellByCount) {
   EXPECT_EQ(resampled.positions[1], points.positions[2]);
 }
 
+TEST(VoxelNumbers, NumbersByFirstOccurrenceWhateverTheCells) {
+  VoxelNumbers numbers;
+  const auto key = [](int i) { return VoxelKey{i % 20 - 10, i / 20 % 20 - 10, -(i / 400)}; };
+  constexpr int kCount = 8000;  // more than the table starts with, so that it grows
+  for (int i = 0; i < kCount; ++i) EXPECT_EQ(numbers.Number(key(i)), i);
+  for (int i = 0; i < kCount; ++i) {
+    EXPECT_EQ(numbers.Number(key(i)), i);
+    EXPECT_EQ(numbers.Find(key(i)), i);
+    EXPECT_EQ(numbers.key(i), key(i));
+  }
+  EXPECT_EQ(numbers.size(), kCount);
+  EXPECT_EQ(numbers.Find({100, 0, 0}), VoxelNumbers::kNone);
+}
+
 TEST(VoxelGrid, EmptyStaysEmpty) { EXPECT_TRUE(ResampleOnGrid({}, 0.01).empty()); }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "graph/point_grid.h"
+#include "kernel/point_grid.h"
 
 #include <gtest/gtest.h>
 
@@ -62,7 +62,30 @@ TEST(PointGrid, FarOutliersStayNeighboursOfTheirNeighbours) {
   EXPECT_EQ(Found(grid, points[2], 0.01), (std::vector<int>{2}));
 }
 
+TEST(PointGrid, NearestIsThatOfBruteForce) {
+  std::vector<Vec3> points = RandomPoints(200);
+  points.push_back(points[17]);  // of two equally near the first is taken
+  const PointGrid grid(points, 0.004);
+  int found = 0, missed = 0;
+  for (const double reach : {0.003, 0.01, 0.3}) {
+    for (const Vec3& p : RandomPoints(100)) {
+      const Vec3 query = 1.3 * p;
+      const auto nearest =
+          std::min_element(points.begin(), points.end(), [&](const Vec3& a, const Vec3& b) {
+            return (a - query).squaredNorm() < (b - query).squaredNorm();
+          });
+      const bool is_near = (*nearest - query).norm() <= reach;
+      EXPECT_EQ(grid.Nearest(query, reach),
+                is_near ? static_cast<int>(nearest - points.begin()) : -1);
+      ++(is_near ? found : missed);
+    }
+  }
+  EXPECT_GT(found, 100);
+  EXPECT_GT(missed, 20);
+}
+
 TEST(PointGrid, EmptyFindsNothing) {
+  EXPECT_EQ(PointGrid({}, 0.01).Nearest(Vec3::Zero(), 1), -1);
   EXPECT_TRUE(Found(PointGrid({}, 0.01), Vec3::Zero(), 0.01).empty());
 }
 
