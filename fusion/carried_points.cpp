@@ -1,8 +1,17 @@
 #include "fusion/carried_points.h"
 
+#include <algorithm>
+
 #include "kernel/voxel_grid.h"
 
 namespace curvefusion {
+
+namespace {
+
+// Bundles are few: what a limit on iterations saves for single frames is nothing here.
+constexpr int kIterations = 40;
+
+}  // namespace
 
 void VisitOptions(CarriedPointsOptions& options, OptionVisitor& visitor) {
   visitor.Visit({"carried_voxel_size", "m", 0.0005, 0.05,
@@ -20,8 +29,10 @@ AlignmentResult CarriedPoints::AddBundle(const ObservedPoints& bundle,
   AlignmentResult result;
   if (!points_.empty() && !bundle.empty()) {
     const RidgePoints curves = ProjectToRidges(points_, ridges);
-    result = AlignPoints(bundle.positions, AlignmentTarget({curves.positions, curves.directions}),
-                         alignment);
+    AlignmentOptions patient = alignment;
+    patient.max_iterations = std::max(alignment.max_iterations, kIterations);
+    result = AlignPoints(ProjectToRidges(bundle, ridges).positions,
+                         AlignmentTarget({curves.positions, curves.directions}), patient);
     if (!result.converged || result.inlier_fraction < options_.min_inliers) {
       result.T_target_source = RigidTransform::Identity();
     }

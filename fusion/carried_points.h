@@ -22,8 +22,9 @@ class CarriedPoints {
  public:
   explicit CarriedPoints(const CarriedPointsOptions& options) : options_(options) {}
 
-  /// Registers a bundle (world frame) to the ridges of the points carried so far and adds it. The
-  /// returned alignment is the identity for the first bundle and where too few points fit.
+  /// Registers the ridges of a bundle (world frame) to those of the points carried so far and adds
+  /// it; where wires are dense, most points lie between them and say nothing. The returned
+  /// alignment is the identity for the first bundle and where too few points fit.
   AlignmentResult AddBundle(const ObservedPoints& bundle, const RidgeProjectionOptions& ridges,
                             const AlignmentOptions& alignment);
 

@@ -10,11 +10,27 @@ namespace curvefusion {
 
 namespace {
 
+// So many points of a frame are looked at for one that is aligned: most may lie between wires.
+constexpr size_t kCandidatesPerPoint = 4;
+
 ObservedPoints Merged(const std::vector<ObservedPoints>& frames,
                       const std::vector<RigidTransform>& T, double voxel_size) {
   ObservedPoints merged;
   for (size_t i = 0; i < frames.size(); ++i) Append(merged, Transformed(frames[i], T[i]));
   return ResampleOnGrid(merged, voxel_size);
+}
+
+// The points of a frame, moved, that lie near the curves. Where wires are dense, block matching
+// makes one sheet of them, and most points lie between them and say nothing.
+std::vector<Vec3> PointsNear(const AlignmentTarget& curves, const ObservedPoints& frame,
+                             const RigidTransform& T, size_t enough, double reach) {
+  std::vector<Vec3> near;
+  const size_t stride = std::max<size_t>(1, frame.size() / enough);
+  for (size_t i = 0; i < frame.size(); i += stride) {
+    const Vec3 p = T * frame.positions[i];
+    if (curves.grid().Nearest(p, reach) >= 0) near.push_back(p);
+  }
+  return near;
 }
 
 // The correction of a frame given a first one; without information where it sees too little of the
@@ -24,8 +40,10 @@ MeasuredCorrection RegisterFrame(const ObservedPoints& frame, const RigidTransfo
                                  const FrameRegistrationOptions& options) {
   MeasuredCorrection correction;
   correction.T_registered_world = T;
-  if (static_cast<int>(frame.size()) < options.min_points) return correction;
-  const AlignmentResult result = AlignPoints(Transformed(frame, T).positions, curves, alignment);
+  const std::vector<Vec3> points =
+      PointsNear(curves, frame, T, kCandidatesPerPoint * alignment.max_points, options.reach);
+  if (static_cast<int>(points.size()) < options.min_points) return correction;
+  const AlignmentResult result = AlignPoints(points, curves, alignment);
   // One frame on the wrong curves would draw its neighbours after it.
   const double moved = (result.T_target_source.inverse() * result.center - result.center).norm();
   if (result.inlier_fraction < options.min_inliers || moved > options.max_motion) return correction;
@@ -47,12 +65,16 @@ void VisitOptions(FrameRegistrationOptions& options, OptionVisitor& visitor) {
                  "A frame of which a smaller share fits the curves is not moved by itself."},
                 options.min_inliers);
   visitor.Visit({"frame_min_points", "points", 6, 100000,
-                 "A frame with fewer points is not moved by itself."},
+                 "A frame with fewer points near the curves is not moved by itself."},
                 options.min_points);
   visitor.Visit({"frame_max_motion", "m", 0, 1,
                  "A frame that would move farther from its bundle is not moved by itself: the "
                  "largest drift within a bundle."},
                 options.max_motion);
+  visitor.Visit({"frame_reach", "m", 0.0005, 1,
+                 "Deviation: points of a frame farther from the curves are not registered: they "
+                 "lie between wires."},
+                options.reach);
   VisitOptions(options.drift, visitor);
 }
 
