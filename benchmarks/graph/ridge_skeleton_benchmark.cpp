@@ -50,6 +50,23 @@ BENCHMARK(BM_ExtractRidgeSkeleton)
     ->MeasureProcessCPUTime()
     ->UseRealTime();
 
+// Arguments: wires each way, distance of ridge points in micrometres. Registration takes 3000.
+void BM_ProjectToRidges(benchmark::State& state) {
+  const ObservedPoints points = LatticeScan(static_cast<int>(state.range(0)));
+  const ThreadLimit limit(1);
+  RidgeProjectionOptions options;
+  options.spacing = 1e-6 * static_cast<double>(state.range(1));
+  size_t ridge_points = 0;
+  for (auto _ : state) ridge_points = ProjectToRidges(points, options).size();
+  state.counters["points"] = static_cast<double>(points.size());
+  state.counters["ridge points"] = static_cast<double>(ridge_points);
+}
+BENCHMARK(BM_ProjectToRidges)
+    ->ArgsProduct({{9}, {1500, 3000}})
+    ->ArgNames({"wires", "spacing"})
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime();
+
 // From ridge points to the placed junctions, which takes a hundredth of the projection.
 void BM_ConnectRidgePoints(benchmark::State& state) {
   const RidgePoints ridge = ProjectToRidges(LatticeScan(static_cast<int>(state.range(0))), {});
