@@ -11,7 +11,7 @@ namespace curvefusion {
 namespace {
 
 constexpr double kMaxAngle = 0.7;
-constexpr double kMaxRms = 0.001;
+constexpr double kMaxRms = 0.002;
 constexpr double kLeastFit = 0.015;
 constexpr double kStep = 0.0005;
 
@@ -85,6 +85,15 @@ std::optional<std::array<int, 3>> FindFork(const std::vector<ClearBranch>& branc
   return best;
 }
 
+// Both wires are one ridge on this side of the fork, which lies between them and bends away from
+// either as far as the fork may be off; nothing where that leaves too little.
+ClearBranch BeyondBlend(const ClearBranch& common, double reach) {
+  const std::vector<double> arc_length = CumulativeLength(common.points);
+  ClearBranch beyond = common;
+  while (beyond.first + 3 < beyond.last && arc_length[beyond.first] < reach) ++beyond.first;
+  return beyond.last >= beyond.first + 3 && StretchLength(beyond) >= kLeastFit ? beyond : common;
+}
+
 // Where two curves come nearest to each other, over steps of their arc lengths.
 struct Meeting {
   double on_fork = 0;
@@ -119,8 +128,11 @@ std::optional<Vec3> ForkPosition(const std::vector<ClearBranch>& branches, doubl
   const double fork_end = CumulativeLength(forking.points)[forking.first];
   std::vector<Sample> on_fork, on_through;
   AddSamples(forking, 1, on_fork);
-  AddSamples(branches[(*order)[0]], 1, on_through);
-  AddSamples(branches[(*order)[1]], -1, on_through);
+  const bool first_is_common = Heading(forking).dot(Heading(branches[(*order)[0]])) < 0;
+  AddSamples(first_is_common ? BeyondBlend(branches[(*order)[0]], reach) : branches[(*order)[0]], 1,
+             on_through);
+  AddSamples(first_is_common ? branches[(*order)[1]] : BeyondBlend(branches[(*order)[1]], reach),
+             -1, on_through);
   const Parabola fork = Fit(on_fork);
   const Parabola through = Fit(on_through);
   if (std::max(fork.rms, through.rms) > kMaxRms) return std::nullopt;

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "graph/gap_evidence.h"
+#include "graph/hermite_bridge.h"
 #include "graph/point_grid.h"
 
 namespace curvefusion {
@@ -17,6 +19,12 @@ namespace {
 
 // A piece that hangs at a junction is less likely to be noise than one on its own.
 constexpr double kAttachedFactor = 2;
+// Where two ends continue each other this well the longer of their edges vouches for both.
+constexpr double kContinuing = 0.9;
+// Ends that look the same way within this angle end side by side.
+constexpr double kSideBySide = 0.5;
+// A branch that nothing leaves its junction opposite to within this angle is open.
+constexpr double kOpenCosine = 0.7;
 
 struct FreeEnd {
   NodeId node;
@@ -24,6 +32,7 @@ struct FreeEnd {
   Vec3 position;
   Vec3 outward;
   double max_gap;  ///< farther it reaches in no direction
+  bool is_free;
 };
 
 // A point on a curve that an end may be joined to.
@@ -37,37 +46,63 @@ struct Join {
   int end;
   EdgeId edge;
   int index;
+  const FreeEnd* facing;  ///< what it continues; null for the side of a curve
   bool operator<(const Join& other) const {
     return std::tie(cost, end, edge, index) <
            std::tie(other.cost, other.end, other.edge, other.index);
   }
 };
 
-// The points of the only edge at a node, from the node on.
-Polyline PointsFrom(const SkeletonGraph& graph, NodeId node) {
-  const SkeletonEdge& edge = graph.edge(graph.IncidentEdges(node)[0]);
+// The points of an edge at a node, from the node on.
+Polyline PointsFrom(const SkeletonGraph& graph, NodeId node, EdgeId id) {
+  const SkeletonEdge& edge = graph.edge(id);
   Polyline points = edge.points;
   if (edge.nodes[0] != node) std::reverse(points.begin(), points.end());
   return points;
 }
 
-FreeEnd MakeFreeEnd(const SkeletonGraph& graph, NodeId node, const FreeEndOptions& options) {
-  const Polyline points = PointsFrom(graph, node);
+FreeEnd MakeEnd(const SkeletonGraph& graph, NodeId node, EdgeId id, const FreeEndOptions& options) {
+  const Polyline points = PointsFrom(graph, node, id);
   const std::vector<double> arc_length = CumulativeLength(points);
   const Vec3 inner = PointAt(points, arc_length, options.fit_length);
-  const EdgeId id = graph.IncidentEdges(node)[0];
   const double factor = graph.Degree(graph.OtherEnd(id, node)) >= 3 ? kAttachedFactor : 1;
-  return {
-      node, id, points.front(), (points.front() - inner).normalized(),
-      std::max(options.touch_distance, factor * options.max_gap_per_length * arc_length.back())};
+  return {node,
+          id,
+          points.front(),
+          (points.front() - inner).normalized(),
+          std::max(options.touch_distance, factor * options.max_gap_per_length * arc_length.back()),
+          graph.Degree(node) == 1};
 }
 
 std::vector<FreeEnd> FreeEnds(const SkeletonGraph& graph, const FreeEndOptions& options) {
   std::vector<FreeEnd> ends;
   for (const NodeId node : graph.Nodes()) {
-    if (graph.Degree(node) == 1) ends.push_back(MakeFreeEnd(graph, node, options));
+    if (graph.Degree(node) != 1) continue;
+    ends.push_back(MakeEnd(graph, node, graph.IncidentEdges(node)[0], options));
   }
   return ends;
+}
+
+// By node, what an end may continue there: the free end, or the branches of a junction that nothing
+// leaves on the other side.
+using FacingEnds = std::vector<std::vector<FreeEnd>>;
+
+FacingEnds FindFacingEnds(const SkeletonGraph& graph, const FreeEndOptions& options) {
+  FacingEnds facing;
+  for (const NodeId node : graph.Nodes()) {
+    facing.resize(std::max<size_t>(facing.size(), node + 1));
+    std::vector<FreeEnd> branches;
+    for (const EdgeId id : graph.IncidentEdges(node)) {
+      branches.push_back(MakeEnd(graph, node, id, options));
+    }
+    for (const FreeEnd& branch : branches) {
+      const bool goes_on = std::any_of(branches.begin(), branches.end(), [&](const FreeEnd& next) {
+        return -next.outward.dot(branch.outward) > kOpenCosine;
+      });
+      if (!goes_on) facing[node].push_back(branch);
+    }
+  }
+  return facing;
 }
 
 // Length of the loop that joining an end to a point of a neighbouring edge would close; infinite
@@ -97,81 +132,85 @@ NodeId NodeNear(const SkeletonGraph& graph, const CurvePoint& target, double dis
   return first <= last ? edge.nodes[0] : edge.nodes[1];
 }
 
-// Whether points were seen where no curve is.
-class GapEvidence {
- public:
-  GapEvidence(const ObservedPoints& points, const FreeEndOptions& options)
-      : grid_(points.positions, options.evidence_radius),
-        is_empty_(points.empty()),
-        radius_(options.evidence_radius) {}
-
-  // The share of the way from a to b, but for what the ends themselves account for, along which
-  // points lie.
-  double Share(const Vec3& a, const Vec3& b) const {
-    const double length = (b - a).norm();
-    const int steps = static_cast<int>((length - 2 * radius_) / kStep);
-    if (is_empty_ || steps < 1) return 0;
-    int seen = 0;
-    for (int i = 0; i < steps; ++i) {
-      const Vec3 p = a + (radius_ + i * kStep) / length * (b - a);
-      bool has_points = false;
-      grid_.ForEachWithin(p, radius_, [&](int, const Vec3&) { has_points = true; });
-      seen += has_points ? 1 : 0;
-    }
-    return static_cast<double>(seen) / steps;
-  }
-
- private:
-  static constexpr double kStep = 0.001;
-  PointGrid grid_;
-  bool is_empty_;
-  double radius_;
-};
-
 // Whether a point of a curve lies just behind a free end of it that looks the other way than `end`:
-// then the two ends belong together, and the end must not run into the side of the other's tip.
-bool IsBehindFacingEnd(const SkeletonGraph& graph, const FreeEnd& end, const CurvePoint& target,
-                       const std::vector<const FreeEnd*>& end_of_node,
-                       const FreeEndOptions& options) {
+// then the two ends belong together, and the end must not run into the side of the other's tip. Nor
+// where both look the same way: wires side by side end there, of which tips tend to each other.
+bool IsBehindOtherEnd(const SkeletonGraph& graph, const FreeEnd& end, const CurvePoint& target,
+                      const FacingEnds& facing, const FreeEndOptions& options) {
   const SkeletonEdge& edge = graph.edge(target.edge);
   return std::any_of(edge.nodes.begin(), edge.nodes.end(), [&](NodeId node) {
-    const FreeEnd* other = end_of_node[node];
-    return other != nullptr && node != end.node && other->outward.dot(end.outward) < 0 &&
-           (other->position - edge.points[target.index]).norm() < options.max_gap;
+    if (node == end.node || graph.Degree(node) != 1) return false;
+    const FreeEnd& other = facing[node].front();
+    const double cosine = other.outward.dot(end.outward);
+    return (cosine < 0 || cosine > kSideBySide) &&
+           (other.position - edge.points[target.index]).norm() < options.max_gap;
   });
 }
 
-// What a join costs: its length over how far the end may reach in that direction; infinite where it
-// is not allowed.
-double JoinCost(const SkeletonGraph& graph, const FreeEnd& end, const CurvePoint& target,
-                const std::vector<const FreeEnd*>& end_of_node, const GapEvidence& evidence,
-                const FreeEndOptions& options) {
-  constexpr double kForbidden = std::numeric_limits<double>::infinity();
-  const Vec3 gap = graph.edge(target.edge).points[target.index] - end.position;
-  const double length = gap.norm();
+// How far an end may reach in a direction that makes an angle of this cosine with its own.
+double ReachAt(double cosine, double max_gap, double max_angle, double touch_distance) {
+  const double least = std::cos(max_angle);
+  const double reach = max_gap * (cosine - least) / (1 - least);
+  return cosine > 0 ? std::max(reach, touch_distance) : reach;
+}
+
+double ReachForSide(const FreeEnd& end, const Vec3& p, const GapEvidence& evidence,
+                    const FreeEndOptions& options) {
+  const Vec3 gap = p - end.position;
+  double reach = ReachAt(end.outward.dot(gap.normalized()), options.max_gap, options.max_angle,
+                         options.touch_distance);
+  if (gap.norm() > reach && gap.norm() < reach * (1 + options.evidence_gain)) {
+    reach *= 1 + options.evidence_gain * evidence.PointShare(end.position, p);
+  }
+  return std::min(reach, end.max_gap);
+}
+
+// For a point next to the other end, which may lie ahead where the ends overlap.
+double ReachForFacing(const FreeEnd& end, const FreeEnd& other, const Vec3& p,
+                      const FreeEndOptions& options) {
+  const Vec3 way = (p - end.position).normalized();
+  const double cosine = std::min(end.outward.dot(way), -other.outward.dot(way));
+  if (!other.is_free && cosine < kContinuing) return 0;
+  const double reach =
+      ReachAt(cosine, options.max_facing_gap, options.max_facing_angle, options.touch_distance);
+  return std::min(reach, cosine > kContinuing ? std::max(end.max_gap, other.max_gap)
+                                              : std::min(end.max_gap, other.max_gap));
+}
+
+// What joining an end to a point costs: its length over how far the end may reach there; infinite
+// where it is not allowed.
+Join MakeJoin(const SkeletonGraph& graph, const std::vector<FreeEnd>& ends, int index,
+              const CurvePoint& target, const FacingEnds& facing, const GapEvidence& evidence,
+              const FreeEndOptions& options) {
+  const FreeEnd& end = ends[index];
+  Join join{std::numeric_limits<double>::infinity(), index, target.edge, target.index, nullptr};
+  const Vec3& p = graph.edge(target.edge).points[target.index];
+  const double length = (p - end.position).norm();
   const NodeId node = NodeNear(graph, target, options.snap_distance);
-  if (node == end.node || length <= 0) return kForbidden;
-  const FreeEnd* other = node >= 0 ? end_of_node[node] : nullptr;
-  if (other == nullptr && IsBehindFacingEnd(graph, end, target, end_of_node, options)) {
-    return kForbidden;
+  if (node == end.node || length <= 0) return join;
+  double reach = 0;
+  const bool is_free = node >= 0 && graph.Degree(node) == 1;
+  if (!is_free && !IsBehindOtherEnd(graph, end, target, facing, options)) {
+    reach = ReachForSide(end, p, evidence, options);
   }
-  double cosine = end.outward.dot(gap) / length;
-  if (other != nullptr) cosine = std::min(cosine, -other->outward.dot(gap) / length);
-  const double max_gap = other != nullptr ? options.max_facing_gap : options.max_gap;
-  const double least = std::cos(other != nullptr ? options.max_facing_angle : options.max_angle);
-  double reach = max_gap * (cosine - least) / (1 - least);
-  if (cosine > 0) reach = std::max(reach, options.touch_distance);
-  if (other == nullptr && length > reach && length < reach * (1 + options.evidence_gain)) {
-    const Vec3& p = graph.edge(target.edge).points[target.index];
-    reach *= 1 + options.evidence_gain * evidence.Share(end.position, p);
+  if (node >= 0) {
+    for (const FreeEnd& other : facing[node]) {
+      const double reach_for_it = ReachForFacing(end, other, p, options);
+      if (reach_for_it <= reach || length > reach_for_it) continue;
+      if (evidence.IsCrossed(end.position, other.position, {end.edge, other.edge})) continue;
+      reach = reach_for_it;
+      join.facing = &other;
+    }
   }
-  reach = std::min({reach, end.max_gap, other != nullptr ? other->max_gap : kForbidden});
-  if (length > reach || LoopLength(graph, end, target) < options.min_loop) return kForbidden;
-  return length / reach;
+  if (length <= reach && LoopLength(graph, end, target) >= options.min_loop) {
+    join.cost = length / reach;
+  }
+  return join;
 }
 
 std::vector<Join> CandidateJoins(const SkeletonGraph& graph, const std::vector<FreeEnd>& ends,
-                                 const GapEvidence& evidence, const FreeEndOptions& options) {
+                                 const FacingEnds& facing, const GapEvidence& evidence,
+                                 const FreeEndOptions& options) {
   std::vector<Vec3> positions;
   std::vector<CurvePoint> targets;
   for (const EdgeId id : graph.Edges()) {
@@ -181,24 +220,15 @@ std::vector<Join> CandidateJoins(const SkeletonGraph& graph, const std::vector<F
       targets.push_back({id, static_cast<int>(i)});
     }
   }
-  std::vector<const FreeEnd*> end_of_node;
-  for (const FreeEnd& end : ends) {
-    end_of_node.resize(std::max<size_t>(end_of_node.size(), end.node + 1), nullptr);
-    end_of_node[end.node] = &end;
-  }
-  for (const NodeId node : graph.Nodes()) {
-    end_of_node.resize(std::max<size_t>(end_of_node.size(), node + 1), nullptr);
-  }
   const double reach =
       std::max((1 + options.evidence_gain) * options.max_gap, options.max_facing_gap);
   const PointGrid grid(positions, reach);
   std::vector<Join> joins;
   for (size_t e = 0; e < ends.size(); ++e) {
     grid.ForEachWithin(ends[e].position, reach, [&](int i, const Vec3&) {
-      const double cost = JoinCost(graph, ends[e], targets[i], end_of_node, evidence, options);
-      if (std::isfinite(cost)) {
-        joins.push_back({cost, static_cast<int>(e), targets[i].edge, targets[i].index});
-      }
+      const Join join =
+          MakeJoin(graph, ends, static_cast<int>(e), targets[i], facing, evidence, options);
+      if (std::isfinite(join.cost)) joins.push_back(join);
     });
   }
   std::sort(joins.begin(), joins.end());
@@ -207,10 +237,11 @@ std::vector<Join> CandidateJoins(const SkeletonGraph& graph, const std::vector<F
 
 // The cheapest joins such that each end is used once.
 std::vector<Join> SelectJoins(const SkeletonGraph& graph, const std::vector<FreeEnd>& ends,
-                              const GapEvidence& evidence, const FreeEndOptions& options) {
+                              const FacingEnds& facing, const GapEvidence& evidence,
+                              const FreeEndOptions& options) {
   std::map<NodeId, char> used;
   std::vector<Join> selected;
-  for (const Join& join : CandidateJoins(graph, ends, evidence, options)) {
+  for (const Join& join : CandidateJoins(graph, ends, facing, evidence, options)) {
     const NodeId from = ends[join.end].node;
     const NodeId to = NodeNear(graph, {join.edge, join.index}, options.snap_distance);
     if (used[from] || (to >= 0 && used[to])) continue;
@@ -234,26 +265,18 @@ Polyline WithStraightTip(const Polyline& points, double tip, double length) {
   return straight;
 }
 
-// A curve from a free end to a node: on in the end's direction, and in that of the node where it is
-// a free end too (cubic Hermite).
-Polyline BridgeCurve(const SkeletonGraph& graph, const FreeEnd& from, NodeId to,
-                     const FreeEnd* other) {
-  constexpr int kSegments = 12;
-  const Vec3& a = from.position;
-  const Vec3& b = graph.position(to);
-  if (other == nullptr) return {a, b};
-  const double length = (b - a).norm();
-  const Vec3 start = length * from.outward;
-  const Vec3 end = -length * other->outward;
-  Polyline curve{a};
-  for (int i = 1; i < kSegments; ++i) {
-    const double t = static_cast<double>(i) / kSegments;
-    const double u = 1 - t;
-    curve.push_back((1 + 2 * t) * u * u * a + t * u * u * start + (3 - 2 * t) * t * t * b -
-                    t * t * u * end);
-  }
-  curve.push_back(b);
-  return curve;
+struct Bridge {
+  const FreeEnd* from;
+  NodeId to;
+  const FreeEnd* facing;
+};
+
+// On in the end's direction, and in that of what it continues there.
+Polyline BridgeCurve(const SkeletonGraph& graph, const Bridge& bridge) {
+  const Vec3& a = bridge.from->position;
+  const Vec3& b = graph.position(bridge.to);
+  if (bridge.facing == nullptr) return {a, b};
+  return HermiteBridge(a, bridge.from->outward, b, -bridge.facing->outward);
 }
 
 }  // namespace
@@ -301,10 +324,10 @@ void VisitOptions(FreeEndOptions& options, OptionVisitor& visitor) {
 void StraightenTips(SkeletonGraph& graph, const FreeEndOptions& options) {
   for (const NodeId node : graph.Nodes()) {
     if (graph.Degree(node) != 1) continue;
-    Polyline points = PointsFrom(graph, node);
+    const EdgeId edge = graph.IncidentEdges(node)[0];
+    Polyline points = PointsFrom(graph, node, edge);
     if (Length(points) < options.tip_length + options.fit_length) continue;
     points = WithStraightTip(points, options.tip_length, options.fit_length);
-    const EdgeId edge = graph.IncidentEdges(node)[0];
     graph.MoveNode(node, points.front());
     if (graph.edge(edge).nodes[0] != node) std::reverse(points.begin(), points.end());
     graph.SetCurve(edge, std::move(points));
@@ -315,15 +338,15 @@ void CloseFreeEnds(SkeletonGraph& graph, const FreeEndOptions& options,
                    const ObservedPoints& points) {
   const std::vector<FreeEnd> ends = FreeEnds(graph, options);
   if (ends.empty()) return;
-  const std::vector<Join> joins = SelectJoins(graph, ends, GapEvidence(points, options), options);
-  std::map<NodeId, const FreeEnd*> end_of_node;
-  for (const FreeEnd& end : ends) end_of_node[end.node] = &end;
-  std::vector<std::pair<const FreeEnd*, NodeId>> bridges;
+  const FacingEnds facing = FindFacingEnds(graph, options);
+  const std::vector<Join> joins = SelectJoins(
+      graph, ends, facing, GapEvidence(graph, points, options.evidence_radius), options);
+  std::vector<Bridge> bridges;
   std::map<EdgeId, std::map<int, std::vector<const FreeEnd*>, std::greater<>>> splits;
   for (const Join& join : joins) {
     const NodeId node = NodeNear(graph, {join.edge, join.index}, options.snap_distance);
     const FreeEnd* from = &ends[join.end];
-    if (node >= 0) bridges.emplace_back(from, node);
+    if (node >= 0) bridges.push_back({from, node, join.facing});
     if (node < 0) splits[join.edge][join.index].push_back(from);
   }
   // From the back of each edge to its front, so that the indices of the front part stay.
@@ -332,14 +355,12 @@ void CloseFreeEnds(SkeletonGraph& graph, const FreeEndOptions& options,
     for (const auto& [index, sources] : ends_of_index) {
       const NodeId node = graph.SplitEdge(front, static_cast<size_t>(index));
       front = graph.IncidentEdges(node)[0];
-      for (const FreeEnd* source : sources) bridges.emplace_back(source, node);
+      for (const FreeEnd* source : sources) bridges.push_back({source, node, nullptr});
     }
   }
-  for (const auto& [from, to] : bridges) {
-    if (from->position == graph.position(to)) continue;
-    const auto other = end_of_node.find(to);
-    const FreeEnd* other_end = other == end_of_node.end() ? nullptr : other->second;
-    graph.AddEdge({{from->node, to}, BridgeCurve(graph, *from, to, other_end), {}, {}});
+  for (const Bridge& bridge : bridges) {
+    if (bridge.from->position == graph.position(bridge.to)) continue;
+    graph.AddEdge({{bridge.from->node, bridge.to}, BridgeCurve(graph, bridge), {}, {}});
   }
   graph.DissolveDegree2Nodes();
 }

@@ -3,6 +3,7 @@
 #include "graph/curve_network.h"
 #include "graph/free_ends.h"
 #include "graph/junction_refinement.h"
+#include "graph/ridge_edges.h"
 #include "graph/ridge_projection.h"
 #include "graph/skeleton_graph.h"
 #include "kernel/observed_points.h"
@@ -14,6 +15,7 @@ namespace curvefusion {
 struct RidgeOptions {
   RidgeProjectionOptions projection;
   CurveNetworkOptions network;
+  RidgeEdgeOptions edges;
   FreeEndOptions free_ends;
   JunctionRefinementOptions junctions;
   double fragment_length = 0.008;

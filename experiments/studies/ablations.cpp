@@ -81,8 +81,8 @@ std::vector<Ablation> OfRegistration() {
            {"registration.carry_points=false"},
            "All points contracted once, on the ridges of their density, instead of fused skeletons "
            "of bundles.",
-           {"registration.carried_voxel_size", "ridge_projection", "curve_network", "free_ends",
-            "junction_refinement", "ridge_skeleton"}}};
+           {"registration.carried_voxel_size", "ridge_projection", "curve_network", "ridge_edges",
+            "free_ends", "junction_refinement", "ridge_skeleton"}}};
 }
 
 // Steps from points to curves.
@@ -104,6 +104,10 @@ std::vector<Ablation> OfRidges() {
            "Between wires the sensor scatters points that make weak ridges.",
            {"ridge_projection.ball_radius", "ridge_projection.flank_distance",
             "ridge_projection.neighbourhood", "ridge_projection.max_flank"}},
+          {"edges of noise",
+           {"ridge_edges.min_share=0"},
+           "Between wires noise makes ridges from wire to wire; whole edges tell them surely.",
+           {"ridge_edges"}},
           {"ridge elongation",
            {"ridge_projection.max_elongation=100"},
            "False ridges lie between parallel wires."},

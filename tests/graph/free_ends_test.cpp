@@ -62,7 +62,7 @@ TEST(CloseFreeEnds, LeavesEndsThatFaceNothing) {
   SkeletonGraph graph;
   graph.AddPolyline(StraightLine({0, 0, 0}, {0.1, 0, 0}));
   graph.AddPolyline(StraightLine({0, 0.015, 0}, {0.1, 0.015, 0}));  // a parallel wire
-  graph.AddPolyline(StraightLine({0.15, 0, 0}, {0.2, 0, 0}));       // 50 mm ahead
+  graph.AddPolyline(StraightLine({0.17, 0, 0}, {0.2, 0, 0}));       // 70 mm ahead
   CloseFreeEnds(graph, {});
   EXPECT_EQ(graph.edge_count(), 3);
   EXPECT_EQ(graph.ComponentCount(), 3);
@@ -134,6 +134,39 @@ TEST(CloseFreeEnds, MakesNoLoopShorterThanTheLeast) {
   Connect(graph, root, graph.AddNode(hook.back()), hook);
   CloseFreeEnds(graph, {});
   EXPECT_EQ(graph.CycleRank(), 0);
+}
+
+// Both ends reach for each other across a wire between them: a crossing, not a wire that passes.
+TEST(CloseFreeEnds, DoesNotReachAcrossACurve) {
+  SkeletonGraph graph;
+  graph.AddPolyline(StraightLine({-0.06, 0, 0}, {-0.008, 0, 0}));
+  graph.AddPolyline(StraightLine({0.06, 0, 0}, {0.008, 0, 0}));
+  graph.AddPolyline(StraightLine({0, -0.06, 0}, {0, 0.06, 0}));
+  CloseFreeEnds(graph, {});
+  EXPECT_EQ(graph.ComponentCount(), 1);
+  EXPECT_EQ(CountDegree(graph, 4), 1);
+}
+
+// A ring of which one side of a crossing is missing.
+TEST(CloseFreeEnds, ReachesAJunctionThatABranchEndsAt) {
+  SkeletonGraph graph;
+  const NodeId crossing = graph.AddNode(Vec3::Zero());
+  for (const Vec3& far : {Vec3(0, 0.06, 0), Vec3(0, -0.06, 0), Vec3(-0.06, 0, 0)}) {
+    Connect(graph, crossing, graph.AddNode(far), StraightLine({0, 0, 0}, far));
+  }
+  graph.AddPolyline(StraightLine({0.1, 0, 0}, {0.032, 0, 0}));
+  CloseFreeEnds(graph, {});
+  EXPECT_EQ(graph.Degree(crossing), 4);
+  EXPECT_EQ(graph.ComponentCount(), 1);
+}
+
+// A short piece on its own would not reach so far; the long wire that it continues vouches for it.
+TEST(CloseFreeEnds, LongWiresReachForShortPiecesThatContinueThem) {
+  SkeletonGraph graph;
+  graph.AddPolyline(StraightLine({-0.1, 0, 0}, {0, 0, 0}));
+  graph.AddPolyline(StraightLine({0.04, 0, 0}, {0.054, 0, 0}));
+  CloseFreeEnds(graph, {});
+  EXPECT_EQ(graph.ComponentCount(), 1);
 }
 
 TEST(CloseFreeEnds, EmptyStaysEmpty) {
