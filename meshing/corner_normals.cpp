@@ -42,7 +42,7 @@ double Weight(const TriangleMesh& mesh, int face, int k) {
 void JoinSmoothCorners(const TriangleMesh& mesh, const std::vector<Vec3>& face_normals,
                        double crease_angle, DisjointSets& corners) {
   const double min_cos = std::cos(crease_angle);
-  const std::vector<HalfEdge> half_edges = SortedHalfEdges(mesh);
+  const std::vector<HalfEdge> half_edges = SortedHalfEdges(mesh.triangles);
   for (size_t i = 0; i + 1 < half_edges.size(); ++i) {
     const HalfEdge& a = half_edges[i];
     const HalfEdge& b = half_edges[i + 1];

@@ -5,13 +5,13 @@
 
 namespace curvefusion {
 
-std::vector<HalfEdge> SortedHalfEdges(const TriangleMesh& mesh) {
+std::vector<HalfEdge> SortedHalfEdges(const std::vector<std::array<int, 3>>& triangles) {
   std::vector<HalfEdge> half_edges;
-  half_edges.reserve(3 * mesh.triangles.size());
-  for (size_t f = 0; f < mesh.triangles.size(); ++f) {
+  half_edges.reserve(3 * triangles.size());
+  for (size_t f = 0; f < triangles.size(); ++f) {
     for (int k = 0; k < 3; ++k) {
-      const int a = mesh.triangles[f][k];
-      const int b = mesh.triangles[f][(k + 1) % 3];
+      const int a = triangles[f][k];
+      const int b = triangles[f][(k + 1) % 3];
       half_edges.push_back({std::min(a, b), std::max(a, b), a < b, static_cast<int>(f)});
     }
   }

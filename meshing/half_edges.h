@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "kernel/triangle_mesh.h"
@@ -14,7 +15,7 @@ struct HalfEdge {
 };
 
 /// The half-edges of all triangles, those of one edge next to each other. O(n log n).
-std::vector<HalfEdge> SortedHalfEdges(const TriangleMesh& mesh);
+std::vector<HalfEdge> SortedHalfEdges(const std::vector<std::array<int, 3>>& triangles);
 
 /// The number 3 f + k of the corner of face f at `vertex`, its k-th.
 int CornerOf(const TriangleMesh& mesh, int face, int vertex);

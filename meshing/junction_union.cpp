@@ -10,6 +10,8 @@
 #include <tuple>
 #include <utility>
 
+#include "meshing/direct_union.h"
+
 namespace curvefusion {
 
 namespace {
@@ -106,22 +108,51 @@ std::vector<size_t> OrderAlongLongestSide(const std::vector<TriangleMesh>& solid
   return order;
 }
 
-}  // namespace
-
-std::optional<UnionMesh> UniteSolids(const std::vector<TriangleMesh>& solids) {
-  std::vector<ExactMesh> round;
-  for (const size_t i : OrderAlongLongestSide(solids)) round.push_back(ToExact(solids[i]));
+// The solids in the order of a tournament of neighbours; nothing where a union does not come out.
+template <class Solid, class Unite>
+std::optional<Solid> Tournament(std::vector<Solid> round, const Unite& unite) {
   while (round.size() > 1) {
-    std::vector<ExactMesh> next_round;
+    std::vector<Solid> next_round;
     for (size_t i = 0; i + 1 < round.size(); i += 2) {
-      if (!Unite(round[i], round[i + 1])) return std::nullopt;
+      if (!unite(round[i], round[i + 1])) return std::nullopt;
       next_round.push_back(std::move(round[i]));
     }
     if (round.size() % 2 == 1) next_round.push_back(std::move(round.back()));
     round = std::move(next_round);
   }
-  if (round.empty()) return UnionMesh{};
-  return InCanonicalOrder(ToDouble(round.front()));
+  return std::move(round.front());
+}
+
+std::optional<UnionMesh> UniteAllDirectly(const std::vector<TriangleMesh>& solids,
+                                          const std::vector<size_t>& order) {
+  std::vector<UnionMesh> round;
+  for (const size_t i : order) {
+    round.push_back({{}, solids[i].triangles});
+    for (const Vec3f& v : solids[i].vertices) round.back().vertices.push_back(v.cast<double>());
+  }
+  return Tournament(std::move(round), [](UnionMesh& a, const UnionMesh& b) {
+    std::optional<UnionMesh> united = UniteDirectly(a, b);
+    if (united) a = std::move(*united);
+    return united.has_value();
+  });
+}
+
+std::optional<UnionMesh> UniteAllExactly(const std::vector<TriangleMesh>& solids,
+                                         const std::vector<size_t>& order) {
+  std::vector<ExactMesh> round;
+  for (const size_t i : order) round.push_back(ToExact(solids[i]));
+  const auto united = Tournament(std::move(round), Unite);
+  if (!united) return std::nullopt;
+  return InCanonicalOrder(ToDouble(*united));
+}
+
+}  // namespace
+
+std::optional<UnionMesh> UniteSolids(const std::vector<TriangleMesh>& solids) {
+  if (solids.empty()) return UnionMesh{};
+  const std::vector<size_t> order = OrderAlongLongestSide(solids);
+  std::optional<UnionMesh> united = UniteAllDirectly(solids, order);
+  return united ? united : UniteAllExactly(solids, order);
 }
 
 }  // namespace curvefusion

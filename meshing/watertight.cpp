@@ -14,6 +14,7 @@
 #include "kernel/error.h"
 #include "meshing/half_edges.h"
 #include "meshing/self_intersections.h"
+#include "meshing/solid_angle.h"
 
 namespace curvefusion {
 
@@ -57,7 +58,7 @@ void NotePlace(const TriangleMesh& mesh, int vertex, WatertightReport& report) {
 // the component of every face.
 int64_t ExamineEdges(const TriangleMesh& mesh, WatertightReport& report,
                      std::vector<int>& component) {
-  const std::vector<HalfEdge> half_edges = SortedHalfEdges(mesh);
+  const std::vector<HalfEdge> half_edges = SortedHalfEdges(mesh.triangles);
   Fans fans(mesh);
   DisjointSets faces(mesh.triangles.size());
   int64_t edges = 0;
@@ -125,11 +126,6 @@ std::vector<Shell> ShellsOf(const TriangleMesh& mesh, const std::vector<int>& co
   }
   for (const Shell& shell : shells) report.volume += shell.volume;
   return shells;
-}
-
-double SolidAngle(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const double x = a.norm(), y = b.norm(), z = c.norm();
-  return 2 * std::atan2(a.dot(b.cross(c)), x * y * z + a.dot(b) * z + b.dot(c) * x + c.dot(a) * y);
 }
 
 // Shells around a point of another shell: the sum of their winding numbers must be 0 for a solid,
