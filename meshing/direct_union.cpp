@@ -5,7 +5,6 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -41,9 +40,16 @@ SolidPair Joined(const UnionMesh& a, const UnionMesh& b) {
 // vertices behind the given ones.
 struct DividedSolids {
   std::vector<Vec3> vertices;
+  int first_node = 0;
   std::array<Triangles, 2> triangles;
-  // Half-edges with the inside of the other solid on their left.
-  std::array<std::set<std::pair<int, int>>, 2> borders;
+  // Half-edges between nodes with the inside of the other solid on their left, sorted.
+  std::array<std::vector<std::pair<int, int>>, 2> borders;
+
+  bool IsBorder(bool second, int from, int to) const {
+    return from >= first_node && to >= first_node &&
+           std::binary_search(borders[second].begin(), borders[second].end(),
+                              std::make_pair(from, to));
+  }
 };
 
 class Divider {
@@ -77,6 +83,7 @@ class Divider {
       if (!parts) return std::nullopt;
       triangles.insert(triangles.end(), parts->begin(), parts->end());
     }
+    for (auto& borders : divided_.borders) std::sort(borders.begin(), borders.end());
     return std::move(divided_);
   }
 
@@ -101,7 +108,7 @@ class Divider {
     }
     for (const CrossingSegment& s : segments) {
       division.segments.emplace_back(first_node_ + s.from, first_node_ + s.to);
-      divided_.borders[IsSecond(face)].insert(division.segments.back());
+      divided_.borders[IsSecond(face)].push_back(division.segments.back());
     }
     return division;
   }
@@ -126,36 +133,51 @@ bool IsInside(const Vec3& p, const SolidPair& pair, bool second) {
   return angle > 2 * std::numbers::pi;
 }
 
+bool ArePaired(const HalfEdge& h, const HalfEdge& other) {
+  return h.low == other.low && h.high == other.high && h.forward != other.forward;
+}
+
 enum class Place { kUnknown, kInside, kOutside };
 
-// Adds the parts of a solid that are outside of the other; false where what borders on the crossing
-// contradicts itself.
-bool KeepOutside(const DividedSolids& divided, const SolidPair& pair, bool second,
-                 Triangles& kept) {
-  const Triangles& triangles = divided.triangles[second];
-  const auto& borders = divided.borders[second];
-  DisjointSets patches(triangles.size());
-  const std::vector<HalfEdge> half_edges = SortedHalfEdges(triangles);
+// The place of every triangle of a solid, found at the crossing and carried over edges that are not
+// part of it; unknown for patches that the crossing does not touch. Nothing where it contradicts
+// itself.
+std::optional<std::vector<Place>> PlacesOf(const DividedSolids& divided, bool second,
+                                           DisjointSets& patches) {
+  const std::vector<HalfEdge> half_edges = SortedHalfEdges(divided.triangles[second]);
+  std::vector<std::pair<int, Place>> known;  // of faces
   for (size_t i = 0; i + 1 < half_edges.size(); i += 2) {
     const HalfEdge& h = half_edges[i];
     const HalfEdge& other = half_edges[i + 1];
-    if (h.low != other.low || h.high != other.high || h.forward == other.forward) return false;
-    const bool is_border = borders.count({h.low, h.high}) > 0 || borders.count({h.high, h.low}) > 0;
-    if (!is_border) patches.Unite(h.face, other.face);
+    if (!ArePaired(h, other)) return std::nullopt;
+    const int forward = h.forward ? h.face : other.face;
+    const int backward = h.forward ? other.face : h.face;
+    if (divided.IsBorder(second, h.low, h.high)) {
+      known.insert(known.end(), {{forward, Place::kInside}, {backward, Place::kOutside}});
+    } else if (divided.IsBorder(second, h.high, h.low)) {
+      known.insert(known.end(), {{forward, Place::kOutside}, {backward, Place::kInside}});
+    } else {
+      patches.Unite(h.face, other.face);
+    }
   }
-  std::vector<Place> place(triangles.size(), Place::kUnknown);
-  for (const HalfEdge& h : half_edges) {
-    const std::pair<int, int> way =
-        h.forward ? std::make_pair(h.low, h.high) : std::make_pair(h.high, h.low);
-    const bool inside = borders.count(way) > 0;
-    if (!inside && borders.count({way.second, way.first}) == 0) continue;
-    Place& of_patch = place[patches.Root(h.face)];
-    const Place side = inside ? Place::kInside : Place::kOutside;
-    if (of_patch != Place::kUnknown && of_patch != side) return false;
-    of_patch = side;
+  std::vector<Place> places(divided.triangles[second].size(), Place::kUnknown);
+  for (const auto& [face, place] : known) {
+    Place& of_patch = places[patches.Root(face)];
+    if (of_patch != Place::kUnknown && of_patch != place) return std::nullopt;
+    of_patch = place;
   }
+  return places;
+}
+
+// Adds the parts of a solid that are outside of the other; false where that contradicts itself.
+bool KeepOutside(const DividedSolids& divided, const SolidPair& pair, bool second,
+                 Triangles& kept) {
+  const Triangles& triangles = divided.triangles[second];
+  DisjointSets patches(triangles.size());
+  std::optional<std::vector<Place>> places = PlacesOf(divided, second, patches);
+  if (!places) return false;
   for (size_t i = 0; i < triangles.size(); ++i) {
-    Place& of_patch = place[patches.Root(static_cast<int>(i))];
+    Place& of_patch = (*places)[patches.Root(static_cast<int>(i))];
     if (of_patch == Place::kUnknown) {
       const Vec3& corner = divided.vertices[triangles[i][0]];
       of_patch = IsInside(corner, pair, !second) ? Place::kInside : Place::kOutside;
@@ -170,7 +192,7 @@ bool IsClosed(const Triangles& triangles) {
   for (size_t i = 0; i < half_edges.size(); i += 2) {
     const HalfEdge& h = half_edges[i];
     const HalfEdge& other = half_edges[i + 1];
-    if (h.low != other.low || h.high != other.high || h.forward == other.forward) return false;
+    if (!ArePaired(h, other)) return false;
   }
   return true;
 }

@@ -27,6 +27,7 @@ BENCHMARK(BM_TubesOfLattice)
     ->Args({4, 1})
     ->Args({4, 0})
     ->Args({8, 0})
+    ->Args({14, 0})
     ->MeasureProcessCPUTime()
     ->UseRealTime()
     ->Unit(benchmark::kMillisecond);
