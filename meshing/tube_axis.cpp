@@ -127,6 +127,84 @@ std::vector<size_t> SmoothKinks(const TubeAxis& axis, std::vector<size_t> kept,
   return kept;
 }
 
+// Position and radius.
+Eigen::Vector4d At(const TubeAxis& axis, size_t i) {
+  return {axis.points[i].x(), axis.points[i].y(), axis.points[i].z(), axis.radii[i]};
+}
+
+// The normal equations of the piecewise linear curve with free values at kept points that is
+// nearest to an axis in the mean over its length; tridiagonal.
+struct NormalEquations {
+  std::vector<double> diagonal, next;  // entries (k, k) and (k, k + 1)
+  std::vector<Eigen::Vector4d> right;
+
+  NormalEquations(const TubeAxis& axis, const std::vector<size_t>& kept)
+      : diagonal(kept.size(), 0.0),
+        next(kept.size(), 0.0),
+        right(kept.size(), Eigen::Vector4d::Zero()) {
+    for (size_t k = 0; k + 1 < kept.size(); ++k) {
+      const double length = LengthBetween(axis, kept[k], kept[k + 1]);
+      double along = 0;
+      for (size_t i = kept[k]; i < kept[k + 1]; ++i) {
+        const double step = (axis.points[i + 1] - axis.points[i]).norm();
+        // Simpson's rule is exact for products of linear functions.
+        Add(k, along / length, step / 6, At(axis, i));
+        Add(k, (along + step / 2) / length, 4 * step / 6, (At(axis, i) + At(axis, i + 1)) / 2);
+        along += step;
+        Add(k, along / length, step / 6, At(axis, i + 1));
+      }
+    }
+  }
+
+  static double LengthBetween(const TubeAxis& axis, size_t first, size_t last) {
+    double length = 0;
+    for (size_t i = first; i < last; ++i) length += (axis.points[i + 1] - axis.points[i]).norm();
+    return length;
+  }
+
+  void Add(size_t k, double t, double weight, const Eigen::Vector4d& value) {
+    diagonal[k] += weight * (1 - t) * (1 - t);
+    diagonal[k + 1] += weight * t * t;
+    next[k] += weight * t * (1 - t);
+    right[k] += weight * (1 - t) * value;
+    right[k + 1] += weight * t * value;
+  }
+};
+
+// The values of the inner points that fit best while both ends stay (Thomas' algorithm).
+std::vector<Eigen::Vector4d> Solve(NormalEquations equations, const Eigen::Vector4d& first,
+                                   const Eigen::Vector4d& last) {
+  const size_t n = equations.diagonal.size();
+  std::vector<Eigen::Vector4d> values(n, last);
+  values.front() = first;
+  if (n < 3) return values;
+  equations.right[1] -= equations.next[0] * first;
+  equations.right[n - 2] -= equations.next[n - 2] * last;
+  for (size_t k = 2; k + 1 < n; ++k) {
+    const double factor = equations.next[k - 1] / equations.diagonal[k - 1];
+    equations.diagonal[k] -= factor * equations.next[k - 1];
+    equations.right[k] -= factor * equations.right[k - 1];
+  }
+  values[n - 2] = equations.right[n - 2] / equations.diagonal[n - 2];
+  for (size_t k = n - 3; k > 0; --k) {
+    values[k] = (equations.right[k] - equations.next[k] * values[k + 1]) / equations.diagonal[k];
+  }
+  return values;
+}
+
+// The kept points, moved half way to where they fit the axis best: chords of a bend lie on its
+// inner side and are shorter than it; where they fit best they are too long by as much.
+TubeAxis FittedAxis(const TubeAxis& axis, const std::vector<size_t>& kept) {
+  const std::vector<Eigen::Vector4d> best =
+      Solve(NormalEquations(axis, kept), At(axis, kept.front()), At(axis, kept.back()));
+  TubeAxis fitted;
+  for (size_t k = 0; k < kept.size(); ++k) {
+    fitted.points.emplace_back((axis.points[kept[k]] + best[k].head<3>()) / 2);
+    fitted.radii.push_back((axis.radii[kept[k]] + best[k][3]) / 2);
+  }
+  return fitted;
+}
+
 TubeAxis WithoutRepeatedPoints(const TubeAxis& axis) {
   TubeAxis distinct;
   for (size_t i = 0; i < axis.points.size(); ++i) {
@@ -151,12 +229,7 @@ TubeAxis SimplifyAxis(const TubeAxis& axis, const AxisOptions& options) {
   const TubeAxis distinct = FitToEnvelope(WithoutRepeatedPoints(axis));
   std::vector<size_t> kept = PointsWithinTolerance(distinct, options.tolerance);
   kept = SmoothKinks(distinct, ThinOut(distinct, kept, options.min_spacing), options);
-  TubeAxis simple;
-  for (const size_t i : kept) {
-    simple.points.push_back(distinct.points[i]);
-    simple.radii.push_back(distinct.radii[i]);
-  }
-  return simple;
+  return FittedAxis(distinct, kept);
 }
 
 double TurnAngle(const Vec3& before, const Vec3& after) {

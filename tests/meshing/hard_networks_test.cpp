@@ -126,12 +126,18 @@ void Examine(const SkeletonGraph& graph, const Kind& kind, Tally& tally) {
   CompareWithTruth(graph, tubes, kind, tally);
 }
 
+// The whole number in an environment variable.
+uint64_t NumberIn(const char* variable, uint64_t otherwise) {
+  const char* wish = std::getenv(variable);
+  return wish ? static_cast<uint64_t>(std::atoll(wish)) : otherwise;
+}
+
 // CURVEFUSION_TUBE_NETWORKS changes the number of networks per kind, CURVEFUSION_TUBE_KIND chooses
-// one kind.
+// one kind, CURVEFUSION_TUBE_SEED begins with another network.
 TEST(Tubes, RandomHardNetworks) {
-  const char* wish = std::getenv("CURVEFUSION_TUBE_NETWORKS");
+  const uint64_t count = NumberIn("CURVEFUSION_TUBE_NETWORKS", 15);
+  const uint64_t first_seed = NumberIn("CURVEFUSION_TUBE_SEED", kFirstSeed);
   const char* only = std::getenv("CURVEFUSION_TUBE_KIND");
-  const int count = wish ? std::atoi(wish) : 15;
   fmt::print(
       "| kind | networks | defects | fallbacks | last resorts | wrong topology | grazing | "
       "volume error %, mean | worst | CPU ms |\n");
@@ -139,14 +145,14 @@ TEST(Tubes, RandomHardNetworks) {
     if (only && name != only) continue;
     const Kind kind{name};
     Tally tally;
-    for (uint64_t seed = kFirstSeed; seed < kFirstSeed + static_cast<uint64_t>(count); ++seed) {
+    for (uint64_t seed = first_seed; seed < first_seed + count; ++seed) {
       SCOPED_TRACE(name + " " + std::to_string(seed));
       Examine(RandomHardGraph(name, seed), kind, tally);
     }
     tally.Print(name);
     EXPECT_EQ(tally.defects, 0) << name;
     EXPECT_EQ(tally.wrong_topology, 0) << name;
-    EXPECT_LT(tally.volume_error / count, kind.mean_volume_tolerance) << name;
+    EXPECT_LT(tally.volume_error / static_cast<double>(count), kind.mean_volume_tolerance) << name;
   }
 }
 
