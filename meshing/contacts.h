@@ -21,7 +21,8 @@ std::vector<TubePath> CutSelfContacts(std::vector<TubePath> paths);
 /// except where a stretch of one group continues, through a ring that nothing else comes near, in
 /// another. A group of a single stretch touches nothing; any other is a junction, a contact or
 /// several of them in reach of each other. Groups and stretches come in the order of paths and
-/// segments. Cost O(n log^3 n) for n segments.
+/// segments. Near-linear in segments and in pairs that come near each other, with O(n log n)
+/// for a tree of boxes.
 std::vector<std::vector<TubeStretch>> GroupContacts(const std::vector<TubePath>& paths);
 
 }  // namespace curvefusion

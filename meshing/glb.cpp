@@ -30,8 +30,7 @@ struct ShadedMesh {
   std::vector<uint32_t> indices;
 };
 
-ShadedMesh Shade(const TriangleMesh& mesh) {
-  const CornerNormals shading = ComputeCornerNormals(mesh, kCreaseAngle);
+ShadedMesh Shade(const TriangleMesh& mesh, const CornerNormals& shading) {
   ShadedMesh shaded;
   shaded.normals = shading.normals;
   shaded.positions.resize(shading.normals.size());
@@ -246,6 +245,10 @@ class GlbReader {
 }  // namespace
 
 void WriteGlb(const TriangleMesh& mesh, std::ostream& stream) {
+  WriteShadedGlb(mesh, ComputeCornerNormals(mesh, kCreaseAngle), stream);
+}
+
+void WriteShadedGlb(const TriangleMesh& mesh, const CornerNormals& normals, std::ostream& stream) {
   tinygltf::Model model;
   model.asset.version = "2.0";
   model.asset.generator = "CurveFusion";
@@ -256,7 +259,7 @@ void WriteGlb(const TriangleMesh& mesh, std::ostream& stream) {
     model.materials.push_back(PlainMaterial());
     tinygltf::Mesh tubes;
     tubes.name = "tubes";
-    tubes.primitives.push_back(AddPrimitive(Shade(mesh), model));
+    tubes.primitives.push_back(AddPrimitive(Shade(mesh, normals), model));
     model.meshes.push_back(std::move(tubes));
     tinygltf::Node node;
     node.mesh = 0;

@@ -15,10 +15,11 @@ struct UnionMesh {
   std::vector<std::array<int, 3>> triangles;
 };
 
-/// The exact union of closed meshes without self-intersections, by corefinement in a tournament of
-/// neighbours (CGAL; all predicates and constructions exact, rounded once at the end). Triangles
-/// that no other solid touches are kept as they are. Nothing where the union would not be manifold
-/// or a solid turns out to intersect itself. Thread-safe.
+/// The union of closed meshes without self-intersections, in a tournament of neighbours. Which
+/// triangles cross and which parts are inside is decided exactly. Solids in general position are
+/// united directly (UniteDirectly), all others by corefinement (CGAL; all constructions exact, too,
+/// rounded once at the end). Triangles that no other solid touches are kept as they are. Nothing
+/// where the union would not be manifold or a solid turns out to intersect itself. Thread-safe.
 std::optional<UnionMesh> UniteSolids(const std::vector<TriangleMesh>& solids);
 
 }  // namespace curvefusion

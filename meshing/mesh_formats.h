@@ -5,6 +5,7 @@
 #include <string>
 
 #include "kernel/triangle_mesh.h"
+#include "meshing/corner_normals.h"
 
 namespace curvefusion {
 
@@ -31,6 +32,8 @@ TriangleMesh ReadStl(std::istream& stream, const std::string& name);
 /// Binary glTF 2.0 (tinygltf) with normals for shading: smooth along the wires, broken at seams.
 /// glTF is always in metres. A stream that cannot be written is left in the state failbit.
 void WriteGlb(const TriangleMesh& mesh, std::ostream& stream);
+/// The same with given normals.
+void WriteShadedGlb(const TriangleMesh& mesh, const CornerNormals& normals, std::ostream& stream);
 /// The triangles of all meshes in the scene of a binary glTF, transformed as its nodes say;
 /// vertices with equal coordinates become one.
 TriangleMesh ReadGlb(std::istream& stream, const std::string& name);

@@ -23,13 +23,15 @@ struct MeshFormat {
   TriangleMesh (*read)(std::istream&, const std::string&);
   std::optional<MeshUnit> only_unit = {};  // where the format has but one
   float step = 0;  // of decimal coordinates that are fewer digits than float32 has
+  void (*write_shaded)(const TriangleMesh&, const CornerNormals&, std::ostream&) = nullptr;
 };
 
-constexpr MeshFormat kFormats[] = {{".ply", WritePly, ReadPly},
-                                   {".obj", WriteObj, ReadObj},
-                                   {".stl", WriteStl, ReadStl},
-                                   {".glb", WriteGlb, ReadGlb, MeshUnit::kMetres},
-                                   {".3mf", Write3mf, Read3mf, MeshUnit::kMillimetres, 1e-6f}};
+constexpr MeshFormat kFormats[] = {
+    {".ply", WritePly, ReadPly},
+    {".obj", WriteObj, ReadObj},
+    {".stl", WriteStl, ReadStl},
+    {".glb", WriteGlb, ReadGlb, MeshUnit::kMetres, 0, WriteShadedGlb},
+    {".3mf", Write3mf, Read3mf, MeshUnit::kMillimetres, 1e-6f}};
 
 const MeshFormat& FormatOf(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
@@ -105,7 +107,13 @@ void WriteMesh(const std::filesystem::path& path, const TriangleMesh& mesh,
   const TriangleMesh scaled = InUnit(mesh, UnitOf(format, path, options.unit));
   RequireFinite(path, scaled);
   WriteFileAtomically(path, [&](const std::filesystem::path& temporary) {
-    WriteStreamAtomically(temporary, [&](std::ostream& stream) { format.write(scaled, stream); });
+    WriteStreamAtomically(temporary, [&](std::ostream& stream) {
+      if (options.normals && format.write_shaded) {
+        format.write_shaded(scaled, *options.normals, stream);
+      } else {
+        format.write(scaled, stream);
+      }
+    });
     const TriangleMesh read_back = ReadMesh(temporary);
     if (!SameTriangles(scaled, read_back, format.step)) {
       throw Error(ErrorKind::kResource,

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "kernel/triangle_mesh.h"
+#include "meshing/corner_normals.h"
 
 namespace curvefusion {
 
@@ -14,6 +15,8 @@ enum class MeshUnit { kMetres, kMillimetres };
 struct MeshFileOptions {
   std::optional<MeshUnit> unit;    ///< by default that of the format
   bool require_watertight = true;  ///< false for surfaces that are open by nature (a scan's volume)
+  /// For formats that hold them (GLB); by default ComputeCornerNormals'.
+  const CornerNormals* normals = nullptr;
 };
 
 /// The unit in which a format is written unless asked for another: metres, of 3MF millimetres.

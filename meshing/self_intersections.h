@@ -9,7 +9,8 @@ namespace curvefusion {
 
 /// Pairs of triangles (i < j, ascending) that meet anywhere but in the vertices and edges they
 /// share by index, decided exactly on the float32 coordinates; a triangle without area is paired
-/// with itself. At most about `limit` pairs are returned. O(n log^3 n), in parallel.
+/// with itself. At most about `limit` pairs are returned. Near-linear in triangles and in pairs
+/// that come near each other, with O(n log n) for a tree of boxes; in parallel.
 std::vector<std::pair<int, int>> FindSelfIntersections(const TriangleMesh& mesh, int limit = 1000);
 
 /// The same for the coordinates as they are, then for those rounded in millimetres, as in files of

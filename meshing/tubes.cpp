@@ -148,7 +148,7 @@ TubeMesh BuildTubes(const SkeletonGraph& graph, const TubeOptions& options) {
     if (assembly.failure.empty()) {
       tubes.surface = *ToSurfaceMesh(assembly.mesh);
       tubes.report = assembly.report;
-      tubes.paths = static_cast<int>(layout.paths.size());
+      tubes.paths = layout.paths;
       tubes.unions = assembly.unions;
       tubes.fallbacks.insert(tubes.fallbacks.end(), assembly.fallbacks.begin(),
                              assembly.fallbacks.end());

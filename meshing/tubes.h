@@ -6,6 +6,7 @@
 #include "graph/skeleton_graph.h"
 #include "kernel/options.h"
 #include "meshing/surface_mesh.h"
+#include "meshing/tube_paths.h"
 #include "meshing/watertight.h"
 
 namespace curvefusion {
@@ -36,7 +37,7 @@ struct TubeFallback {
 struct TubeMesh {
   SurfaceMesh surface;  ///< outward normals, metres; coordinates as in the files written from it
   WatertightReport report;              ///< of the surface; always watertight unless empty
-  int paths = 0;                        ///< tubes swept in one piece
+  std::vector<TubePath> paths;          ///< tubes swept in one piece (for ComputeTubeNormals)
   int unions = 0;                       ///< junctions, contacts and groups of them, united exactly
   std::vector<TubeFallback> fallbacks;  ///< empty when all unions came out at once
 };
@@ -50,7 +51,7 @@ struct TubeMesh {
 /// gives a sound surface. Where the union of some tubes does not come out, in any of several turns
 /// of all tubes, these are wrapped (see WrapJunction), which `fallbacks` tells. Tubes are polygons
 /// about a simplified axis: gaps, contacts and holes of less than about a tenth of the radius may
-/// come out either way. Cost: 5 to 9 ms of one core per junction. The paper assumes tubes of
+/// come out either way. Cost: 3 to 7 ms of one core per junction. The paper assumes tubes of
 /// constant radius about the curves (CurveFusion 3.3) and does not say how they join.
 TubeMesh BuildTubes(const SkeletonGraph& graph, const TubeOptions& options);
 

@@ -18,6 +18,7 @@
 #include "kernel/error.h"
 #include "kernel/parallel.h"
 #include "meshing/mesh_io.h"
+#include "meshing/tube_normals.h"
 #include "meshing/tubes.h"
 
 namespace curvefusion {
@@ -76,7 +77,9 @@ int MeshSkeleton(const MeshArguments& arguments) {
   ChooseRadii(arguments, skeleton);
   const TubeMesh tubes = BuildTubes(skeleton, arguments.tubes);
   ThrowIfInterrupted();
-  WriteMesh(arguments.output, ToTriangleMesh(tubes.surface), {.unit = unit});
+  const TriangleMesh mesh = ToTriangleMesh(tubes.surface);
+  const CornerNormals normals = ComputeTubeNormals(mesh, tubes.paths);
+  WriteMesh(arguments.output, mesh, {.unit = unit, .normals = &normals});
   if (!arguments.run.quiet) {
     fmt::print("Wrote {} ({})\n", arguments.output.string(),
                unit == MeshUnit::kMetres ? "m" : "mm");

@@ -8,17 +8,16 @@
 
 #include "experiments/pictures/png.h"
 #include "kernel/image.h"
-#include "meshing/corner_normals.h"
 #include "meshing/surface_mesh.h"
+#include "meshing/tube_normals.h"
 #include "meshing/tubes.h"
 #include "tests/meshing/tube_graphs.h"
 
 namespace curvefusion {
 namespace {
 
-constexpr int kPanel = 440;                            // pixels, of one picture
-constexpr int kSupersample = 3;                        // per axis
-constexpr double kCreaseAngle = std::numbers::pi / 6;  // as in GLB files
+constexpr int kPanel = 440;      // pixels, of one picture
+constexpr int kSupersample = 3;  // per axis
 
 // What is drawn: a square of this width about a point, seen along a direction.
 struct View {
@@ -65,7 +64,8 @@ void DrawTriangle(const std::array<Vec3, 3>& p, const std::array<Vec3, 3>& norma
   }
 }
 
-Canvas Draw(const TriangleMesh& mesh, const View& view) {
+Canvas Draw(const TubeMesh& tubes, const View& view) {
+  const TriangleMesh mesh = ToTriangleMesh(tubes.surface);
   const int size = kPanel * kSupersample;
   Canvas canvas{Image<double>(size, size, -std::numeric_limits<double>::infinity()),
                 Image<double>(size, size, 1.0)};
@@ -74,7 +74,7 @@ Canvas Draw(const TriangleMesh& mesh, const View& view) {
   axes.row(0) = Vec3::UnitZ().cross(view.towards_viewer).normalized();
   axes.row(1) = axes.row(2).cross(axes.row(0));
   const double scale = size / view.width;
-  const CornerNormals normals = ComputeCornerNormals(mesh, kCreaseAngle);
+  const CornerNormals normals = ComputeTubeNormals(mesh, tubes.paths);
   for (size_t face = 0; face < mesh.triangles.size(); ++face) {
     std::array<Vec3, 3> points;
     std::array<Vec3, 3> corners;
@@ -123,8 +123,8 @@ void DrawAll(const char* path) {
   ColorImage picture(2 * kPanel, 2 * kPanel);
   int panel = 0;
   const auto draw = [&](const SkeletonGraph& graph, const View& view) {
-    const TriangleMesh mesh = ToTriangleMesh(BuildTubes(graph, {}).surface);
-    CopyPanel(Draw(mesh, view), kPanel * (panel % 2), kPanel * (panel / 2), picture);
+    CopyPanel(Draw(BuildTubes(graph, {}), view), kPanel * (panel % 2), kPanel * (panel / 2),
+              picture);
     ++panel;
   };
   const SkeletonGraph cage = CageGraph();

@@ -66,7 +66,7 @@ TEST(Tubes, OneEdgeIsACapsule) {
   // The domes are polyhedra of nearly the volume of a ball.
   EXPECT_NEAR(tubes.report.volume / volume, 1, 2e-3);
   EXPECT_EQ(tubes.unions, 0);
-  EXPECT_EQ(tubes.paths, 1);
+  EXPECT_EQ(tubes.paths.size(), 1U);
 }
 
 TEST(Tubes, RingHasGenusOneAndTheVolumeOfATorus) {

@@ -1,0 +1,29 @@
+#!/usr/bin/python3
+"""Has Open3D say whether a mesh file is a sound solid; fails where it is not.
+
+Usage: tests/clients/examine_open3d.py MESH
+Needs Debian's python3-open3d.
+"""
+
+import sys
+
+import open3d
+
+
+def main():
+    mesh = open3d.io.read_triangle_mesh(sys.argv[1])
+    mesh.merge_close_vertices(0)  # STL repeats them
+    findings = {
+        "watertight": mesh.is_watertight(),
+        "orientable": mesh.is_orientable(),
+        "edge manifold": mesh.is_edge_manifold(allow_boundary_edges=False),
+        "vertex manifold": mesh.is_vertex_manifold(),
+        "free of self-intersections": not mesh.is_self_intersecting(),
+    }
+    wrong = [what for what, is_so in findings.items() if not is_so]
+    if len(mesh.triangles) == 0 or wrong:
+        sys.exit(f"Open3D, {sys.argv[1]}: {len(mesh.triangles)} triangles, not {', '.join(wrong)}")
+    print(f"  Open3D: {', '.join(findings)}; volume {mesh.get_volume():.6g}")
+
+
+main()
