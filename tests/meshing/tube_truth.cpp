@@ -12,6 +12,7 @@
 #include <random>
 #include <vector>
 
+#include "kernel/polyline.h"
 #include "meshing/tube_capsules.h"
 
 namespace curvefusion {
@@ -89,6 +90,31 @@ Topology TopologyOfTubes(const SkeletonGraph& graph, double scale) {
   return topology;
 }
 
+namespace {
+
+// How often the distance from one edge to another, followed along it, turns while it differs from
+// the sum of the radii by less than the tolerance.
+int64_t TurnsOfGap(const SkeletonEdge& along, const SkeletonEdge& other, double tolerance) {
+  constexpr int kParts = 8;  // of a segment
+  std::vector<double> distances;
+  for (size_t i = 0; i + 1 < along.points.size(); ++i) {
+    for (int k = 0; k < kParts; ++k) {
+      const double t = static_cast<double>(k) / kParts;
+      const Vec3 p = along.points[i] + t * (along.points[i + 1] - along.points[i]);
+      distances.push_back(Project(other.points, p).distance / (along.radii[i] + other.radii[0]));
+    }
+  }
+  int64_t turns = 0;
+  for (size_t i = 1; i + 1 < distances.size(); ++i) {
+    const bool turns_here =
+        (distances[i] - distances[i - 1]) * (distances[i + 1] - distances[i]) < 0;
+    turns += turns_here && std::abs(distances[i] - 1) < tolerance;
+  }
+  return turns;
+}
+
+}  // namespace
+
 int64_t CountGrazingContacts(const SkeletonGraph& graph, double scale_tolerance) {
   constexpr int kSteps = 5;  // to either side
   int64_t contacts = 0;
@@ -99,6 +125,16 @@ int64_t CountGrazingContacts(const SkeletonGraph& graph, double scale_tolerance)
     before = now;
   }
   return contacts;
+}
+
+int64_t CountGrazingTurns(const SkeletonGraph& graph, double tolerance) {
+  int64_t turns = 0;
+  for (const EdgeId a : graph.Edges()) {
+    for (const EdgeId b : graph.Edges()) {
+      if (a != b) turns += TurnsOfGap(graph.edge(a), graph.edge(b), tolerance);
+    }
+  }
+  return turns;
 }
 
 SurfaceDeviation DeviationFromTubes(const TriangleMesh& mesh, const SkeletonGraph& graph) {

@@ -24,6 +24,11 @@ Topology TopologyOfTubes(const SkeletonGraph& graph, double scale = 1);
 /// Two that cancel each other within a fifth of the tolerance are not counted.
 int64_t CountGrazingContacts(const SkeletonGraph& graph, double scale_tolerance);
 
+/// Contacts that the steps of CountGrazingContacts pass over: where tubes run nearly along each
+/// other, the number of places at which the distance of their axes turns within the tolerance
+/// (a part of the sum of the radii) of touching. At each a contact may come or go.
+int64_t CountGrazingTurns(const SkeletonGraph& graph, double tolerance);
+
 /// The greatest distance of a vertex of the mesh from the surface of its nearest tube, outwards and
 /// inwards, in radii of that tube.
 struct SurfaceDeviation {
