@@ -10,20 +10,25 @@ import sys
 import open3d
 
 
+# Open3D compares every triangle with every other one: the chair would take minutes.
+MOST_TRIANGLES = 100_000
+
+
 def main():
     mesh = open3d.io.read_triangle_mesh(sys.argv[1])
-    mesh.merge_close_vertices(0)  # STL repeats them
+    mesh.remove_duplicated_vertices()  # STL repeats them
     findings = {
-        "watertight": mesh.is_watertight(),
         "orientable": mesh.is_orientable(),
         "edge manifold": mesh.is_edge_manifold(allow_boundary_edges=False),
         "vertex manifold": mesh.is_vertex_manifold(),
-        "free of self-intersections": not mesh.is_self_intersecting(),
     }
+    if len(mesh.triangles) <= MOST_TRIANGLES:
+        # Free of self-intersections, too.
+        findings["watertight"] = mesh.is_watertight()
     wrong = [what for what, is_so in findings.items() if not is_so]
     if len(mesh.triangles) == 0 or wrong:
         sys.exit(f"Open3D, {sys.argv[1]}: {len(mesh.triangles)} triangles, not {', '.join(wrong)}")
-    print(f"  Open3D: {', '.join(findings)}; volume {mesh.get_volume():.6g}")
+    print(f"  Open3D: {', '.join(findings)}")
 
 
 main()
