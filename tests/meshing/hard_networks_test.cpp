@@ -39,6 +39,11 @@ struct Kind {
   double volume_tolerance = name == "tight_bends" ? 0.05 : 0.02;
   double mean_volume_tolerance = name == "tight_bends" ? 0.02 : 0.005;
   bool side_by_side = name == "coil" || name == "close_parallel";
+
+  Topology Truth(const SkeletonGraph& graph, double scale = 1) const {
+    return name == "close_parallel" ? TopologyOfStraightTubes(graph, scale)
+                                    : TopologyOfTubes(graph, scale);
+  }
 };
 
 // What became of the networks of a kind.
@@ -83,16 +88,16 @@ bool SurvivesFiles(const TubeMesh& tubes) {
 
 void CompareWithTruth(const SkeletonGraph& graph, const TubeMesh& tubes, const Kind& kind,
                       Tally& tally) {
-  const Topology truth = TopologyOfTubes(graph);
+  const Topology truth = kind.Truth(graph);
   if (tubes.report.components - tubes.report.genus != truth.euler) {
     const int64_t difference = std::abs(tubes.report.components - tubes.report.genus - truth.euler);
     // Tubes side by side touch along a line: one contact of the truth, many of polygons, that come
     // and go one after the other. Elsewhere a contact may also enclose a pocket.
-    const bool grazes = kind.side_by_side
-                            ? truth != TopologyOfTubes(graph, 1 - kGrazing) ||
-                                  truth != TopologyOfTubes(graph, 1 + kGrazing)
-                            : difference <= 2 * CountGrazingContacts(graph, kGrazing) +
-                                                CountGrazingTurns(graph, kGrazing);
+    const bool grazes =
+        kind.side_by_side
+            ? truth != kind.Truth(graph, 1 - kGrazing) || truth != kind.Truth(graph, 1 + kGrazing)
+            : difference <=
+                  2 * CountGrazingContacts(graph, kGrazing) + CountGrazingTurns(graph, kGrazing);
     ++(grazes ? tally.grazing : tally.wrong_topology);
     if (!grazes) {
       ADD_FAILURE() << fmt::format("components {}, genus {}; truly {} components, Euler {}",

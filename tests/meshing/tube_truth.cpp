@@ -12,6 +12,8 @@
 #include <random>
 #include <vector>
 
+#include "kernel/disjoint_sets.h"
+#include "kernel/exact.h"
 #include "kernel/polyline.h"
 #include "meshing/tube_capsules.h"
 
@@ -114,6 +116,27 @@ int64_t TurnsOfGap(const SkeletonEdge& along, const SkeletonEdge& other, double 
 }
 
 }  // namespace
+
+Topology TopologyOfStraightTubes(const SkeletonGraph& graph, double scale) {
+  const std::vector<EdgeId> edges = graph.Edges();
+  Topology topology{static_cast<int64_t>(edges.size()), static_cast<int64_t>(edges.size())};
+  DisjointSets joined(edges.size());
+  for (size_t i = 0; i < edges.size(); ++i) {
+    for (size_t j = 0; j < i; ++j) {
+      const SkeletonEdge& a = graph.edge(edges[i]);
+      const SkeletonEdge& b = graph.edge(edges[j]);
+      const double reach = scale * (a.radii[0] + b.radii[0]);
+      if (!AreWithin({a.points.front(), a.points.back()}, {b.points.front(), b.points.back()},
+                     reach)) {
+        continue;
+      }
+      --topology.euler;
+      topology.components -= joined.Root(static_cast<int>(i)) != joined.Root(static_cast<int>(j));
+      joined.Unite(static_cast<int>(i), static_cast<int>(j));
+    }
+  }
+  return topology;
+}
 
 int64_t CountGrazingContacts(const SkeletonGraph& graph, double scale_tolerance) {
   constexpr int kSteps = 5;  // to either side

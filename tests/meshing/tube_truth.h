@@ -19,6 +19,11 @@ struct Topology {
 };
 Topology TopologyOfTubes(const SkeletonGraph& graph, double scale = 1);
 
+/// The same, exactly, for straight edges of one radius of which no three meet at one place: their
+/// tubes are convex, so each contact joins two of them and nothing else (nerve theorem). Balls
+/// along wires side by side wave, which makes holes that are not there.
+Topology TopologyOfStraightTubes(const SkeletonGraph& graph, double scale = 1);
+
 /// The number of contacts that come or go, and of holes and pockets that open or close, while all
 /// radii grow from 1 - scale_tolerance to 1 + scale_tolerance: that many may come out either way.
 /// Two that cancel each other within a fifth of the tolerance are not counted.
