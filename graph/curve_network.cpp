@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "graph/merge.h"
-#include "graph/point_grid.h"
+#include "kernel/point_grid.h"
 
 namespace curvefusion {
 

@@ -11,7 +11,7 @@
 
 #include "graph/gap_evidence.h"
 #include "graph/hermite_bridge.h"
-#include "graph/point_grid.h"
+#include "kernel/point_grid.h"
 
 namespace curvefusion {
 

@@ -3,9 +3,9 @@
 #include <array>
 #include <vector>
 
-#include "graph/point_grid.h"
 #include "graph/skeleton_graph.h"
 #include "kernel/observed_points.h"
+#include "kernel/point_grid.h"
 
 namespace curvefusion {
 

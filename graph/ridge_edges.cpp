@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "graph/point_grid.h"
+#include "kernel/point_grid.h"
 
 namespace curvefusion {
 

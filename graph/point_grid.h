@@ -1,3 +1,0 @@
-#pragma once
-
-#include "kernel/point_grid.h"
