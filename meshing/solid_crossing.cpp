@@ -48,6 +48,7 @@ class CrossingFinder {
   }
 
  private:
+  // Faces of the first and of the second solid whose boxes overlap.
   std::vector<std::pair<int, int>> NearPairs() const {
     std::vector<Eigen::AlignedBox3d> boxes;
     boxes.reserve(both_.triangles.size());
@@ -58,15 +59,20 @@ class CrossingFinder {
       solids[IsSecond(static_cast<int>(boxes.size()))].extend(box);
       boxes.push_back(box);
     }
-    BoxPairFilter filter;
+    std::array<std::vector<Eigen::AlignedBox3d>, 2> near;
+    std::array<std::vector<int>, 2> faces;
     for (size_t i = 0; i < boxes.size(); ++i) {
       const bool second = IsSecond(static_cast<int>(i));
-      // Boxes that cannot meet the other solid are out of the way of all others.
-      if (!boxes[i].intersects(solids[!second])) boxes[i].setEmpty();
-      filter.marks.push_back(!second && !boxes[i].isEmpty());
+      if (!boxes[i].intersects(solids[!second])) continue;
+      near[second].push_back(boxes[i]);
+      faces[second].push_back(static_cast<int>(i));
     }
-    filter.keep = [this](int i, int j) { return IsSecond(i) != IsSecond(j); };
-    return OverlappingBoxes(boxes, filter);
+    std::vector<std::pair<int, int>> pairs = BoxTree(near[0]).OverlappingPairs(near[1]);
+    for (auto& [f, g] : pairs) {
+      f = faces[0][f];
+      g = faces[1][g];
+    }
+    return pairs;
   }
 
   bool IsSecond(int face) const { return face >= second_face_; }

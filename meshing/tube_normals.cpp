@@ -91,21 +91,15 @@ class Ownership {
       : mesh_(mesh), segments_(segments) {}
 
   std::vector<int> Find() const {
-    const int first = static_cast<int>(segments_.size());
-    std::vector<Eigen::AlignedBox3d> boxes;
+    std::vector<Eigen::AlignedBox3d> tubes, middles;
     for (const Segment& s : segments_) {
       const Vec3 reach = Vec3::Constant(kReach * std::max(s.radius_a, s.radius_b));
-      boxes.emplace_back(Vec3(s.a.cwiseMin(s.b) - reach), Vec3(s.a.cwiseMax(s.b) + reach));
+      tubes.emplace_back(Vec3(s.a.cwiseMin(s.b) - reach), Vec3(s.a.cwiseMax(s.b) + reach));
     }
-    for (size_t f = 0; f < mesh_.triangles.size(); ++f) boxes.emplace_back(MiddleOf(f));
-    BoxPairFilter filter;
-    filter.marks.assign(boxes.size(), 0);
-    std::fill(filter.marks.begin(), filter.marks.begin() + first, 1);
-    filter.keep = [first](int i, int j) { return i < first && j >= first; };
+    for (size_t f = 0; f < mesh_.triangles.size(); ++f) middles.emplace_back(MiddleOf(f));
     std::vector<int> owner(mesh_.triangles.size(), -1);
     std::vector<double> least(mesh_.triangles.size(), kGreatestMisfit);
-    for (const auto& [segment, box] : OverlappingBoxes(boxes, filter)) {
-      const auto face = static_cast<size_t>(box - first);
+    for (const auto& [segment, face] : BoxTree(tubes).OverlappingPairs(middles)) {
       const double misfit = Misfit(face, segments_[segment]);
       if (misfit >= least[face]) continue;
       least[face] = misfit;
