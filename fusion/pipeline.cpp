@@ -132,13 +132,6 @@ SkeletonGraph Contract(const ObservedPoints& points, const std::string& name, Ru
   return skeleton;
 }
 
-// Distances are measured to the lines through ridge points, so that few will do.
-RidgeProjectionOptions RegistrationRidges(const PipelineOptions& options) {
-  RidgeProjectionOptions ridges = options.ridge.projection;
-  ridges.spacing = options.curve_spacing;
-  return ridges;
-}
-
 // Registers every bundle to the curves of those before it: all points together, and for every frame
 // how its bundle was moved.
 std::pair<ObservedPoints, std::vector<RigidTransform>> RegisterBundles(const SegmentedScan& scan,
@@ -148,7 +141,7 @@ std::pair<ObservedPoints, std::vector<RigidTransform>> RegisterBundles(const Seg
   std::vector<RigidTransform> T_registered_bundle;
   for (const ObservedPoints& bundle : scan.bundles) {
     T_registered_bundle.push_back(
-        carried.AddBundle(bundle, RegistrationRidges(run.options), run.options.registration)
+        carried.AddBundle(bundle, run.options.ridge.projection, run.options.registration)
             .T_target_source);
     run.observer.OnProgress("bundle registration", static_cast<int64_t>(T_registered_bundle.size()),
                             static_cast<int64_t>(scan.bundles.size()));
@@ -173,7 +166,7 @@ RegisteredFrames RegisterFramesToCurves(const SegmentedScan& scan,
                                   T_registered_frame[i].inverse()));
   }
   RegisteredFrames registered =
-      RegisterFrames(on_axis, T_registered_frame, cameras, RegistrationRidges(run.options),
+      RegisterFrames(on_axis, T_registered_frame, cameras, run.options.ridge.projection,
                      run.options.registration, run.options.frames);
   run.observer.OnProgress("frame registration", 1, 1);
   run.log.Count("registration", "registered frames", registered.registered);

@@ -33,7 +33,6 @@ struct PipelineOptions {
   SegmentationOptions segmentation;
   bool carry_points = false;
   CarriedPointsOptions carried;
-  double curve_spacing = 0.003;
   AlignmentOptions registration;
   FrameRegistrationOptions frames;
   double axis_depth = 0;

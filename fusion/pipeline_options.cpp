@@ -73,10 +73,6 @@ void VisitOptions(PipelineOptions& options, OptionVisitor& visitor) {
                  "contracts every bundle and averages the skeletons."},
                 options.carry_points);
   VisitOptions(options.carried, visitor);
-  visitor.Visit({"curve_spacing", "m", 0.0002, 0.02,
-                 "Deviation: least distance of the ridge points to which bundles and frames are "
-                 "registered; the final curves take more."},
-                options.curve_spacing);
   VisitOptions(options.frames, visitor);
   VisitOptions(options.registration, visitor);
   visitor.Visit({"axis_depth", "radii", 0, 1.5,

@@ -21,8 +21,6 @@ namespace {
 constexpr double kAttachedFactor = 2;
 // Where two ends continue each other this well the longer of their edges vouches for both.
 constexpr double kContinuing = 0.9;
-// Ends that look the same way within this angle end side by side.
-constexpr double kSideBySide = 0.5;
 // A branch that nothing leaves its junction opposite to within this angle is open.
 constexpr double kOpenCosine = 0.7;
 
@@ -133,16 +131,14 @@ NodeId NodeNear(const SkeletonGraph& graph, const CurvePoint& target, double dis
 }
 
 // Whether a point of a curve lies just behind a free end of it that looks the other way than `end`:
-// then the two ends belong together, and the end must not run into the side of the other's tip. Nor
-// where both look the same way: wires side by side end there, of which tips tend to each other.
-bool IsBehindOtherEnd(const SkeletonGraph& graph, const FreeEnd& end, const CurvePoint& target,
-                      const FacingEnds& facing, const FreeEndOptions& options) {
+// then the two ends belong together, and the end must not run into the side of the other's tip.
+bool IsBehindFacingEnd(const SkeletonGraph& graph, const FreeEnd& end, const CurvePoint& target,
+                       const FacingEnds& facing, const FreeEndOptions& options) {
   const SkeletonEdge& edge = graph.edge(target.edge);
   return std::any_of(edge.nodes.begin(), edge.nodes.end(), [&](NodeId node) {
     if (node == end.node || graph.Degree(node) != 1) return false;
     const FreeEnd& other = facing[node].front();
-    const double cosine = other.outward.dot(end.outward);
-    return (cosine < 0 || cosine > kSideBySide) &&
+    return other.outward.dot(end.outward) < 0 &&
            (other.position - edge.points[target.index]).norm() < options.max_gap;
   });
 }
@@ -165,10 +161,8 @@ double ReachForSide(const FreeEnd& end, const Vec3& p, const GapEvidence& eviden
   return std::min(reach, end.max_gap);
 }
 
-// For a point next to the other end, which may lie ahead where the ends overlap.
-double ReachForFacing(const FreeEnd& end, const FreeEnd& other, const Vec3& p,
-                      const FreeEndOptions& options) {
-  const Vec3 way = (p - end.position).normalized();
+double ReachForFacing(const FreeEnd& end, const FreeEnd& other, const FreeEndOptions& options) {
+  const Vec3 way = (other.position - end.position).normalized();
   const double cosine = std::min(end.outward.dot(way), -other.outward.dot(way));
   if (!other.is_free && cosine < kContinuing) return 0;
   const double reach =
@@ -190,12 +184,12 @@ Join MakeJoin(const SkeletonGraph& graph, const std::vector<FreeEnd>& ends, int 
   if (node == end.node || length <= 0) return join;
   double reach = 0;
   const bool is_free = node >= 0 && graph.Degree(node) == 1;
-  if (!is_free && !IsBehindOtherEnd(graph, end, target, facing, options)) {
+  if (!is_free && !IsBehindFacingEnd(graph, end, target, facing, options)) {
     reach = ReachForSide(end, p, evidence, options);
   }
   if (node >= 0) {
     for (const FreeEnd& other : facing[node]) {
-      const double reach_for_it = ReachForFacing(end, other, p, options);
+      const double reach_for_it = ReachForFacing(end, other, options);
       if (reach_for_it <= reach || length > reach_for_it) continue;
       if (evidence.IsCrossed(end.position, other.position, {end.edge, other.edge})) continue;
       reach = reach_for_it;
