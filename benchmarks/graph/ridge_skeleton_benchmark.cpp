@@ -50,7 +50,7 @@ BENCHMARK(BM_ExtractRidgeSkeleton)
     ->MeasureProcessCPUTime()
     ->UseRealTime();
 
-// Arguments: wires each way, distance of ridge points in micrometres. Registration takes 3000.
+// Arguments: wires each way, distance of ridge points in micrometres.
 void BM_ProjectToRidges(benchmark::State& state) {
   const ObservedPoints points = LatticeScan(static_cast<int>(state.range(0)));
   const ThreadLimit limit(1);
