@@ -161,8 +161,10 @@ double ReachForSide(const FreeEnd& end, const Vec3& p, const GapEvidence& eviden
   return std::min(reach, end.max_gap);
 }
 
-double ReachForFacing(const FreeEnd& end, const FreeEnd& other, const FreeEndOptions& options) {
-  const Vec3 way = (other.position - end.position).normalized();
+// For a point next to the other end, which may lie ahead where the ends overlap.
+double ReachForFacing(const FreeEnd& end, const FreeEnd& other, const Vec3& p,
+                      const FreeEndOptions& options) {
+  const Vec3 way = (p - end.position).normalized();
   const double cosine = std::min(end.outward.dot(way), -other.outward.dot(way));
   if (!other.is_free && cosine < kContinuing) return 0;
   const double reach =
@@ -189,7 +191,7 @@ Join MakeJoin(const SkeletonGraph& graph, const std::vector<FreeEnd>& ends, int 
   }
   if (node >= 0) {
     for (const FreeEnd& other : facing[node]) {
-      const double reach_for_it = ReachForFacing(end, other, options);
+      const double reach_for_it = ReachForFacing(end, other, p, options);
       if (reach_for_it <= reach || length > reach_for_it) continue;
       if (evidence.IsCrossed(end.position, other.position, {end.edge, other.edge})) continue;
       reach = reach_for_it;
