@@ -1,6 +1,5 @@
 #include "apps/graph_figures.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "kernel/quantile.h"
@@ -35,18 +34,11 @@ GraphFigures MeasureGraph(const SkeletonGraph& graph) {
 
 double TypicalRadius(const GraphFigures& figures) {
   std::vector<std::pair<double, double>> radius_length;
-  double half = 0;
   for (size_t i = 0; i < figures.edge_radius.size(); ++i) {
     if (figures.edge_radius[i] <= 0) continue;
     radius_length.emplace_back(figures.edge_radius[i], figures.edge_length[i]);
-    half += figures.edge_length[i] / 2;
   }
-  std::sort(radius_length.begin(), radius_length.end());
-  for (const auto& [radius, length] : radius_length) {
-    half -= length;
-    if (half <= 0) return radius;
-  }
-  return 0;
+  return radius_length.empty() ? 0 : WeightedMedian(std::move(radius_length));
 }
 
 }  // namespace curvefusion

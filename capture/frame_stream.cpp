@@ -43,6 +43,12 @@ void ForEachFrame(const Sequence& sequence, int first, int last, const FrameStre
   ForEachFrame(sequence, frames, options, body);
 }
 
+std::vector<int> AllFrames(const Sequence& sequence) {
+  std::vector<int> frames(sequence.frames.size());
+  std::iota(frames.begin(), frames.end(), 0);
+  return frames;
+}
+
 std::vector<int> EvenlyThinned(const std::vector<int>& frames, int max_frames) {
   const auto count = static_cast<int64_t>(frames.size());
   if (count <= max_frames) return frames;

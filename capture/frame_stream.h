@@ -32,6 +32,9 @@ void ForEachFrame(const Sequence& sequence, const std::vector<int>& frames,
 void ForEachFrame(const Sequence& sequence, int first, int last, const FrameStreamOptions& options,
                   const std::function<void(const DecodedFrame&)>& body);
 
+/// The indices of all frames of a sequence.
+std::vector<int> AllFrames(const Sequence& sequence);
+
 /// The frames, or max_frames of them that are evenly spread where there are more.
 std::vector<int> EvenlyThinned(const std::vector<int>& frames, int max_frames);
 

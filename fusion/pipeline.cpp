@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <numeric>
 #include <utility>
 
 #include "capture/frame_stream.h"
@@ -109,9 +108,8 @@ SkeletonGraph FuseBundleSkeletons(const SegmentedScan& scan, RunContext& run) {
 RadiusEstimate MeasureRadii(const SkeletonGraph& skeleton, const Sequence& sequence,
                             RunContext& run) {
   const StageLog::Timer timer(run.log, "radius");
-  std::vector<int> frames(sequence.frames.size());
-  std::iota(frames.begin(), frames.end(), 0);
-  RadiusEstimate estimate = EstimateRadius(skeleton, sequence, frames, run.options.radius);
+  RadiusEstimate estimate =
+      EstimateRadius(skeleton, sequence, AllFrames(sequence), run.options.radius);
   run.log.Count("radius", "strips", static_cast<double>(estimate.strips.size()));
   run.observer.OnProgress("radius", 1, 1);
   return estimate;

@@ -86,6 +86,12 @@ double StandardError(const Agreement& agreement) {
   return std::hypot(of_strips, kCommonError * agreement.diameter);
 }
 
+std::vector<double> DiametersOf(const std::vector<StripWidth>& strips) {
+  std::vector<double> diameters;
+  for (const StripWidth& strip : strips) diameters.push_back(strip.diameter);
+  return diameters;
+}
+
 std::map<int, Agreement> AgreeByWire(const std::map<int, std::vector<double>>& diameters,
                                      const RadiusOptions& options) {
   std::map<int, Agreement> agreements;
@@ -133,16 +139,13 @@ std::vector<RadiusAt> RadiiAlong(std::vector<StripWidth> strips, const RadiusOpt
 void Summarize(const SkeletonGraph& skeleton, const RadiusOptions& options,
                RadiusEstimate& estimate) {
   const std::map<EdgeId, int> wires = WiresOfEdges(skeleton);
-  std::vector<double> all;
-  std::map<EdgeId, std::vector<double>> by_edge;
-  std::map<EdgeId, std::vector<StripWidth>> strips_by_edge;
+  std::map<EdgeId, std::vector<StripWidth>> by_edge;
   std::map<int, std::vector<double>> by_wire;
   for (const StripWidth& strip : estimate.strips) {
-    all.push_back(strip.diameter);
-    by_edge[strip.edge].push_back(strip.diameter);
-    strips_by_edge[strip.edge].push_back(strip);
+    by_edge[strip.edge].push_back(strip);
     by_wire[wires.at(strip.edge)].push_back(strip.diameter);
   }
+  const std::vector<double> all = DiametersOf(estimate.strips);
   estimate.global_radius = 0.5 * (options.strip_model ? Agree(all, options).diameter
                                                       : MostProminent(all, options.histogram_bin));
   std::map<int, Agreement> agreed_by_wire;
@@ -154,7 +157,7 @@ void Summarize(const SkeletonGraph& skeleton, const RadiusOptions& options,
   estimate.unmeasured_radius =
       gauges.empty() ? estimate.global_radius : 0.5 * gauges.front().diameter;
   for (const EdgeId edge : skeleton.Edges()) {
-    Agreement agreed = Agree(by_edge[edge], options);
+    Agreement agreed = Agree(DiametersOf(by_edge[edge]), options);
     if (options.per_wire) agreed = ChooseAgreement(agreed, agreed_by_wire[wires.at(edge)]);
     if (agreed.count < options.min_strips) {
       estimate.edges.push_back({edge, 0, 0, agreed.count, {}});
@@ -164,7 +167,7 @@ void Summarize(const SkeletonGraph& skeleton, const RadiusOptions& options,
         DrawnToGauge({agreed.diameter, agreed.count}, gauges, options.gauge_strips);
     estimate.edges.push_back({edge, 0.5 * diameter, 0.5 * StandardError(agreed), agreed.count, {}});
     if (options.along_edge) {
-      estimate.edges.back().along = RadiiAlong(strips_by_edge[edge], options);
+      estimate.edges.back().along = RadiiAlong(by_edge[edge], options);
     }
   }
 }
@@ -278,8 +281,7 @@ void VisitOptions(RadiusOptions& options, OptionVisitor& visitor) {
                 options.along_edge);
   visitor.Visit({"gauge_strips", "", 0, 100000,
                  "Deviation: an object is made of few gauges of wire: the diameter of a wire is "
-                 "drawn to that "
-                 "of the wires like it, with the weight of so many strips."},
+                 "drawn to that of the wires like it, with the weight of so many strips."},
                 options.gauge_strips);
   visitor.Visit({"search_px", "px", 0, 40,
                  "Deviation: how far from its projection a strip is looked for by the strip model, "

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "capture/frame_stream.h"
 #include "kernel/quantile.h"
@@ -64,9 +63,7 @@ ViewEvidence CountViews(const SkeletonGraph& skeleton, const Sequence& sequence,
     evidence.edges.push_back({id, std::vector<ViewCount>(skeleton.edge(id).points.size())});
   }
   if (evidence.edges.empty()) return evidence;
-  std::vector<int> frames(sequence.frames.size());
-  std::iota(frames.begin(), frames.end(), 0);
-  frames = EvenlyThinned(frames, options.max_frames);
+  const std::vector<int> frames = EvenlyThinned(AllFrames(sequence), options.max_frames);
   evidence.frames = static_cast<int>(frames.size());
   ForEachFrame(sequence, frames, {.depth = true, .color = false}, [&](const DecodedFrame& frame) {
     LookThroughFrame(frame, sequence, skeleton, options.tolerance, evidence);

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "kernel/quantile.h"
 
 namespace curvefusion {
 
@@ -15,18 +18,15 @@ bool IsLike(double diameter, double gauge) {
 }
 
 // Of at least one wire.
-MeasuredDiameter WeightedMedian(std::vector<MeasuredDiameter> wires) {
-  std::sort(wires.begin(), wires.end(),
-            [](const auto& a, const auto& b) { return a.diameter < b.diameter; });
-  MeasuredDiameter median;
-  for (const MeasuredDiameter& wire : wires) median.strips += wire.strips;
-  int passed = 0;
+MeasuredDiameter GaugeOf(const std::vector<MeasuredDiameter>& wires) {
+  MeasuredDiameter gauge;
+  std::vector<std::pair<double, double>> diameters;
   for (const MeasuredDiameter& wire : wires) {
-    median.diameter = wire.diameter;
-    passed += wire.strips;
-    if (2 * passed >= median.strips) break;
+    gauge.strips += wire.strips;
+    diameters.emplace_back(wire.diameter, wire.strips);
   }
-  return median;
+  gauge.diameter = WeightedMedian(std::move(diameters));
+  return gauge;
 }
 
 }  // namespace
@@ -47,7 +47,7 @@ std::vector<MeasuredDiameter> FindGauges(std::vector<MeasuredDiameter> wires) {
     }
   }
   std::vector<MeasuredDiameter> gauges;
-  for (const auto& group : groups) gauges.push_back(WeightedMedian(group));
+  for (const auto& group : groups) gauges.push_back(GaugeOf(group));
   std::erase_if(gauges, [](const MeasuredDiameter& gauge) { return gauge.strips < kEnoughStrips; });
   std::sort(gauges.begin(), gauges.end(),
             [](const auto& a, const auto& b) { return a.diameter < b.diameter; });

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "kernel/point_grid.h"
 #include "kernel/parallel.h"
 
 namespace curvefusion {
@@ -16,13 +15,6 @@ constexpr int kGrain = 32;
 constexpr int kDirectionsAcross = 4;
 // Rays of points agree where their mean, without its part along the ridge, is longer than this.
 constexpr double kLeastRay = 0.5;
-
-double CountWithin(const PointGrid& grid, const std::vector<float>& counts, const Vec3& center,
-                   double radius) {
-  double sum = 0;
-  grid.ForEachWithin(center, radius, [&](int i, const Vec3&) { sum += counts[i]; });
-  return sum;
-}
 
 // The mean viewing ray of the points in a ball, the longer the more they agree.
 Vec3 MeanRay(const PointGrid& grid, const ObservedPoints& points, const Vec3& center,
@@ -77,6 +69,13 @@ void VisitOptions(RidgeContrastOptions& options, OptionVisitor& visitor) {
                  "Deviation: a ridge is weak with less than this part of the points of the best "
                  "one nearby."},
                 options.min_share);
+}
+
+double CountWithin(const PointGrid& grid, const std::vector<float>& counts, const Vec3& center,
+                   double radius) {
+  double sum = 0;
+  grid.ForEachWithin(center, radius, [&](int i, const Vec3&) { sum += counts[i]; });
+  return sum;
 }
 
 std::vector<char> StandsOut(const ObservedPoints& points, const std::vector<Vec3>& places,

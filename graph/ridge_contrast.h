@@ -5,6 +5,7 @@
 #include "kernel/geometry.h"
 #include "kernel/observed_points.h"
 #include "kernel/options.h"
+#include "kernel/point_grid.h"
 
 namespace curvefusion {
 
@@ -17,6 +18,11 @@ struct RidgeContrastOptions {
   double min_share = 0.3;
 };
 void VisitOptions(RidgeContrastOptions& options, OptionVisitor& visitor);
+
+/// What was seen of a place: the sum of the counts of the points within a radius of it, metres. The
+/// grid is that of the points.
+double CountWithin(const PointGrid& grid, const std::vector<float>& counts, const Vec3& center,
+                   double radius);
 
 /// For each place on a ridge of unit direction, whether it is a wire of its own: nearly as much was
 /// seen there as at the best place in the neighbourhood, or hardly anything on one of two opposite

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "kernel/point_grid.h"
+#include "graph/ridge_contrast.h"
 
 namespace curvefusion {
 
@@ -139,9 +139,7 @@ class EdgeContrast {
   }
 
   double CountAt(const Vec3& p) const {
-    double sum = 0;
-    grid_.ForEachWithin(p, options_.ball_radius, [&](int i, const Vec3&) { sum += counts_[i]; });
-    return sum;
+    return CountWithin(grid_, counts_, p, options_.ball_radius);
   }
 
   const RidgeEdgeOptions& options_;

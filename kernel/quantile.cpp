@@ -19,6 +19,18 @@ double Quantile(std::vector<double> values, double share) {
 
 double Median(std::vector<double> values) { return Quantile(std::move(values), 0.5); }
 
+double WeightedMedian(std::vector<std::pair<double, double>> values) {
+  assert(!values.empty());
+  std::sort(values.begin(), values.end());
+  double half = 0;
+  for (const auto& [value, weight] : values) half += weight / 2;
+  for (const auto& [value, weight] : values) {
+    half -= weight;
+    if (half <= 0) return value;
+  }
+  return values.back().first;
+}
+
 double RobustDeviation(std::vector<double> values) {
   if (values.empty()) return 0;
   for (double& value : values) value = std::abs(value);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 namespace curvefusion {
@@ -10,6 +11,10 @@ double Quantile(std::vector<double> values, double share);
 
 /// The middle value, of an even number the greater of the middle two; values must not be empty.
 double Median(std::vector<double> values);
+
+/// The least value that, with all smaller ones, has at least half of the weight; pairs of value and
+/// weight >= 0, which must not be empty.
+double WeightedMedian(std::vector<std::pair<double, double>> values);
 
 /// Standard deviation of a Gaussian over its median absolute deviation.
 inline constexpr double kGaussianMad = 1.4826;

@@ -180,4 +180,13 @@ std::vector<SegmentPair> AllPairsInContact(const SkeletonGraph& graph, double th
   return pairs;
 }
 
+std::vector<std::array<int, 4>> Named(const SegmentTable& table,
+                                      const std::vector<SegmentPair>& pairs) {
+  std::vector<std::array<int, 4>> named;
+  for (const auto& [s, t] : pairs)
+    named.push_back({table.edges[table.curves[s]], s - table.first_points[table.curves[s]],
+                     table.edges[table.curves[t]], t - table.first_points[table.curves[t]]});
+  return named;
+}
+
 }  // namespace curvefusion

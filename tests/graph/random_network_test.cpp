@@ -131,16 +131,6 @@ bool IsOfObjectSize(const RandomNetwork& network) {
   return true;
 }
 
-// Pairs of segments by edge and place on it, which do not depend on the table.
-std::vector<std::array<int, 4>> Named(const SegmentTable& table,
-                                      const std::vector<SegmentPair>& pairs) {
-  std::vector<std::array<int, 4>> named;
-  for (const auto& [s, t] : pairs)
-    named.push_back({table.edges[table.curves[s]], s - table.first_points[table.curves[s]],
-                     table.edges[table.curves[t]], t - table.first_points[table.curves[t]]});
-  return named;
-}
-
 std::string CheckOperations(const RandomNetwork& network) {
   if (!IsOfObjectSize(network)) return "";
   const SkeletonGraph original = WithoutPoints(network.graph);

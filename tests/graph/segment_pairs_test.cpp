@@ -2,23 +2,14 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <random>
+
+#include "tests/graph/contact_oracle.h"
 
 namespace curvefusion {
 namespace {
 
 constexpr double kThreshold = 3 * kMillimetre;
-
-// Pairs by edge and place on it, which do not depend on the table.
-std::vector<std::array<int, 4>> Named(const SegmentTable& table,
-                                      const std::vector<SegmentPair>& pairs) {
-  std::vector<std::array<int, 4>> named;
-  for (const auto& [s, t] : pairs)
-    named.push_back({table.edges[table.curves[s]], s - table.first_points[table.curves[s]],
-                     table.edges[table.curves[t]], t - table.first_points[table.curves[t]]});
-  return named;
-}
 
 Polyline RandomWalk(std::mt19937& random) {
   std::uniform_real_distribution<double> place(-0.05, 0.05);

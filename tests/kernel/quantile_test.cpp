@@ -36,6 +36,13 @@ TEST(Quantile, AgreesWithSorting) {
   }
 }
 
+TEST(WeightedMedian, HalfOfTheWeightLiesBelow) {
+  EXPECT_EQ(WeightedMedian({{3, 1}, {1, 1}, {2, 1}}), 2);
+  EXPECT_EQ(WeightedMedian({{3, 10}, {1, 1}, {2, 1}}), 3);
+  EXPECT_EQ(WeightedMedian({{2, 1}, {1, 1}}), 1);  // exactly half
+  EXPECT_EQ(WeightedMedian({{5, 0}}), 5);
+}
+
 TEST(RobustDeviation, OutliersDoNotCount) {
   EXPECT_EQ(RobustDeviation({}), 0);
   EXPECT_DOUBLE_EQ(RobustDeviation({-1, 1, -1, 1, 1000}), kGaussianMad);
