@@ -37,7 +37,8 @@ int Parse(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(
       "Exit codes: 0 done, 1 a mesh with defects (mesh --check), 2 usage, 3 bad input, 4 nothing\n"
-      "thin found, 5 out of memory or disk, 130 interrupted. `curvefusion COMMAND --help` tells more and gives examples.");
+      "thin found, 5 out of memory or disk, 130 interrupted. `curvefusion COMMAND --help` tells "
+      "more and gives examples.");
   int exit_code = 0;
   AddReconstructCommand(app, exit_code);
   AddCheckCommand(app, exit_code);
