@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "fusion/colour_frames.h"
 #include "fusion/curve_pose_solver.h"
@@ -209,10 +210,11 @@ ColourAdjustment AdjustToColours(const SkeletonGraph& skeleton, const Sequence& 
   const bool is_video = IsVideo(T_world_given);
   ColourFrames frames = LoadColourFrames(
       sequence, ChooseFrames(sequence.frame_count(), is_video ? options.frame_stride : 1));
-  result.frames = static_cast<int>(frames.size());
   CurvePoseProblem problem = MakeProblem(sequence, curves, frames.indices, T_world_given, is_video);
   const CurvePoseState state =
       RunRounds(sequence, curves, frames, options.axis_depth, problem, result);
+  result.frames = std::move(frames.indices);
+  result.posteriors = std::move(frames.posteriors);
   result.skipped = ReasonToSkip(result);
   if (!result.skipped.empty()) {
     result.color_shift_px.setZero();
@@ -226,12 +228,12 @@ ColourAdjustment AdjustToColours(const SkeletonGraph& skeleton, const Sequence& 
   moved.positions = state.positions;
   if (is_video) {
     const RigidTransform T_anchored_world =
-        Anchor(T_world_given, frames.indices, poses, sequence.color_camera);
+        Anchor(T_world_given, result.frames, poses, sequence.color_camera);
     for (RigidTransform& pose : poses) pose = T_anchored_world * pose;
     for (Vec3& position : moved.positions) position = T_anchored_world * position;
   }
   result.skeleton = WithVertices(skeleton, moved, options.vertex_step);
-  result.T_world_camera = InterpolateCorrections(T_world_given, frames.indices, poses);
+  result.T_world_camera = InterpolateCorrections(T_world_given, result.frames, poses);
   return result;
 }
 

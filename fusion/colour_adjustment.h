@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "capture/sequence.h"
+#include "fusion/wire_posterior.h"
 #include "graph/skeleton_graph.h"
 #include "kernel/options.h"
 
@@ -26,7 +27,8 @@ struct ColourAdjustment {
   std::vector<RigidTransform> T_world_camera;  ///< of all frames
   Vec2 color_shift_px = Vec2::Zero();  ///< by which the colour camera's principal point is off
   std::string skipped;                 ///< why nothing was changed; empty where it was
-  int frames = 0;                      ///< used
+  std::vector<int> frames;                 ///< that were used, ascending
+  std::vector<PosteriorImage> posteriors;  ///< of each of them, as learned last
   int strips = 0;                      ///< accepted in the last round
   double accepted_share = 0;           ///< of the strips looked for
   int depths = 0;                      ///< depth measurements that held the movement along rays

@@ -213,7 +213,7 @@ void AssignMeasuredRadii(RunContext& run, Reconstruction& result) {
 
 void ReportAdjustment(const ColourAdjustment& adjusted, StageLog& log) {
   const char* stage = "colour adjustment";
-  log.Count(stage, "frames", adjusted.frames);
+  log.Count(stage, "frames", static_cast<double>(adjusted.frames.size()));
   log.Count(stage, "strips", adjusted.strips);
   log.Count(stage, "accepted share", adjusted.accepted_share);
   log.Count(stage, "depths", adjusted.depths);
@@ -222,6 +222,26 @@ void ReportAdjustment(const ColourAdjustment& adjusted, StageLog& log) {
   log.Count(stage, "colour shift x, px", adjusted.color_shift_px.x());
   log.Count(stage, "colour shift y, px", adjusted.color_shift_px.y());
   if (!adjusted.skipped.empty()) log.Remark(stage, "skipped: " + adjusted.skipped);
+}
+
+// Deviation: what images look past is dropped, and gaps that they show as wire are closed.
+void CompleteBySilhouettes(const ColourAdjustment& adjusted, RunContext& run,
+                           Reconstruction& result) {
+  const SilhouetteOptions& options = run.options.silhouettes;
+  if (options.max_frames == 0) return;
+  const char* stage = "silhouettes";
+  const StageLog::Timer timer(run.log, stage);
+  const WireSilhouettes silhouettes(result.sequence, adjusted.frames, adjusted.posteriors,
+                                    options.max_frames);
+  if (!TellWires(silhouettes, result.skeleton)) {
+    run.log.Remark(stage, "skipped: images do not show the curves as wire throughout");
+    return;
+  }
+  run.log.Count(stage, "removed, m",
+                DropRefutedParts(silhouettes, options, result.skeleton));
+  run.log.Count(stage, "bridges", BridgeOpenEnds(silhouettes, options, result.skeleton));
+  run.observer.OnProgress(stage, 1, 1);
+  run.observer.OnGraph("completed", result.skeleton);
 }
 
 // Deviation: curves of known radius and poses as exact as the colour images show them. False where
@@ -242,7 +262,9 @@ bool RefineInColour(const Sequence& given, RunContext& run, Reconstruction& resu
   ReportAdjustment(adjusted, run.log);
   run.observer.OnProgress("colour adjustment", 1, 1);
   run.observer.OnGraph("adjusted", result.skeleton);
-  return adjusted.skipped.empty();
+  if (!adjusted.skipped.empty()) return false;
+  CompleteBySilhouettes(adjusted, run, result);
+  return true;
 }
 
 // In how many images every place of the result was looked for and seen.

@@ -11,6 +11,7 @@
 #include "fusion/frame_registration.h"
 #include "fusion/radius.h"
 #include "fusion/segmentation.h"
+#include "fusion/silhouette_topology.h"
 #include "fusion/skeleton_fusion.h"
 #include "fusion/stage_log.h"
 #include "fusion/tsdf_volume.h"
@@ -42,6 +43,7 @@ struct PipelineOptions {
   SkeletonFusionOptions fusion;
   RadiusOptions radius;
   ColourAdjustmentOptions colour_adjustment;
+  SilhouetteOptions silhouettes;
   ViewEvidenceOptions evidence;
 };
 

@@ -97,6 +97,8 @@ void VisitOptions(PipelineOptions& options, OptionVisitor& visitor) {
   VisitOptions(options.radius, visitor);
   visitor.BeginSection("colour_adjustment");
   VisitOptions(options.colour_adjustment, visitor);
+  visitor.BeginSection("silhouettes");
+  VisitOptions(options.silhouettes, visitor);
   visitor.BeginSection("evidence");
   VisitOptions(options.evidence, visitor);
 }

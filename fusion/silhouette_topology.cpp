@@ -1,0 +1,203 @@
+#include "fusion/silhouette_topology.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "graph/hermite_bridge.h"
+#include "graph/open_ends.h"
+#include "kernel/parallel.h"
+#include "kernel/point_grid.h"
+#include "kernel/quantile.h"
+
+namespace curvefusion {
+
+namespace {
+
+constexpr double kMinRefuted = 0.002;    // metres; shorter runs are corners of curves
+constexpr double kMinPiece = 0.012;      // metres; the shortest spur
+constexpr double kFitLength = 0.015;     // metres
+constexpr double kFacingCosine = 0.6;
+constexpr double kStep = 0.002;          // metres
+constexpr double kEndReach = 0.008;      // metres; so near to its ends a bridge lies beside curves
+constexpr double kClearance = 0.004;     // metres
+constexpr double kTrustedShare = 0.9;
+
+std::vector<double> SharesAlong(const WireSilhouettes& silhouettes, const Polyline& points) {
+  std::vector<double> shares(points.size());
+  ParallelFor(0, static_cast<int64_t>(points.size()), 16,
+              [&](int64_t i) { shares[i] = silhouettes.Share(points[i]); });
+  return shares;
+}
+
+// A run of points of an edge, both included.
+struct Run {
+  size_t first;
+  size_t last;
+};
+
+double LengthOf(const Polyline& points, const Run& run) {
+  double length = 0;
+  for (size_t i = run.first; i < run.last; ++i) length += (points[i + 1] - points[i]).norm();
+  return length;
+}
+
+// The runs of points that are not refuted; all of them as one where nothing is.
+std::vector<Run> RunsKept(const Polyline& points, const std::vector<double>& shares,
+                          double min_share) {
+  std::vector<Run> kept;
+  size_t first = 0;
+  for (size_t i = 0; i < points.size();) {
+    size_t end = i;
+    while (end < points.size() && shares[end] < min_share) ++end;
+    if (end > i && LengthOf(points, {i, end - 1}) >= kMinRefuted) {
+      if (i > first) kept.push_back({first, i - 1});
+      first = end;
+    }
+    i = std::max(end, i + 1);
+  }
+  if (first < points.size()) kept.push_back({first, points.size() - 1});
+  return kept;
+}
+
+template <class T>
+std::vector<T> Slice(const std::vector<T>& values, const Run& run) {
+  if (values.empty()) return {};
+  return {values.begin() + static_cast<std::ptrdiff_t>(run.first),
+          values.begin() + static_cast<std::ptrdiff_t>(run.last) + 1};
+}
+
+void KeepRuns(EdgeId id, const std::vector<Run>& runs, SkeletonGraph& skeleton) {
+  const SkeletonEdge edge = skeleton.TakeEdge(id);
+  for (const Run& run : runs) {
+    if (LengthOf(edge.points, run) < kMinPiece) continue;
+    const bool at_front = run.first == 0;
+    const bool at_back = run.last + 1 == edge.points.size();
+    skeleton.AddEdge({{at_front ? edge.nodes[0] : skeleton.AddNode(edge.points[run.first]),
+                       at_back ? edge.nodes[1] : skeleton.AddNode(edge.points[run.last])},
+                      Slice(edge.points, run),
+                      Slice(edge.radii, run),
+                      Slice(edge.observations, run)});
+  }
+}
+
+struct Bridge {
+  double cost;
+  const OpenEnd* from;
+  const OpenEnd* to;
+  Polyline curve;
+};
+
+// Whether a curve keeps away from all edges but near its ends.
+bool IsClear(const Polyline& curve, const PointGrid& edges) {
+  const std::vector<double> arc_length = CumulativeLength(curve);
+  for (size_t i = 0; i < curve.size(); ++i) {
+    if (std::min(arc_length[i], arc_length.back() - arc_length[i]) < kEndReach) continue;
+    bool is_clear = true;
+    edges.ForEachWithin(curve[i], kClearance, [&](int, const Vec3&) { is_clear = false; });
+    if (!is_clear) return false;
+  }
+  return true;
+}
+
+std::vector<Bridge> PossibleBridges(const WireSilhouettes& silhouettes,
+                                    const SilhouetteOptions& options, const PointGrid& edges,
+                                    const std::vector<OpenEnd>& ends) {
+  std::vector<Bridge> bridges;
+  for (size_t i = 0; i < ends.size(); ++i) {
+    for (size_t j = i + 1; j < ends.size(); ++j) {
+      const OpenEnd& a = ends[i];
+      const OpenEnd& b = ends[j];
+      const Vec3 way = b.position - a.position;
+      const double length = way.norm();
+      if (a.node == b.node || length > options.max_bridge || length < kStep) continue;
+      const double facing = std::min(a.outward.dot(way), -b.outward.dot(way)) / length;
+      if (facing < kFacingCosine) continue;
+      const Polyline curve =
+          Resample(HermiteBridge(a.position, a.outward, b.position, -b.outward), kStep);
+      if (!IsClear(curve, edges)) continue;
+      const std::vector<double> shares = SharesAlong(silhouettes, curve);
+      if (*std::min_element(shares.begin(), shares.end()) < options.min_bridge_share) continue;
+      bridges.push_back({length * (2 - facing), &a, &b, curve});
+    }
+  }
+  std::sort(bridges.begin(), bridges.end(),
+            [](const Bridge& a, const Bridge& b) { return a.cost < b.cost; });
+  return bridges;
+}
+
+double RadiusAt(const SkeletonGraph& skeleton, const OpenEnd& end) {
+  const SkeletonEdge& edge = skeleton.edge(end.edge);
+  return edge.nodes[0] == end.node ? edge.radii.front() : edge.radii.back();
+}
+
+}  // namespace
+
+void VisitOptions(SilhouetteOptions& options, OptionVisitor& visitor) {
+  visitor.Visit({"max_frames", "frames", 0, 1000000,
+                 "Deviation: images in whose silhouettes curves are looked for; more are thinned "
+                 "evenly, 0 = none."},
+                options.max_frames);
+  visitor.Visit({"min_share", "", 0, 1,
+                 "Deviation: parts that a smaller share of the images shows as wire are false."},
+                options.min_share);
+  visitor.Visit({"max_bridge", "m", 0, 1,
+                 "Deviation: how far ends that face each other may be joined through silhouettes."},
+                options.max_bridge);
+  visitor.Visit({"min_bridge_share", "", 0, 1,
+                 "Deviation: the least share of images that must show every place of a bridge."},
+                options.min_bridge_share);
+}
+
+bool TellWires(const WireSilhouettes& silhouettes, const SkeletonGraph& skeleton) {
+  std::vector<double> shares;
+  for (const EdgeId id : skeleton.Edges()) {
+    const std::vector<double> along = SharesAlong(silhouettes, skeleton.edge(id).points);
+    shares.insert(shares.end(), along.begin(), along.end());
+  }
+  return !shares.empty() && Quantile(std::move(shares), 0.3) >= kTrustedShare;
+}
+
+double DropRefutedParts(const WireSilhouettes& silhouettes, const SilhouetteOptions& options,
+                        SkeletonGraph& skeleton) {
+  const double before = skeleton.TotalLength();
+  for (const EdgeId id : skeleton.Edges()) {
+    const Polyline& points = skeleton.edge(id).points;
+    const std::vector<Run> runs =
+        RunsKept(points, SharesAlong(silhouettes, points), options.min_share);
+    if (runs.size() == 1 && runs[0].first == 0 && runs[0].last + 1 == points.size()) continue;
+    KeepRuns(id, runs, skeleton);
+  }
+  skeleton.RemoveIsolatedNodes();
+  skeleton.DissolveDegree2Nodes();
+  return before - skeleton.TotalLength();
+}
+
+int BridgeOpenEnds(const WireSilhouettes& silhouettes, const SilhouetteOptions& options,
+                   SkeletonGraph& skeleton) {
+  std::vector<Vec3> positions;
+  for (const EdgeId id : skeleton.Edges()) {
+    const Polyline& points = skeleton.edge(id).points;
+    positions.insert(positions.end(), points.begin(), points.end());
+  }
+  const std::vector<OpenEnd> ends = OpenEnds(skeleton, kFitLength);
+  const std::vector<Bridge> bridges =
+      PossibleBridges(silhouettes, options, PointGrid(positions, kClearance), ends);
+  std::set<const OpenEnd*> used;
+  int count = 0;
+  for (const Bridge& bridge : bridges) {
+    if (used.count(bridge.from) > 0 || used.count(bridge.to) > 0) continue;
+    used.insert({bridge.from, bridge.to});
+    const double radius = 0.5 * (RadiusAt(skeleton, *bridge.from) + RadiusAt(skeleton, *bridge.to));
+    skeleton.AddEdge({{bridge.from->node, bridge.to->node},
+                      bridge.curve,
+                      std::vector<double>(bridge.curve.size(), radius),
+                      {}});
+    ++count;
+  }
+  skeleton.DissolveDegree2Nodes();
+  return count;
+}
+
+}  // namespace curvefusion

@@ -1,0 +1,84 @@
+#include "fusion/wire_silhouettes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "capture/frame_stream.h"
+
+namespace curvefusion {
+
+namespace {
+
+constexpr int kCellPx = 4;
+constexpr float kHidingDistance = 0.03F;  // metres; noise and drift of depth come to less
+constexpr uint8_t kWire = 128;            // of a posterior
+constexpr int kMinLooks = 8;
+
+// The greatest depth within the 3 x 3 cells around each cell: thin things in front hide nothing,
+// however much block matching widens them.
+Image<float> FarthestAround(const DepthImage& depth) {
+  Image<float> cells((depth.width() + kCellPx - 1) / kCellPx,
+                     (depth.height() + kCellPx - 1) / kCellPx);
+  for (int v = 0; v < depth.height(); ++v) {
+    for (int u = 0; u < depth.width(); ++u) {
+      float& cell = cells(u / kCellPx, v / kCellPx);
+      cell = std::max(cell, depth(u, v));
+    }
+  }
+  Image<float> around(cells.width(), cells.height());
+  for (int v = 0; v < cells.height(); ++v) {
+    for (int u = 0; u < cells.width(); ++u) {
+      for (int b = std::max(0, v - 1); b <= std::min(cells.height() - 1, v + 1); ++b)
+        for (int a = std::max(0, u - 1); a <= std::min(cells.width() - 1, u + 1); ++a)
+          around(u, v) = std::max(around(u, v), cells(a, b));
+    }
+  }
+  return around;
+}
+
+}  // namespace
+
+WireSilhouettes::WireSilhouettes(const Sequence& sequence, const std::vector<int>& frames,
+                                 const std::vector<PosteriorImage>& posteriors, int max_frames)
+    : depth_camera_(sequence.depth_camera),
+      color_camera_(sequence.color_camera),
+      T_color_depth_(sequence.T_color_depth) {
+  const std::vector<int> used = EvenlyThinned(frames, max_frames);
+  ForEachFrame(sequence, used, {.depth = true, .color = false}, [&](const DecodedFrame& frame) {
+    const auto place = std::lower_bound(frames.begin(), frames.end(), frame.index);
+    views_.push_back({sequence.frames[frame.index].T_world_camera.inverse(),
+                      &posteriors[place - frames.begin()], FarthestAround(frame.depth)});
+  });
+}
+
+bool WireSilhouettes::IsHidden(const View& view, const Vec3& p_camera) const {
+  const Vec2 pixel = depth_camera_.Project(p_camera);
+  if (!depth_camera_.Contains(pixel)) return false;
+  const float farthest = view.farthest(static_cast<int>(pixel.x() + 0.5) / kCellPx,
+                                       static_cast<int>(pixel.y() + 0.5) / kCellPx);
+  return farthest > 0 && farthest < static_cast<float>(p_camera.z()) - kHidingDistance;
+}
+
+ViewCount WireSilhouettes::Count(const Vec3& p) const {
+  ViewCount count;
+  for (const View& view : views_) {
+    const Vec3 p_camera = view.T_camera_world * p;
+    const Vec3 p_color = T_color_depth_ * p_camera;
+    if (p_camera.z() <= 0 || p_color.z() <= 0) continue;
+    const Vec2 pixel = color_camera_.Project(p_color);
+    if (!color_camera_.Contains(pixel)) continue;
+    const bool is_wire = (*view.posterior)(static_cast<int>(std::floor(pixel.x() + 0.5)),
+                                           static_cast<int>(std::floor(pixel.y() + 0.5))) >= kWire;
+    if (!is_wire && IsHidden(view, p_camera)) continue;
+    ++count.looked;
+    count.seen += is_wire ? 1 : 0;
+  }
+  return count;
+}
+
+double WireSilhouettes::Share(const Vec3& p) const {
+  const ViewCount count = Count(p);
+  return count.looked < kMinLooks ? 1 : static_cast<double>(count.seen) / count.looked;
+}
+
+}  // namespace curvefusion
