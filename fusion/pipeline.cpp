@@ -240,6 +240,7 @@ void CompleteBySilhouettes(const ColourAdjustment& adjusted, RunContext& run,
   run.log.Count(stage, "removed, m",
                 DropRefutedParts(silhouettes, options, result.skeleton));
   run.log.Count(stage, "bridges", BridgeOpenEnds(silhouettes, options, result.skeleton));
+  run.log.Count(stage, "joins", JoinEndsToSides(silhouettes, options, result.skeleton));
   run.observer.OnProgress(stage, 1, 1);
   run.observer.OnGraph("completed", result.skeleton);
 }

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <set>
 #include <utility>
 
+#include "fusion/silhouette_path.h"
 #include "graph/hermite_bridge.h"
 #include "graph/open_ends.h"
 #include "kernel/parallel.h"
@@ -21,6 +24,10 @@ constexpr double kFitLength = 0.015;     // metres
 constexpr double kFacingCosine = 0.6;
 constexpr double kStep = 0.002;          // metres
 constexpr double kEndReach = 0.008;      // metres; so near to its ends a bridge lies beside curves
+constexpr double kCorridor = 0.006;      // metres
+constexpr double kMaxDetour = 1.3;
+constexpr double kSnapDistance = 0.006;  // metres
+constexpr double kNear = 0.012;  // metres; so near, a displaced end looks past its curve
 constexpr double kClearance = 0.004;     // metres
 constexpr double kTrustedShare = 0.9;
 
@@ -82,6 +89,11 @@ void KeepRuns(EdgeId id, const std::vector<Run>& runs, SkeletonGraph& skeleton) 
   }
 }
 
+// Ends may lie a wire beside where they should.
+bool IsDetour(const Polyline& curve, const Polyline& guide) {
+  return Length(curve) > kMaxDetour * Length(guide) + kCorridor;
+}
+
 struct Bridge {
   double cost;
   const OpenEnd* from;
@@ -114,17 +126,56 @@ std::vector<Bridge> PossibleBridges(const WireSilhouettes& silhouettes,
       if (a.node == b.node || length > options.max_bridge || length < kStep) continue;
       const double facing = std::min(a.outward.dot(way), -b.outward.dot(way)) / length;
       if (facing < kFacingCosine) continue;
-      const Polyline curve =
+      const Polyline guide =
           Resample(HermiteBridge(a.position, a.outward, b.position, -b.outward), kStep);
-      if (!IsClear(curve, edges)) continue;
-      const std::vector<double> shares = SharesAlong(silhouettes, curve);
-      if (*std::min_element(shares.begin(), shares.end()) < options.min_bridge_share) continue;
-      bridges.push_back({length * (2 - facing), &a, &b, curve});
+      std::optional<Polyline> curve =
+          PathThroughSilhouettes(silhouettes, guide, kCorridor, options.min_bridge_share);
+      if (!curve || IsDetour(*curve, guide) || !IsClear(*curve, edges)) continue;
+      bridges.push_back({length * (2 - facing), &a, &b, std::move(*curve)});
     }
   }
   std::sort(bridges.begin(), bridges.end(),
             [](const Bridge& a, const Bridge& b) { return a.cost < b.cost; });
   return bridges;
+}
+
+// A point of a curve that lies ahead of a free end.
+struct Target {
+  double cost;
+  EdgeId edge;
+  size_t index;
+};
+
+std::vector<Target> TargetsAhead(const SkeletonGraph& skeleton, const OpenEnd& end,
+                                 double max_gap) {
+  std::vector<Target> targets;
+  for (const EdgeId id : skeleton.Edges()) {
+    const Polyline& points = skeleton.edge(id).points;
+    const Target none{std::numeric_limits<double>::infinity(), id, 0};
+    Target best = none;
+    for (size_t i = 0; i < points.size(); ++i) {
+      const Vec3 way = points[i] - end.position;
+      const double length = way.norm();
+      if (length > max_gap || length <= 0) continue;
+      const double ahead = end.outward.dot(way) / length;
+      if (ahead < (length < kNear ? 0 : kFacingCosine)) continue;
+      const double cost = length * (2 - ahead);
+      if (cost < best.cost) best = {cost, id, i};
+    }
+    if (id != end.edge && std::isfinite(best.cost)) targets.push_back(best);
+  }
+  std::sort(targets.begin(), targets.end(),
+            [](const Target& a, const Target& b) { return a.cost < b.cost; });
+  return targets;
+}
+
+// The node at a point of an edge, or near it; the edge is split where there is none.
+NodeId NodeAt(const Target& target, SkeletonGraph& skeleton) {
+  const SkeletonEdge& edge = skeleton.edge(target.edge);
+  const Vec3& p = edge.points[target.index];
+  if ((p - edge.points.front()).norm() < kSnapDistance) return edge.nodes[0];
+  if ((p - edge.points.back()).norm() < kSnapDistance) return edge.nodes[1];
+  return skeleton.SplitEdge(target.edge, target.index);
 }
 
 double RadiusAt(const SkeletonGraph& skeleton, const OpenEnd& end) {
@@ -156,7 +207,7 @@ bool TellWires(const WireSilhouettes& silhouettes, const SkeletonGraph& skeleton
     const std::vector<double> along = SharesAlong(silhouettes, skeleton.edge(id).points);
     shares.insert(shares.end(), along.begin(), along.end());
   }
-  return !shares.empty() && Quantile(std::move(shares), 0.3) >= kTrustedShare;
+  return !shares.empty() && Median(std::move(shares)) >= kTrustedShare;
 }
 
 double DropRefutedParts(const WireSilhouettes& silhouettes, const SilhouetteOptions& options,
@@ -172,6 +223,29 @@ double DropRefutedParts(const WireSilhouettes& silhouettes, const SilhouetteOpti
   skeleton.RemoveIsolatedNodes();
   skeleton.DissolveDegree2Nodes();
   return before - skeleton.TotalLength();
+}
+
+int JoinEndsToSides(const WireSilhouettes& silhouettes, const SilhouetteOptions& options,
+                    SkeletonGraph& skeleton) {
+  int count = 0;
+  for (const OpenEnd& end : OpenEnds(skeleton, kFitLength)) {
+    if (!end.is_free || !skeleton.HasEdge(end.edge)) continue;
+    for (const Target& target : TargetsAhead(skeleton, end, options.max_bridge)) {
+      const Vec3& p = skeleton.edge(target.edge).points[target.index];
+      std::optional<Polyline> curve = PathThroughSilhouettes(
+          silhouettes, {end.position, p}, kCorridor, options.min_bridge_share);
+      if (!curve || IsDetour(*curve, {end.position, p})) continue;
+      const double radius = RadiusAt(skeleton, end);
+      const NodeId node = NodeAt(target, skeleton);
+      if (node == end.node) continue;
+      curve->back() = skeleton.position(node);
+      skeleton.AddEdge({{end.node, node}, *curve, std::vector<double>(curve->size(), radius), {}});
+      ++count;
+      break;
+    }
+  }
+  skeleton.DissolveDegree2Nodes();
+  return count;
 }
 
 int BridgeOpenEnds(const WireSilhouettes& silhouettes, const SilhouetteOptions& options,

@@ -30,4 +30,9 @@ double DropRefutedParts(const WireSilhouettes& silhouettes, const SilhouetteOpti
 int BridgeOpenEnds(const WireSilhouettes& silhouettes, const SilhouetteOptions& options,
                    SkeletonGraph& skeleton);
 
+/// Joins free ends to the curves that lie ahead of them, through places that are seen as wire.
+/// Returns how many there are.
+int JoinEndsToSides(const WireSilhouettes& silhouettes, const SilhouetteOptions& options,
+                    SkeletonGraph& skeleton);
+
 }  // namespace curvefusion
