@@ -1,4 +1,5 @@
 #include "fusion/pipeline.h"
+#include "fusion/silhouette_seeds.h"
 
 #include <fmt/format.h>
 
@@ -239,6 +240,7 @@ void CompleteBySilhouettes(const ColourAdjustment& adjusted, RunContext& run,
   }
   run.log.Count(stage, "removed, m",
                 DropRefutedParts(silhouettes, options, result.skeleton));
+  run.log.Count(stage, "seeds", AddUnexplainedWires(silhouettes, result.skeleton));
   run.log.Count(stage, "bridges", BridgeOpenEnds(silhouettes, options, result.skeleton));
   run.log.Count(stage, "joins", JoinEndsToSides(silhouettes, options, result.skeleton));
   run.observer.OnProgress(stage, 1, 1);

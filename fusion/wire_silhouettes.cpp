@@ -11,7 +11,6 @@ namespace {
 
 constexpr int kCellPx = 4;
 constexpr float kHidingDistance = 0.03F;  // metres; noise and drift of depth come to less
-constexpr uint8_t kWire = 128;            // of a posterior
 constexpr int kMinLooks = 8;
 
 // The greatest depth within the 3 x 3 cells around each cell: thin things in front hide nothing,
@@ -41,35 +40,35 @@ Image<float> FarthestAround(const DepthImage& depth) {
 WireSilhouettes::WireSilhouettes(const Sequence& sequence, const std::vector<int>& frames,
                                  const std::vector<PosteriorImage>& posteriors, int max_frames)
     : depth_camera_(sequence.depth_camera),
-      color_camera_(sequence.color_camera),
-      T_color_depth_(sequence.T_color_depth) {
+      color_camera_(sequence.color_camera) {
   const std::vector<int> used = EvenlyThinned(frames, max_frames);
   ForEachFrame(sequence, used, {.depth = true, .color = false}, [&](const DecodedFrame& frame) {
     const auto place = std::lower_bound(frames.begin(), frames.end(), frame.index);
-    views_.push_back({sequence.frames[frame.index].T_world_camera.inverse(),
+    const RigidTransform T_depth_world = sequence.frames[frame.index].T_world_camera.inverse();
+    views_.push_back({T_depth_world, sequence.T_color_depth * T_depth_world,
                       &posteriors[place - frames.begin()], FarthestAround(frame.depth)});
   });
 }
 
-bool WireSilhouettes::IsHidden(const View& view, const Vec3& p_camera) const {
-  const Vec2 pixel = depth_camera_.Project(p_camera);
+bool WireSilhouettes::IsHidden(const View& view, const Vec3& p_depth) const {
+  if (p_depth.z() <= 0) return false;
+  const Vec2 pixel = depth_camera_.Project(p_depth);
   if (!depth_camera_.Contains(pixel)) return false;
   const float farthest = view.farthest(static_cast<int>(pixel.x() + 0.5) / kCellPx,
                                        static_cast<int>(pixel.y() + 0.5) / kCellPx);
-  return farthest > 0 && farthest < static_cast<float>(p_camera.z()) - kHidingDistance;
+  return farthest > 0 && farthest < static_cast<float>(p_depth.z()) - kHidingDistance;
 }
 
 ViewCount WireSilhouettes::Count(const Vec3& p) const {
   ViewCount count;
   for (const View& view : views_) {
-    const Vec3 p_camera = view.T_camera_world * p;
-    const Vec3 p_color = T_color_depth_ * p_camera;
-    if (p_camera.z() <= 0 || p_color.z() <= 0) continue;
+    const Vec3 p_color = view.T_color_world * p;
+    if (p_color.z() <= 0) continue;
     const Vec2 pixel = color_camera_.Project(p_color);
     if (!color_camera_.Contains(pixel)) continue;
-    const bool is_wire = (*view.posterior)(static_cast<int>(std::floor(pixel.x() + 0.5)),
-                                           static_cast<int>(std::floor(pixel.y() + 0.5))) >= kWire;
-    if (!is_wire && IsHidden(view, p_camera)) continue;
+    const bool is_wire = IsWire((*view.posterior)(static_cast<int>(std::floor(pixel.x() + 0.5)),
+                                                  static_cast<int>(std::floor(pixel.y() + 0.5))));
+    if (!is_wire && IsHidden(view, view.T_depth_world * p)) continue;
     ++count.looked;
     count.seen += is_wire ? 1 : 0;
   }

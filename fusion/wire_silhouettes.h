@@ -27,17 +27,24 @@ class WireSilhouettes {
   /// The share of the images that show wire at a place; 1 where too few were looked at to tell.
   double Share(const Vec3& p) const;
 
- private:
+  /// One of the images.
   struct View {
-    RigidTransform T_camera_world;
+    RigidTransform T_depth_world;
+    RigidTransform T_color_world;
     const PosteriorImage* posterior = nullptr;
-    Image<float> farthest;  // depth around each cell, metres
+    Image<float> farthest;  ///< the greatest depth around cells of the depth image, metres
   };
-  bool IsHidden(const View& view, const Vec3& p_camera) const;
+  const std::vector<View>& views() const { return views_; }
+  const PinholeCamera& color_camera() const { return color_camera_; }
+
+  /// Whether a pixel of such a posterior shows wire.
+  static bool IsWire(uint8_t posterior) { return posterior >= 128; }
+
+ private:
+  bool IsHidden(const View& view, const Vec3& p_depth) const;
 
   PinholeCamera depth_camera_;
   PinholeCamera color_camera_;
-  RigidTransform T_color_depth_;
   std::vector<View> views_;
 };
 
