@@ -1,5 +1,4 @@
 #include "fusion/pipeline.h"
-#include "fusion/silhouette_seeds.h"
 
 #include <fmt/format.h>
 
@@ -8,6 +7,9 @@
 #include "capture/frame_stream.h"
 #include "fusion/axis_correction.h"
 #include "fusion/ray_noise.h"
+#include "fusion/silhouette_seeds.h"
+#include "graph/intersections.h"
+#include "graph/merge.h"
 
 namespace curvefusion {
 
@@ -240,9 +242,14 @@ void CompleteBySilhouettes(const ColourAdjustment& adjusted, RunContext& run,
   }
   run.log.Count(stage, "removed, m",
                 DropRefutedParts(silhouettes, options, result.skeleton));
+  RerouteCurves(silhouettes, options, result.skeleton);
   run.log.Count(stage, "seeds", AddUnexplainedWires(silhouettes, result.skeleton));
   run.log.Count(stage, "bridges", BridgeOpenEnds(silhouettes, options, result.skeleton));
   run.log.Count(stage, "joins", JoinEndsToSides(silhouettes, options, result.skeleton));
+  DropShortLoops(result.skeleton, run.options.ridge.network.min_loop);
+  PruneSpurs(result.skeleton, run.options.ridge.network.min_spur);
+  DropSmallComponents(result.skeleton, run.options.ridge.min_component);
+  ResolveIntersections(result.skeleton, 0);
   run.observer.OnProgress(stage, 1, 1);
   run.observer.OnGraph("completed", result.skeleton);
 }

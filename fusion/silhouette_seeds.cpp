@@ -25,7 +25,7 @@ constexpr double kMinUnexplained = 0.06;  // of the views
 constexpr double kBlurPx = 2.5;         // colour runs so far beyond a wire's outline
 constexpr double kLink = 0.0045;        // metres
 constexpr size_t kMinPlaces = 6;
-constexpr double kMinLength = 0.01;     // metres
+constexpr double kMinLength = 0.02;     // metres
 constexpr double kCorridor = 0.006;     // metres
 
 // Distances in pixels to the nearest wire, and to the nearest wire that no curve accounts for.

@@ -19,12 +19,15 @@ namespace curvefusion {
 namespace {
 
 constexpr double kMinRefuted = 0.002;    // metres; shorter runs are corners of curves
+constexpr double kLongRun = 0.008;       // metres
+constexpr double kClearlyFalse = 0.5;    // share of images
 constexpr double kMinPiece = 0.012;      // metres; the shortest spur
 constexpr double kFitLength = 0.015;     // metres
 constexpr double kFacingCosine = 0.6;
 constexpr double kStep = 0.002;          // metres
 constexpr double kEndReach = 0.008;      // metres; so near to its ends a bridge lies beside curves
 constexpr double kCorridor = 0.006;      // metres
+constexpr size_t kRetreat = 2;           // points
 constexpr double kMaxDetour = 1.3;
 constexpr double kSnapDistance = 0.006;  // metres
 constexpr double kNear = 0.012;  // metres; so near, a displaced end looks past its curve
@@ -50,19 +53,40 @@ double LengthOf(const Polyline& points, const Run& run) {
   return length;
 }
 
-// The runs of points that are not refuted; all of them as one where nothing is.
+// Whether a run of points that few images show as wire is no wire. At its ends an edge may just
+// miss where its junction should be, and anywhere its wire by little.
+bool IsFalse(const Polyline& points, const std::vector<double>& shares, const Run& run) {
+  const double length = LengthOf(points, run);
+  if (length >= kLongRun) return true;
+  const bool is_at_end = run.first == 0 || run.last + 1 == points.size();
+  const double least = *std::min_element(shares.begin() + static_cast<std::ptrdiff_t>(run.first),
+                                         shares.begin() + static_cast<std::ptrdiff_t>(run.last) + 1);
+  return length >= kMinRefuted && !is_at_end && least < kClearlyFalse;
+}
+
+// The longest runs of points that fewer than min_share of the images show as wire.
+std::vector<Run> LowRuns(const std::vector<double>& shares, double min_share) {
+  std::vector<Run> runs;
+  for (size_t i = 0; i < shares.size(); ++i) {
+    if (shares[i] >= min_share) continue;
+    if (!runs.empty() && runs.back().last + 1 == i) {
+      runs.back().last = i;
+    } else {
+      runs.push_back({i, i});
+    }
+  }
+  return runs;
+}
+
+// What is left of all points without the false runs.
 std::vector<Run> RunsKept(const Polyline& points, const std::vector<double>& shares,
                           double min_share) {
   std::vector<Run> kept;
   size_t first = 0;
-  for (size_t i = 0; i < points.size();) {
-    size_t end = i;
-    while (end < points.size() && shares[end] < min_share) ++end;
-    if (end > i && LengthOf(points, {i, end - 1}) >= kMinRefuted) {
-      if (i > first) kept.push_back({first, i - 1});
-      first = end;
-    }
-    i = std::max(end, i + 1);
+  for (const Run& run : LowRuns(shares, min_share)) {
+    if (!IsFalse(points, shares, run)) continue;
+    if (run.first > first) kept.push_back({first, run.first - 1});
+    first = run.last + 1;
   }
   if (first < points.size()) kept.push_back({first, points.size() - 1});
   return kept;
@@ -92,6 +116,27 @@ void KeepRuns(EdgeId id, const std::vector<Run>& runs, SkeletonGraph& skeleton) 
 // Ends may lie a wire beside where they should.
 bool IsDetour(const Polyline& curve, const Polyline& guide) {
   return Length(curve) > kMaxDetour * Length(guide) + kCorridor;
+}
+
+// The points of a curve with low runs replaced by ways through the silhouettes where there are any.
+Polyline Rerouted(const WireSilhouettes& silhouettes, const Polyline& points, double min_share) {
+  Polyline rerouted;
+  size_t next = 0;
+  for (const Run& run : LowRuns(SharesAlong(silhouettes, points), min_share)) {
+    const size_t from = run.first < kRetreat ? 0 : run.first - kRetreat;
+    const size_t to = std::min(run.last + kRetreat, points.size() - 1);
+    if (from < next || from == to) continue;
+    const Polyline guide(points.begin() + static_cast<std::ptrdiff_t>(from),
+                         points.begin() + static_cast<std::ptrdiff_t>(to) + 1);
+    const std::optional<Polyline> way =
+        PathThroughSilhouettes(silhouettes, guide, kCorridor, min_share);
+    if (!way || IsDetour(*way, guide)) continue;
+    for (; next < from; ++next) rerouted.push_back(points[next]);
+    rerouted.insert(rerouted.end(), way->begin(), way->end() - 1);
+    next = to;
+  }
+  for (; next < points.size(); ++next) rerouted.push_back(points[next]);
+  return rerouted;
 }
 
 struct Bridge {
@@ -225,21 +270,33 @@ double DropRefutedParts(const WireSilhouettes& silhouettes, const SilhouetteOpti
   return before - skeleton.TotalLength();
 }
 
+void RerouteCurves(const WireSilhouettes& silhouettes, const SilhouetteOptions& options,
+                   SkeletonGraph& skeleton) {
+  for (const EdgeId id : skeleton.Edges()) {
+    const SkeletonEdge& edge = skeleton.edge(id);
+    Polyline points = Rerouted(silhouettes, edge.points, options.min_bridge_share);
+    if (points == edge.points) continue;
+    const double radius = Median(edge.radii);
+    const size_t count = points.size();
+    skeleton.SetCurve(id, std::move(points), std::vector<double>(count, radius));
+  }
+}
+
 int JoinEndsToSides(const WireSilhouettes& silhouettes, const SilhouetteOptions& options,
                     SkeletonGraph& skeleton) {
   int count = 0;
-  for (const OpenEnd& end : OpenEnds(skeleton, kFitLength)) {
-    if (!end.is_free || !skeleton.HasEdge(end.edge)) continue;
+  for (const NodeId node : skeleton.Nodes()) {
+    if (skeleton.Degree(node) != 1) continue;
+    const OpenEnd end = FreeEnd(skeleton, node, kFitLength);
     for (const Target& target : TargetsAhead(skeleton, end, options.max_bridge)) {
       const Vec3& p = skeleton.edge(target.edge).points[target.index];
       std::optional<Polyline> curve = PathThroughSilhouettes(
           silhouettes, {end.position, p}, kCorridor, options.min_bridge_share);
       if (!curve || IsDetour(*curve, {end.position, p})) continue;
       const double radius = RadiusAt(skeleton, end);
-      const NodeId node = NodeAt(target, skeleton);
-      if (node == end.node) continue;
-      curve->back() = skeleton.position(node);
-      skeleton.AddEdge({{end.node, node}, *curve, std::vector<double>(curve->size(), radius), {}});
+      const NodeId reached = NodeAt(target, skeleton);
+      curve->back() = skeleton.position(reached);
+      skeleton.AddEdge({{node, reached}, *curve, std::vector<double>(curve->size(), radius), {}});
       ++count;
       break;
     }

@@ -24,6 +24,11 @@ bool TellWires(const WireSilhouettes& silhouettes, const SkeletonGraph& skeleton
 double DropRefutedParts(const WireSilhouettes& silhouettes, const SilhouetteOptions& options,
                         SkeletonGraph& skeleton);
 
+/// Leads stretches of edges that lie beside their wire through places that at least
+/// min_bridge_share of the images show as wire, where such a way is near.
+void RerouteCurves(const WireSilhouettes& silhouettes, const SilhouetteOptions& options,
+                   SkeletonGraph& skeleton);
+
 /// Joins ends that nothing continues and that face each other (OpenEnds) where all of the curve
 /// between them is seen as wire and does not run along another edge. Bridges have the radii of the
 /// edges they continue. Returns how many there are.

@@ -41,4 +41,9 @@ std::vector<OpenEnd> OpenEnds(const SkeletonGraph& graph, double fit_length) {
   return open;
 }
 
+OpenEnd FreeEnd(const SkeletonGraph& graph, NodeId node, double fit_length) {
+  const EdgeId edge = graph.IncidentEdges(node)[0];
+  return MakeEnd(graph, node, edge, graph.edge(edge).nodes[0] == node, fit_length);
+}
+
 }  // namespace curvefusion

@@ -19,4 +19,7 @@ struct OpenEnd {
 /// node.
 std::vector<OpenEnd> OpenEnds(const SkeletonGraph& graph, double fit_length);
 
+/// The end of the only edge at a node.
+OpenEnd FreeEnd(const SkeletonGraph& graph, NodeId node, double fit_length);
+
 }  // namespace curvefusion
