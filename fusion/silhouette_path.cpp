@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <map>
 #include <queue>
 #include <tuple>
@@ -36,22 +38,26 @@ class Corridor {
             static_cast<int>(std::lround(at.z()))};
   }
 
-  bool IsWire(const Cell& cell) {
-    const auto [known, is_new] = cells_.try_emplace(cell, false);
+  /// What a step to a cell costs over its length: more beside the guide, infinite beside the wire.
+  double CostOf(const Cell& cell) {
+    const auto [known, is_new] = costs_.try_emplace(cell, std::numeric_limits<double>::infinity());
     if (is_new) {
       const Vec3 p = PositionOf(cell);
-      known->second =
-          Project(guide_, p).distance <= radius_ && silhouettes_.Share(p) >= min_share_;
+      const double share_of_radius = Project(guide_, p).distance / radius_;
+      if (share_of_radius <= 1 && silhouettes_.Share(p) >= min_share_)
+        known->second = 1 + share_of_radius * share_of_radius;
     }
     return known->second;
   }
+
+  bool IsWire(const Cell& cell) { return std::isfinite(CostOf(cell)); }
 
  private:
   const WireSilhouettes& silhouettes_;
   const Polyline& guide_;
   double radius_;
   double min_share_;
-  std::map<Cell, bool> cells_;
+  std::map<Cell, double> costs_;
 };
 
 template <class Visit>
@@ -82,11 +88,13 @@ std::vector<Cell> ShortestWay(Corridor& corridor, const Polyline& guide) {
     if (cell == goal) break;
     if (way > reached[cell].first) continue;
     VisitAround(cell, 1, [&, way = way, cell = cell](const Cell& next, double step) {
-      if (step == 0 || (next != goal && !corridor.IsWire(next))) return;
+      if (step == 0) return;
+      const double to_next = way + step * (next == goal ? 1 : corridor.CostOf(next));
       const auto known = reached.find(next);
-      if (known != reached.end() && known->second.first <= way + step) return;
-      reached[next] = {way + step, cell};
-      open.emplace(way + step + remaining(next), way + step, next);
+      if (!std::isfinite(to_next) || (known != reached.end() && known->second.first <= to_next))
+        return;
+      reached[next] = {to_next, cell};
+      open.emplace(to_next + remaining(next), to_next, next);
     });
   }
   if (reached.count(goal) == 0) return {};

@@ -53,15 +53,18 @@ double LengthOf(const Polyline& points, const Run& run) {
   return length;
 }
 
-// Whether a run of points that few images show as wire is no wire. At its ends an edge may just
-// miss where its junction should be, and anywhere its wire by little.
-bool IsFalse(const Polyline& points, const std::vector<double>& shares, const Run& run) {
-  const double length = LengthOf(points, run);
+// Whether a run of points that few images show as wire is no wire. At its junctions an edge may
+// just miss where they should be, and anywhere its wire by little.
+bool IsFalse(const SkeletonGraph& skeleton, const SkeletonEdge& edge,
+             const std::vector<double>& shares, const Run& run) {
+  const double length = LengthOf(edge.points, run);
   if (length >= kLongRun) return true;
-  const bool is_at_end = run.first == 0 || run.last + 1 == points.size();
+  const bool is_at_junction =
+      (run.first == 0 && skeleton.Degree(edge.nodes[0]) > 1) ||
+      (run.last + 1 == edge.points.size() && skeleton.Degree(edge.nodes[1]) > 1);
   const double least = *std::min_element(shares.begin() + static_cast<std::ptrdiff_t>(run.first),
                                          shares.begin() + static_cast<std::ptrdiff_t>(run.last) + 1);
-  return length >= kMinRefuted && !is_at_end && least < kClearlyFalse;
+  return length >= kMinRefuted && !is_at_junction && least < kClearlyFalse;
 }
 
 // The longest runs of points that fewer than min_share of the images show as wire.
@@ -79,16 +82,16 @@ std::vector<Run> LowRuns(const std::vector<double>& shares, double min_share) {
 }
 
 // What is left of all points without the false runs.
-std::vector<Run> RunsKept(const Polyline& points, const std::vector<double>& shares,
-                          double min_share) {
+std::vector<Run> RunsKept(const SkeletonGraph& skeleton, const SkeletonEdge& edge,
+                          const std::vector<double>& shares, double min_share) {
   std::vector<Run> kept;
   size_t first = 0;
   for (const Run& run : LowRuns(shares, min_share)) {
-    if (!IsFalse(points, shares, run)) continue;
+    if (!IsFalse(skeleton, edge, shares, run)) continue;
     if (run.first > first) kept.push_back({first, run.first - 1});
     first = run.last + 1;
   }
-  if (first < points.size()) kept.push_back({first, points.size() - 1});
+  if (first < edge.points.size()) kept.push_back({first, edge.points.size() - 1});
   return kept;
 }
 
@@ -261,7 +264,7 @@ double DropRefutedParts(const WireSilhouettes& silhouettes, const SilhouetteOpti
   for (const EdgeId id : skeleton.Edges()) {
     const Polyline& points = skeleton.edge(id).points;
     const std::vector<Run> runs =
-        RunsKept(points, SharesAlong(silhouettes, points), options.min_share);
+        RunsKept(skeleton, skeleton.edge(id), SharesAlong(silhouettes, points), options.min_share);
     if (runs.size() == 1 && runs[0].first == 0 && runs[0].last + 1 == points.size()) continue;
     KeepRuns(id, runs, skeleton);
   }
