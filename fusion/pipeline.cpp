@@ -277,6 +277,19 @@ bool RefineInColour(const Sequence& given, RunContext& run, Reconstruction& resu
   return true;
 }
 
+// Deviation: wires that depth has missed and colour images show.
+void AddMissedWires(RunContext& run, Reconstruction& result) {
+  if (!run.options.completion.enabled || result.skeleton.empty()) return;
+  const StageLog::Timer timer(run.log, "wire completion");
+  CompletedWires completed =
+      CompleteWires(result.skeleton, result.sequence, run.options.completion);
+  result.skeleton = std::move(completed.skeleton);
+  run.log.Count("wire completion", "added", completed.added);
+  run.log.Count("wire completion", "rejected", completed.rejected);
+  run.observer.OnProgress("wire completion", 1, 1);
+  run.observer.OnGraph("completed", result.skeleton);
+}
+
 // In how many images every place of the result was looked for and seen.
 void LookForEvidence(RunContext& run, Reconstruction& result) {
   const StageLog::Timer timer(run.log, "evidence");
@@ -300,6 +313,7 @@ Reconstruction ReconstructThinParts(const TsdfVolume& volume, const Sequence& se
     result.skeleton = FuseBundleSkeletons(scan, run);
   }
   AssignMeasuredRadii(run, result);
+  AddMissedWires(run, result);
   if (RefineInColour(sequence, run, result)) AssignMeasuredRadii(run, result);
   DropThickParts(run.options.radius, result.skeleton);
   LookForEvidence(run, result);

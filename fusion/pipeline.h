@@ -16,6 +16,7 @@
 #include "fusion/stage_log.h"
 #include "fusion/tsdf_volume.h"
 #include "fusion/view_evidence.h"
+#include "fusion/wire_completion.h"
 #include "graph/l1_contraction.h"
 #include "graph/ridge_skeleton.h"
 #include "graph/skeleton_graph.h"
@@ -42,6 +43,7 @@ struct PipelineOptions {
   L1Options l1;
   SkeletonFusionOptions fusion;
   RadiusOptions radius;
+  WireCompletionOptions completion;
   ColourAdjustmentOptions colour_adjustment;
   SilhouetteOptions silhouettes;
   ViewEvidenceOptions evidence;

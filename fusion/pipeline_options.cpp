@@ -47,6 +47,7 @@ PipelineOptions BestOptions() {
   options.registration.max_points = 700;
   options.registration.max_iterations = 12;
   options.axis_depth = 0.8;
+  options.completion.enabled = true;
   options.colour_adjustment.enabled = true;
   options.radius.max_mean_diameter = 0.016;
   return options;
@@ -95,6 +96,8 @@ void VisitOptions(PipelineOptions& options, OptionVisitor& visitor) {
   VisitOptions(options.fusion.smoothing, visitor);
   visitor.BeginSection("radius");
   VisitOptions(options.radius, visitor);
+  visitor.BeginSection("wire_completion");
+  VisitOptions(options.completion, visitor);
   visitor.BeginSection("colour_adjustment");
   VisitOptions(options.colour_adjustment, visitor);
   visitor.BeginSection("silhouettes");

@@ -9,8 +9,7 @@ namespace curvefusion {
 
 namespace {
 
-constexpr double kMinDepth = 0.05;          // metres
-constexpr double kMaxForeshortening = 0.9;  // FINDINGS of the curve adjustment: beyond it, ends
+constexpr double kMinDepth = 0.05;  // metres
 
 struct ImagePoint {
   Vec2 pixel;
@@ -72,11 +71,13 @@ PointCells ProjectNeighbours(const std::vector<CurveSample>& neighbours,
   return cells;
 }
 
-double Clearance(const ProjectedSample& sample, const PointCells& cells, double max_clearance_px) {
+double Clearance(const ProjectedSample& sample, const PointCells& cells, double max_clearance_px,
+                 double max_along_px) {
   double clearance = max_clearance_px;
   cells.VisitAround(sample.pixel, [&](const ImagePoint& point) {
-    const double distance = (point.pixel - sample.pixel).norm();
-    if (distance >= clearance) return;
+    const Vec2 offset = point.pixel - sample.pixel;
+    const double distance = offset.norm();
+    if (distance >= clearance || std::abs(offset.dot(sample.tangent)) > max_along_px) return;
     const double along_px = std::abs(point.arc_length - sample.arc_length) * point.px_per_metre;
     // Foreshortening below .9 stretches the way along the curve 2.3 times at most.
     const bool is_same_strand = point.edge == sample.edge && along_px < 3 * distance + 6;
@@ -88,7 +89,7 @@ double Clearance(const ProjectedSample& sample, const PointCells& cells, double 
 // Fills what does not depend on other samples; false where the sample cannot be measured.
 bool ProjectSample(const CurveSample& sample, const PinholeCamera& camera,
                    const RigidTransform& T_camera_world, double border_px,
-                   ProjectedSample& projected) {
+                   double max_foreshortening, ProjectedSample& projected) {
   const Vec3 p = T_camera_world * sample.position;
   if (p.z() < kMinDepth) return false;
   const Vec2 pixel = camera.Project(p);
@@ -98,7 +99,7 @@ bool ProjectSample(const CurveSample& sample, const PinholeCamera& camera,
   }
   const Vec3 tangent = T_camera_world.linear() * sample.tangent;
   const Vec3 ray = p.normalized();
-  if (std::abs(ray.dot(tangent)) > kMaxForeshortening) return false;
+  if (std::abs(ray.dot(tangent)) > max_foreshortening) return false;
   const auto jacobian = ProjectionJacobian(camera, p);
   projected.edge = sample.edge;
   projected.arc_length = sample.arc_length;
@@ -147,14 +148,17 @@ std::vector<ProjectedSample> ProjectSamples(const std::vector<CurveSample>& samp
                                             const std::vector<CurveSample>& neighbours,
                                             const PinholeCamera& camera,
                                             const RigidTransform& T_camera_world, double border_px,
-                                            double max_clearance_px) {
+                                            double max_clearance_px, const StripSight& sight) {
   const PointCells cells = ProjectNeighbours(neighbours, camera, T_camera_world, max_clearance_px);
   std::vector<ProjectedSample> visible;
   for (size_t i = 0; i < samples.size(); ++i) {
     ProjectedSample projected;
-    if (!ProjectSample(samples[i], camera, T_camera_world, border_px, projected)) continue;
+    if (!ProjectSample(samples[i], camera, T_camera_world, border_px, sight.max_foreshortening,
+                       projected)) {
+      continue;
+    }
     projected.index = static_cast<int>(i);
-    projected.clearance_px = Clearance(projected, cells, max_clearance_px);
+    projected.clearance_px = Clearance(projected, cells, max_clearance_px, sight.max_along_px);
     visible.push_back(projected);
   }
   return visible;

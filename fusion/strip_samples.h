@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "capture/sequence.h"
@@ -36,8 +37,16 @@ struct ProjectedSample {
 /// The derivative of the pixel by the point in the camera's frame.
 Eigen::Matrix<double, 2, 3> ProjectionJacobian(const PinholeCamera& camera, const Vec3& p_camera);
 
+/// Which samples can be looked at, and which other strands are in the way.
+struct StripSight {
+  double max_foreshortening = 0.9;  ///< beyond it curves are seen nearly end on
+  /// Strands farther away than this along the sample's curve do not count, pixels: those that cross
+  /// it beside the sample are not in the way of what is read across it.
+  double max_along_px = std::numeric_limits<double>::infinity();
+};
+
 /// Projects `samples` into a camera. Left out are samples behind or outside the image (or nearer to
-/// its border than `border_px`) and those seen nearly end on (foreshortened by more than .9).
+/// its border than `border_px`) and those seen nearly end on.
 /// `neighbours` are samples of the same skeleton at a step of a few millimetres; clearances look at
 /// them and are exact up to `max_clearance_px`. A neighbour on the same edge belongs to another
 /// strand when it is much farther along the curve than across the image.
@@ -45,6 +54,6 @@ std::vector<ProjectedSample> ProjectSamples(const std::vector<CurveSample>& samp
                                             const std::vector<CurveSample>& neighbours,
                                             const PinholeCamera& camera,
                                             const RigidTransform& T_camera_world, double border_px,
-                                            double max_clearance_px);
+                                            double max_clearance_px, const StripSight& sight = {});
 
 }  // namespace curvefusion

@@ -1,0 +1,267 @@
+#include "graph/branch_continuations.h"
+
+#include <algorithm>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "graph/hermite_bridge.h"
+#include "kernel/point_grid.h"
+#include "kernel/quantile.h"
+
+namespace curvefusion {
+
+namespace {
+
+constexpr double kStep = 0.0015;
+// A branch that nothing leaves its node opposite to within this angle ends there.
+constexpr double kOpenCosine = 0.7;
+// Curves that run along the way do not cross it.
+constexpr double kParallelCosine = 0.8;
+constexpr double kFacingCosine = 0.85;
+constexpr double kLeastBranch = 0.012;
+// At the very end of a branch the ridges of other wires draw it sideways.
+constexpr double kBlurred = 0.006;
+
+// The end of a branch that no other continues.
+struct OpenEnd {
+  NodeId node = -1;
+  EdgeId edge = -1;
+  Vec3 position;
+  Vec3 outward;  ///< unit
+};
+
+// A point of a curve, with its direction.
+struct CurvePoint {
+  EdgeId edge;
+  double arc_length;
+  Vec3 tangent;
+};
+
+struct CurvePoints {
+  std::vector<Vec3> positions;
+  std::vector<CurvePoint> points;
+};
+
+Vec3 OutwardDirection(const SkeletonGraph& graph, NodeId node, EdgeId id, double fit_length) {
+  Polyline points = graph.edge(id).points;
+  if (graph.edge(id).nodes[0] != node) std::reverse(points.begin(), points.end());
+  const std::vector<double> arc_length = CumulativeLength(points);
+  const Vec3 outer = PointAt(points, arc_length, std::min(kBlurred, 0.25 * arc_length.back()));
+  const Vec3 inner = PointAt(points, arc_length, kBlurred + fit_length);
+  const Vec3 chord = outer - inner;
+  return chord.norm() > 0 ? Vec3(chord.normalized()) : Vec3(Vec3::Zero());
+}
+
+std::vector<OpenEnd> FindOpenEnds(const SkeletonGraph& graph, const ContinuationOptions& options) {
+  std::vector<OpenEnd> open;
+  for (const NodeId node : graph.Nodes()) {
+    std::vector<OpenEnd> ends;
+    for (const EdgeId id : graph.IncidentEdges(node)) {
+      const auto [a, b] = graph.edge(id).nodes;
+      if (a == b) continue;
+      ends.push_back(
+          {node, id, graph.position(node), OutwardDirection(graph, node, id, options.fit_length)});
+    }
+    for (const OpenEnd& end : ends) {
+      const bool goes_on = std::any_of(ends.begin(), ends.end(), [&](const OpenEnd& next) {
+        return -next.outward.dot(end.outward) > kOpenCosine;
+      });
+      if (!goes_on && Length(graph.edge(end.edge).points) > kLeastBranch) open.push_back(end);
+    }
+  }
+  return open;
+}
+
+CurvePoints SampleCurves(const SkeletonGraph& graph) {
+  CurvePoints all;
+  for (const EdgeId id : graph.Edges()) {
+    const Polyline points = Resample(graph.edge(id).points, kStep);
+    const std::vector<double> arc_length = CumulativeLength(points);
+    const std::vector<Vec3> tangents = Tangents(points);
+    for (size_t i = 0; i < points.size(); ++i) {
+      all.positions.push_back(points[i]);
+      all.points.push_back({id, arc_length[i], tangents[i]});
+    }
+  }
+  return all;
+}
+
+// Looks straight ahead of open ends.
+class ContinuationSearch {
+ public:
+  ContinuationSearch(const SkeletonGraph& graph, const ContinuationOptions& options)
+      : graph_(graph),
+        options_(options),
+        open_(FindOpenEnds(graph, options)),
+        curves_(SampleCurves(graph)),
+        grid_(curves_.positions, MissAt(options.max_gap)) {}
+
+  const std::vector<OpenEnd>& open() const { return open_; }
+
+  // The nearer of what faces the end and what crosses its way.
+  std::optional<BranchContinuation> Find(const OpenEnd& end) const {
+    const int crossing = FirstAhead(end);
+    const OpenEnd* facing = NearestFacing(end);
+    if (crossing < 0 && facing == nullptr) return std::nullopt;
+    const double to_facing =
+        facing == nullptr ? 2 * options_.max_gap : (facing->position - end.position).norm();
+    if (crossing < 0 ||
+        to_facing < (curves_.positions[crossing] - end.position).norm() + options_.snap_distance) {
+      return BranchContinuation{
+          end.node, end.edge, Resample(Bridge(end, *facing), kStep), facing->node, {}};
+    }
+    const CurvePoint& point = curves_.points[crossing];
+    const NodeId node = NodeNear({point.edge, point.arc_length});
+    const Vec3& target = node >= 0 ? graph_.position(node) : curves_.positions[crossing];
+    if ((target - end.position).norm() < options_.min_gap) return std::nullopt;
+    return BranchContinuation{end.node,
+                              end.edge,
+                              Resample({end.position, target}, kStep),
+                              node,
+                              {point.edge, point.arc_length}};
+  }
+
+ private:
+  double MissAt(double distance) const {
+    return options_.base_miss + options_.miss_per_gap * distance;
+  }
+
+  // The end of an edge next to a place on it; -1 where there is none.
+  NodeId NodeNear(const CurveLocation& place) const {
+    const SkeletonEdge& edge = graph_.edge(place.edge);
+    if (place.arc_length <= options_.snap_distance) return edge.nodes[0];
+    return Length(edge.points) - place.arc_length <= options_.snap_distance ? edge.nodes[1] : -1;
+  }
+
+  // The point next to the way ahead of those it comes to first; -1 where there are none.
+  int FirstAhead(const OpenEnd& end) const {
+    for (double at = options_.min_gap; at <= options_.max_gap; at += kStep) {
+      const Vec3 p = end.position + at * end.outward;
+      int nearest = -1;
+      double least = MissAt(at);
+      grid_.ForEachWithin(p, MissAt(at), [&](int i, const Vec3& q) {
+        if (!IsAhead(end, i, q)) return;
+        const Vec3 d = q - end.position;
+        const double miss = (d - end.outward.dot(d) * end.outward).norm();
+        if (miss > least || (miss == least && i >= nearest)) return;
+        least = miss;
+        nearest = i;
+      });
+      if (nearest >= 0) return nearest;
+    }
+    return -1;
+  }
+
+  // What leaves the same node is left out near it.
+  bool IsAhead(const OpenEnd& end, int i, const Vec3& q) const {
+    const CurvePoint& point = curves_.points[i];
+    if (point.edge == end.edge || std::abs(point.tangent.dot(end.outward)) > kParallelCosine ||
+        (q - end.position).dot(end.outward) < options_.min_gap) {
+      return false;
+    }
+    const auto& nodes = graph_.edge(point.edge).nodes;
+    const bool is_neighbour = nodes[0] == end.node || nodes[1] == end.node;
+    return !is_neighbour || (q - end.position).norm() > 2 * options_.fit_length;
+  }
+
+  // The nearest open end that looks the other way and lies ahead.
+  const OpenEnd* NearestFacing(const OpenEnd& end) const {
+    const OpenEnd* nearest = nullptr;
+    double least = options_.max_gap;
+    for (const OpenEnd& other : open_) {
+      const Vec3 way = other.position - end.position;
+      const double distance = way.norm();
+      if (other.node == end.node || distance < options_.min_gap || distance >= least) continue;
+      const double cosine =
+          std::min({-other.outward.dot(end.outward), end.outward.dot(way) / distance,
+                    -other.outward.dot(way) / distance});
+      if (cosine < kFacingCosine) continue;
+      nearest = &other;
+      least = distance;
+    }
+    return nearest;
+  }
+
+  static Polyline Bridge(const OpenEnd& end, const OpenEnd& facing) {
+    return HermiteBridge(end.position, end.outward, facing.position, -facing.outward);
+  }
+
+  const SkeletonGraph& graph_;
+  const ContinuationOptions& options_;
+  std::vector<OpenEnd> open_;
+  CurvePoints curves_;
+  PointGrid grid_;
+};
+
+}  // namespace
+
+void VisitOptions(ContinuationOptions& options, OptionVisitor& visitor) {
+  visitor.Visit({"max_gap", "m", 0, 0.5,
+                 "Deviation: how far ahead of a branch that ends its wire is looked for."},
+                options.max_gap);
+  visitor.Visit(
+      {"min_gap", "m", 0.001, 0.5, "Deviation: shorter gaps are left to the closing of free ends."},
+      options.min_gap);
+  visitor.Visit({"base_miss", "m", 0, 0.1,
+                 "Deviation: the way ahead meets a curve that passes it at this distance."},
+                options.base_miss);
+  visitor.Visit({"miss_per_gap", "", 0, 1,
+                 "Deviation: by how much farther for each metre: directions are not exact."},
+                options.miss_per_gap);
+  visitor.Visit({"fit_length", "m", 0.001, 0.5,
+                 "Deviation: length of the end piece that gives the direction."},
+                options.fit_length);
+  visitor.Visit({"snap_distance", "m", 0, 0.1,
+                 "Deviation: a curve that is met this near to its end is met there."},
+                options.snap_distance);
+}
+
+std::vector<BranchContinuation> FindContinuations(const SkeletonGraph& graph,
+                                                  const ContinuationOptions& options) {
+  if (graph.empty()) return {};
+  const ContinuationSearch search(graph, options);
+  std::vector<BranchContinuation> found;
+  std::set<std::pair<NodeId, NodeId>> linked;
+  for (const OpenEnd& end : search.open()) {
+    auto continuation = search.Find(end);
+    if (!continuation) continue;
+    const auto pair = std::minmax(continuation->from, continuation->to);
+    if (continuation->to < 0 || linked.insert(pair).second) found.push_back(*continuation);
+  }
+  return found;
+}
+
+std::optional<BranchContinuation> Shifted(const SkeletonGraph& graph,
+                                          const BranchContinuation& continuation, double distance) {
+  if (continuation.to >= 0) return std::nullopt;
+  const std::vector<double> arc_lengths =
+      CumulativeLength(graph.edge(continuation.target.edge).points);
+  BranchContinuation shifted = continuation;
+  shifted.target.arc_length += distance;
+  if (shifted.target.arc_length < 0 || shifted.target.arc_length > arc_lengths.back()) {
+    return std::nullopt;
+  }
+  const Vec3 end =
+      PointAt(graph.edge(shifted.target.edge).points, arc_lengths, shifted.target.arc_length);
+  shifted.curve = Resample({continuation.curve.front(), end}, kStep);
+  return shifted;
+}
+
+void AddContinuations(SkeletonGraph& graph, const std::vector<BranchContinuation>& continuations,
+                      const ContinuationOptions& options) {
+  std::vector<LocationPair> places;
+  for (const BranchContinuation& continuation : continuations) {
+    const std::vector<double>& branch_radii = graph.edge(continuation.branch).radii;
+    const bool is_inside = continuation.to < 0;
+    const NodeId to = is_inside ? graph.AddNode(continuation.curve.back()) : continuation.to;
+    SkeletonEdge edge{{continuation.from, to}, continuation.curve, {}, {}};
+    if (!branch_radii.empty()) edge.radii.assign(edge.points.size(), Median(branch_radii));
+    const EdgeId added = graph.AddEdge(std::move(edge));
+    if (is_inside) places.push_back({{added, Length(continuation.curve)}, continuation.target});
+  }
+  JoinLocations(graph, places, options.snap_distance);
+  graph.DissolveDegree2Nodes();
+}
+
+}  // namespace curvefusion

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "graph/junctions.h"
+#include "graph/skeleton_graph.h"
+#include "kernel/options.h"
+
+namespace curvefusion {
+
+/// How far ahead of a branch that ends its wire may be thought to go on.
+struct ContinuationOptions {
+  double max_gap = 0.060;
+  double min_gap = 0.010;
+  double base_miss = 0.004;
+  double miss_per_gap = 0.15;
+  double fit_length = 0.020;
+  double snap_distance = 0.006;
+};
+void VisitOptions(ContinuationOptions& options, OptionVisitor& visitor);
+
+/// A curve that a wire may follow unseen: from the end of a branch on to another curve.
+struct BranchContinuation {
+  NodeId from = -1;
+  EdgeId branch = -1;    ///< what it continues
+  Polyline curve;        ///< from the node to where it ends, bit for bit
+  NodeId to = -1;        ///< where it ends; -1 for a place inside an edge
+  CurveLocation target;  ///< that place
+};
+
+/// Where wires may go on that end at a junction on one side of it, or freely: for each such branch
+/// the straight way ahead to the first curve that comes near it, or, where that runs on in the same
+/// direction from an open end of its own, the smooth curve between both ends. Nothing for branches
+/// that reach no curve within `max_gap`. Whether a wire is there has to be looked up elsewhere. Of
+/// two ends that face each other one continuation is returned. Costs O(n log n) for n points.
+std::vector<BranchContinuation> FindContinuations(const SkeletonGraph& graph,
+                                                  const ContinuationOptions& options);
+
+/// A continuation with the place where it meets the other edge moved along that by a distance,
+/// metres of either sign; nothing where it would leave the edge or ends at a node.
+std::optional<BranchContinuation> Shifted(const SkeletonGraph& graph,
+                                          const BranchContinuation& continuation, double distance);
+
+/// Adds continuations as edges with the radius of their branch where that has one: their far ends
+/// become nodes of the edges they reach. Handles of split edges become invalid.
+void AddContinuations(SkeletonGraph& graph, const std::vector<BranchContinuation>& continuations,
+                      const ContinuationOptions& options);
+
+}  // namespace curvefusion

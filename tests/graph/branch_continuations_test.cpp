@@ -1,0 +1,111 @@
+#include "graph/branch_continuations.h"
+
+#include <gtest/gtest.h>
+
+#include "graph/validate.h"
+#include "tests/graph/graph_fixtures.h"
+
+namespace curvefusion {
+namespace {
+
+// A bar along x, two branches that end at it from above, at x = 0 and .03, and a bar 40 mm below.
+SkeletonGraph Comb() {
+  SkeletonGraph graph;
+  const NodeId left = graph.AddNode({-0.05, 0, 0});
+  const NodeId right = graph.AddNode({0.08, 0, 0});
+  const NodeId a = graph.AddNode({0, 0, 0});
+  const NodeId b = graph.AddNode({0.03, 0, 0});
+  const NodeId above_a = graph.AddNode({0, 0.05, 0});
+  const NodeId above_b = graph.AddNode({0.03, 0.05, 0});
+  for (const auto& [from, to] :
+       {std::pair{left, a}, {a, b}, {b, right}, {a, above_a}, {b, above_b}}) {
+    Connect(graph, from, to, StraightLine(graph.position(from), graph.position(to)));
+  }
+  graph.AddPolyline(StraightLine({-0.05, -0.04, 0}, {0.08, -0.04, 0}));
+  return graph;
+}
+
+std::vector<BranchContinuation> Downward(const SkeletonGraph& graph) {
+  std::vector<BranchContinuation> downward;
+  for (BranchContinuation& way : FindContinuations(graph, {})) {
+    if (way.curve.back().y() < way.curve.front().y() - 0.02) downward.push_back(way);
+  }
+  return downward;
+}
+
+TEST(FindContinuations, LeadFromBranchesThatEndToTheCurveAhead) {
+  const SkeletonGraph graph = Comb();
+  const auto ways = Downward(graph);
+  ASSERT_EQ(ways.size(), 2u);
+  for (size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(ways[i].curve.front(), graph.position(ways[i].from));
+    EXPECT_EQ(ways[i].to, -1);
+    // The bar below is sampled every 1.5 mm.
+    EXPECT_LT((ways[i].curve.back() - Vec3(i == 0 ? 0 : 0.03, -0.04, 0)).norm(), 0.0016);
+  }
+}
+
+TEST(FindContinuations, SparesWiresThatGoOn) {
+  SkeletonGraph graph = Comb();
+  // The first branch goes on already, to a free end that reaches for nothing.
+  const NodeId end = graph.AddNode({0, -0.12, 0});
+  NodeId a = -1;
+  for (const NodeId node : graph.Nodes()) {
+    if (graph.position(node) == Vec3(0, 0, 0)) a = node;
+  }
+  Connect(graph, a, end, StraightLine({0, 0, 0}, {0, -0.12, 0}));
+  const auto ways = Downward(graph);
+  ASSERT_EQ(ways.size(), 1u);
+  EXPECT_NEAR(ways[0].curve.front().x(), 0.03, 1e-12);
+}
+
+TEST(FindContinuations, LeadToAnEndThatFacesOnce) {
+  SkeletonGraph graph;
+  graph.AddPolyline(StraightLine({-0.06, 0, 0}, {0, 0, 0}));
+  graph.AddPolyline(StraightLine({0.04, 0.002, 0}, {0.1, 0.002, 0}));
+  const auto ways = FindContinuations(graph, {});
+  ASSERT_EQ(ways.size(), 1u);
+  EXPECT_GE(ways[0].to, 0);
+  EXPECT_EQ(ways[0].curve.back(), graph.position(ways[0].to));
+}
+
+TEST(FindContinuations, ReachNoFartherThanTheyMay) {
+  SkeletonGraph graph = Comb();
+  ContinuationOptions options;
+  options.max_gap = 0.03;
+  EXPECT_TRUE(FindContinuations(graph, options).empty());
+  EXPECT_TRUE(FindContinuations({}, {}).empty());
+}
+
+TEST(AddContinuations, MakeCyclesOfAComb) {
+  SkeletonGraph graph = Comb();
+  for (const EdgeId id : graph.Edges()) {
+    const SkeletonEdge& edge = graph.edge(id);
+    graph.SetCurve(id, edge.points, std::vector<double>(edge.points.size(), 0.002));
+  }
+  EXPECT_EQ(graph.CycleRank(), 0);
+  const auto ways = Downward(graph);
+  AddContinuations(graph, ways, {});
+  EXPECT_EQ(graph.CycleRank(), 1);
+  EXPECT_EQ(graph.ComponentCount(), 1);
+  EXPECT_EQ(CountDegree(graph, 4), 2);
+  EXPECT_EQ(CountDegree(graph, 3), 2);
+  for (const EdgeId id : graph.Edges()) {
+    for (const double radius : graph.edge(id).radii) EXPECT_DOUBLE_EQ(radius, 0.002);
+    EXPECT_EQ(graph.edge(id).radii.size(), graph.edge(id).points.size());
+  }
+  EXPECT_NO_THROW(Validate(graph, 1e-6, "comb"));
+}
+
+TEST(ShiftedContinuation, MovesItsEndAlongTheOtherEdge) {
+  const SkeletonGraph graph = Comb();
+  const BranchContinuation way = Downward(graph).front();
+  const auto shifted = Shifted(graph, way, 0.006);
+  ASSERT_TRUE(shifted.has_value());
+  EXPECT_EQ(shifted->curve.front(), way.curve.front());
+  EXPECT_NEAR((shifted->curve.back() - way.curve.back()).norm(), 0.006, 1e-12);
+  EXPECT_FALSE(Shifted(graph, way, 1).has_value());
+}
+
+}  // namespace
+}  // namespace curvefusion
