@@ -7,9 +7,6 @@
 #include "capture/frame_stream.h"
 #include "fusion/axis_correction.h"
 #include "fusion/ray_noise.h"
-#include "fusion/silhouette_seeds.h"
-#include "graph/intersections.h"
-#include "graph/merge.h"
 
 namespace curvefusion {
 
@@ -227,31 +224,27 @@ void ReportAdjustment(const ColourAdjustment& adjusted, StageLog& log) {
   if (!adjusted.skipped.empty()) log.Remark(stage, "skipped: " + adjusted.skipped);
 }
 
-// Deviation: what images look past is dropped, and gaps that they show as wire are closed.
+// Deviation: what images look past is dropped, and what they show besides is added.
 void CompleteBySilhouettes(const ColourAdjustment& adjusted, RunContext& run,
                            Reconstruction& result) {
-  const SilhouetteOptions& options = run.options.silhouettes;
-  if (options.max_frames == 0) return;
+  if (run.options.silhouettes.max_frames == 0) return;
   const char* stage = "silhouettes";
   const StageLog::Timer timer(run.log, stage);
   const WireSilhouettes silhouettes(result.sequence, adjusted.frames, adjusted.posteriors,
-                                    options.max_frames);
+                                    run.options.silhouettes.max_frames);
   if (!TellWires(silhouettes, result.skeleton)) {
-    run.log.Remark(stage, "skipped: images do not show the curves as wire throughout");
+    run.log.Remark(stage, "skipped: the images do not show the curves as wire throughout");
     return;
   }
-  run.log.Count(stage, "removed, m",
-                DropRefutedParts(silhouettes, options, result.skeleton));
-  RerouteCurves(silhouettes, options, result.skeleton);
-  run.log.Count(stage, "seeds", AddUnexplainedWires(silhouettes, result.skeleton));
-  run.log.Count(stage, "bridges", BridgeOpenEnds(silhouettes, options, result.skeleton));
-  run.log.Count(stage, "joins", JoinEndsToSides(silhouettes, options, result.skeleton));
-  DropShortLoops(result.skeleton, run.options.ridge.network.min_loop);
-  PruneSpurs(result.skeleton, run.options.ridge.network.min_spur);
-  DropSmallComponents(result.skeleton, run.options.ridge.min_component);
-  ResolveIntersections(result.skeleton, 0);
+  const SilhouetteChanges changes =
+      CorrectTopology(silhouettes, run.options.silhouettes, result.skeleton);
+  TidyRidgeSkeleton(result.skeleton, run.options.ridge);
+  run.log.Count(stage, "removed, m", changes.removed);
+  run.log.Count(stage, "found", changes.found);
+  run.log.Count(stage, "bridges", changes.bridges);
+  run.log.Count(stage, "joins", changes.joins);
   run.observer.OnProgress(stage, 1, 1);
-  run.observer.OnGraph("completed", result.skeleton);
+  run.observer.OnGraph("corrected", result.skeleton);
 }
 
 // Deviation: curves of known radius and poses as exact as the colour images show them. False where

@@ -18,15 +18,16 @@ namespace {
 constexpr double kGrid = 0.0015;         // metres
 constexpr double kMiddleRadius = 0.003;  // metres; about that of a wire
 constexpr double kStep = 0.003;          // metres
+constexpr double kCorridor = 0.006;      // metres beside the guide
+constexpr double kMaxDetour = 1.3;
 
 using Cell = std::array<int, 3>;
 
 // The cells of a grid around a curve, looked at when they are asked for.
 class Corridor {
  public:
-  Corridor(const WireSilhouettes& silhouettes, const Polyline& guide, double radius,
-           double min_share)
-      : silhouettes_(silhouettes), guide_(guide), radius_(radius), min_share_(min_share) {}
+  Corridor(const WireSilhouettes& silhouettes, const Polyline& guide, double min_share)
+      : silhouettes_(silhouettes), guide_(guide), min_share_(min_share) {}
 
   Vec3 PositionOf(const Cell& cell) const {
     return guide_.front() + kGrid * Vec3(cell[0], cell[1], cell[2]);
@@ -43,7 +44,7 @@ class Corridor {
     const auto [known, is_new] = costs_.try_emplace(cell, std::numeric_limits<double>::infinity());
     if (is_new) {
       const Vec3 p = PositionOf(cell);
-      const double share_of_radius = Project(guide_, p).distance / radius_;
+      const double share_of_radius = Project(guide_, p).distance / kCorridor;
       if (share_of_radius <= 1 && silhouettes_.Share(p) >= min_share_)
         known->second = 1 + share_of_radius * share_of_radius;
     }
@@ -55,7 +56,6 @@ class Corridor {
  private:
   const WireSilhouettes& silhouettes_;
   const Polyline& guide_;
-  double radius_;
   double min_share_;
   std::map<Cell, double> costs_;
 };
@@ -120,9 +120,8 @@ Vec3 MiddleAround(Corridor& corridor, const Vec3& p) {
 }  // namespace
 
 std::optional<Polyline> PathThroughSilhouettes(const WireSilhouettes& silhouettes,
-                                               const Polyline& guide, double corridor,
-                                               double min_share) {
-  Corridor cells(silhouettes, guide, corridor, min_share);
+                                               const Polyline& guide, double min_share) {
+  Corridor cells(silhouettes, guide, min_share);
   Polyline path{guide.front()};
   for (const Cell& cell : ShortestWay(cells, guide)) path.push_back(cells.PositionOf(cell));
   if (path.size() < 2) return std::nullopt;
@@ -135,7 +134,10 @@ std::optional<Polyline> PathThroughSilhouettes(const WireSilhouettes& silhouette
       next[i] = 0.25 * path[i - 1] + 0.5 * path[i] + 0.25 * path[i + 1];
     path = std::move(next);
   }
-  return Length(path) > 0 ? std::optional(Resample(path, kStep)) : std::nullopt;
+  const double length = Length(path);
+  // Ends may lie a wire beside where they should.
+  if (length <= 0 || length > kMaxDetour * Length(guide) + kCorridor) return std::nullopt;
+  return Resample(path, kStep);
 }
 
 }  // namespace curvefusion

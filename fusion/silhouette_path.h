@@ -7,12 +7,11 @@
 
 namespace curvefusion {
 
-/// The shortest way from the front of `guide` to its back, no farther than `corridor` metres from
-/// it, through places that at least min_share of the images show as wire; then moved to the middle
-/// of those places. The ends are kept bit for bit. Nothing where there is none. Costs O(length
-/// corridor^2 views).
+/// The shortest way from the front of `guide` to its back, no farther than two wires beside it,
+/// through places that at least min_share of the images show as wire; then moved to the middle of
+/// those places. The ends are kept bit for bit. Nothing where there is none, or only a detour.
+/// Costs O(length of the guide x views).
 std::optional<Polyline> PathThroughSilhouettes(const WireSilhouettes& silhouettes,
-                                               const Polyline& guide, double corridor,
-                                               double min_share);
+                                               const Polyline& guide, double min_share);
 
 }  // namespace curvefusion

@@ -17,16 +17,15 @@ namespace curvefusion {
 
 namespace {
 
-constexpr double kMargin = 0.02;        // metres around the skeleton
-constexpr double kRoot = 0.032;         // metres; side of the largest cells
-constexpr double kLeaf = 0.002;         // metres; a wire is a few of them thick
+constexpr double kMargin = 0.02;  // metres around the skeleton
+constexpr double kRoot = 0.032;   // metres; side of the largest cells
+constexpr double kLeaf = 0.002;   // metres; a wire is a few of them thick
 constexpr double kMinShare = 0.97;
 constexpr double kMinUnexplained = 0.06;  // of the views
-constexpr double kBlurPx = 2.5;         // colour runs so far beyond a wire's outline
-constexpr double kLink = 0.0045;        // metres
+constexpr double kBlurPx = 2.5;           // colour runs so far beyond a wire's outline
+constexpr double kLink = 0.0045;          // metres
 constexpr size_t kMinPlaces = 6;
-constexpr double kMinLength = 0.02;     // metres
-constexpr double kCorridor = 0.006;     // metres
+constexpr double kMinLength = 0.02;  // metres
 
 // Distances in pixels to the nearest wire, and to the nearest wire that no curve accounts for.
 struct ViewDistances {
@@ -77,7 +76,8 @@ class CellSearch {
       return;
     }
     for (int corner = 0; corner < 8; ++corner)
-      Search(centre + 0.25 * side * Vec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1),
+      Search(centre +
+                 0.25 * side * Vec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1),
              0.5 * side, places);
   }
 
@@ -167,8 +167,8 @@ bool IsThin(const WireSilhouettes& silhouettes, const Polyline& curve, double ra
     for (int k = 0; k < kDirections; ++k) {
       const double angle = 2 * M_PI * k / kDirections;
       ++beside;
-      free += silhouettes.Share(curve[i] + 3 * radius * (std::cos(angle) * u + std::sin(angle) * v)) <
-                      kMinShare
+      free += silhouettes.Share(
+                  curve[i] + 3 * radius * (std::cos(angle) * u + std::sin(angle) * v)) < kMinShare
                   ? 1
                   : 0;
     }
@@ -176,30 +176,43 @@ bool IsThin(const WireSilhouettes& silhouettes, const Polyline& curve, double ra
   return 4 * free >= 3 * beside;
 }
 
+// Whether most of a curve is farther from all others than wires that touch, and a little more: a
+// curve may lie beside its wire.
+bool IsApart(const SkeletonGraph& skeleton, const Polyline& curve, double radius) {
+  int near = 0;
+  for (const Vec3& p : curve) {
+    const std::vector<EdgeId> edges = skeleton.Edges();
+    near += std::any_of(edges.begin(), edges.end(), [&](EdgeId id) {
+      return Project(skeleton.edge(id).points, p).distance < 2.5 * radius;
+    });
+  }
+  return 3 * near <= static_cast<int>(curve.size());
+}
+
 }  // namespace
 
-int AddUnexplainedWires(const WireSilhouettes& silhouettes, SkeletonGraph& skeleton) {
+std::vector<FoundPiece> AddUnexplainedWires(const WireSilhouettes& silhouettes,
+                                            SkeletonGraph& skeleton) {
   std::vector<double> radii;
   for (const EdgeId id : skeleton.Edges()) {
     const SkeletonEdge& edge = skeleton.edge(id);
     radii.insert(radii.end(), edge.radii.begin(), edge.radii.end());
   }
-  if (radii.empty()) return 0;
+  if (radii.empty()) return {};
   const double radius = Median(std::move(radii));
-  int count = 0;
+  std::vector<FoundPiece> pieces;
   for (const std::vector<Vec3>& cluster : Clusters(UnexplainedPlaces(silhouettes, skeleton))) {
     const Polyline line = LineThrough(cluster);
     if (Length(line) < kMinLength) continue;
-    const std::optional<Polyline> curve =
-        PathThroughSilhouettes(silhouettes, line, kCorridor, kMinShare);
-    if (!curve || !IsThin(silhouettes, *curve, radius)) continue;
-    skeleton.AddEdge({{skeleton.AddNode(curve->front()), skeleton.AddNode(curve->back())},
-                      *curve,
-                      std::vector<double>(curve->size(), radius),
-                      {}});
-    ++count;
+    const std::optional<Polyline> curve = PathThroughSilhouettes(silhouettes, line, kMinShare);
+    if (!curve || !IsThin(silhouettes, *curve, radius) || !IsApart(skeleton, *curve, radius))
+      continue;
+    const NodeId front = skeleton.AddNode(curve->front());
+    const NodeId back = skeleton.AddNode(curve->back());
+    skeleton.AddEdge({{front, back}, *curve, std::vector<double>(curve->size(), radius), {}});
+    pieces.push_back({{front, back}, Length(*curve)});
   }
-  return count;
+  return pieces;
 }
 
 }  // namespace curvefusion

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fusion/silhouette_bridges.h"
 #include "fusion/wire_silhouettes.h"
 #include "graph/skeleton_graph.h"
 #include "kernel/options.h"
@@ -11,33 +12,27 @@ namespace curvefusion {
 struct SilhouetteOptions {
   int max_frames = 60;
   double min_share = 0.7;
-  double max_bridge = 0.1;
-  double min_bridge_share = 0.9;
+  SilhouetteBridgeOptions bridges;
 };
 void VisitOptions(SilhouetteOptions& options, OptionVisitor& visitor);
+
+/// What has been changed.
+struct SilhouetteChanges {
+  double removed = 0;  ///< metres of curve
+  int found = 0;       ///< pieces of wire that no curve accounted for
+  int bridges = 0;     ///< between ends
+  int joins = 0;       ///< of an end to the side of a curve
+};
 
 /// Whether the silhouettes tell the wires: most of the skeleton is seen as wire nearly always.
 bool TellWires(const WireSilhouettes& silhouettes, const SkeletonGraph& skeleton);
 
-/// Removes what images look past: stretches of edges that less than min_share of the images show as
-/// wire, with the stubs that remain of short edges. Returns the length removed, metres.
-double DropRefutedParts(const WireSilhouettes& silhouettes, const SilhouetteOptions& options,
-                        SkeletonGraph& skeleton);
-
-/// Leads stretches of edges that lie beside their wire through places that at least
-/// min_bridge_share of the images show as wire, where such a way is near.
-void RerouteCurves(const WireSilhouettes& silhouettes, const SilhouetteOptions& options,
-                   SkeletonGraph& skeleton);
-
-/// Joins ends that nothing continues and that face each other (OpenEnds) where all of the curve
-/// between them is seen as wire and does not run along another edge. Bridges have the radii of the
-/// edges they continue. Returns how many there are.
-int BridgeOpenEnds(const WireSilhouettes& silhouettes, const SilhouetteOptions& options,
-                   SkeletonGraph& skeleton);
-
-/// Joins free ends to the curves that lie ahead of them, through places that are seen as wire.
-/// Returns how many there are.
-int JoinEndsToSides(const WireSilhouettes& silhouettes, const SilhouetteOptions& options,
-                    SkeletonGraph& skeleton);
+/// Makes the curves agree with the images: what the images look past is dropped, what lies beside
+/// its wire led back to it, wires that no curve accounts for are added, and ends joined where
+/// images show wire between them. Needs radii. Deviation: CurveFusion uses colour for ghosts and
+/// radii only, but depth shows wires side by side as one, and none at all that run along the line
+/// of sight.
+SilhouetteChanges CorrectTopology(const WireSilhouettes& silhouettes,
+                                  const SilhouetteOptions& options, SkeletonGraph& skeleton);
 
 }  // namespace curvefusion

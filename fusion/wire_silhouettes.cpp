@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "capture/frame_stream.h"
+#include "kernel/parallel.h"
 
 namespace curvefusion {
 
@@ -39,8 +40,7 @@ Image<float> FarthestAround(const DepthImage& depth) {
 
 WireSilhouettes::WireSilhouettes(const Sequence& sequence, const std::vector<int>& frames,
                                  const std::vector<PosteriorImage>& posteriors, int max_frames)
-    : depth_camera_(sequence.depth_camera),
-      color_camera_(sequence.color_camera) {
+    : depth_camera_(sequence.depth_camera), color_camera_(sequence.color_camera) {
   const std::vector<int> used = EvenlyThinned(frames, max_frames);
   ForEachFrame(sequence, used, {.depth = true, .color = false}, [&](const DecodedFrame& frame) {
     const auto place = std::lower_bound(frames.begin(), frames.end(), frame.index);
@@ -78,6 +78,14 @@ ViewCount WireSilhouettes::Count(const Vec3& p) const {
 double WireSilhouettes::Share(const Vec3& p) const {
   const ViewCount count = Count(p);
   return count.looked < kMinLooks ? 1 : static_cast<double>(count.seen) / count.looked;
+}
+
+std::vector<double> WireSilhouettes::SharesAlong(const Polyline& points) const {
+  constexpr int64_t kPointsPerChunk = 16;
+  std::vector<double> shares(points.size());
+  ParallelFor(0, static_cast<int64_t>(points.size()), kPointsPerChunk,
+              [&](int64_t i) { shares[i] = Share(points[i]); });
+  return shares;
 }
 
 }  // namespace curvefusion

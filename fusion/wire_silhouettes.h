@@ -5,18 +5,19 @@
 #include "capture/sequence.h"
 #include "fusion/view_evidence.h"
 #include "fusion/wire_posterior.h"
-#include "graph/skeleton_graph.h"
+#include "kernel/polyline.h"
 
 namespace curvefusion {
 
 /// The colour images in which wires have been told from what is behind them. A wire is seen as wire
-/// in every image that it lies in, whether it stands before the others or behind them; what is not a
-/// wire lies beside all of them in one image or another.
+/// in every image that it lies in, whether it stands before the others or behind them; what is not
+/// a wire lies beside all of them in one image or another.
 class WireSilhouettes {
  public:
-  /// `frames` of the sequence, whose poses and colour camera fit the curves, and for each how likely
-  /// its pixels are to show wire; at most max_frames of them are used. Decodes their depth images,
-  /// which tell where something large stands before a place; throws Error(kBadInput) like LoadDepth.
+  /// `frames` of the sequence, whose poses and colour camera fit the curves, and for each how
+  /// likely its pixels are to show wire; at most max_frames of them are used. Decodes their depth
+  /// images, which tell where something large stands before a place; throws Error(kBadInput) like
+  /// LoadDepth.
   WireSilhouettes(const Sequence& sequence, const std::vector<int>& frames,
                   const std::vector<PosteriorImage>& posteriors, int max_frames);
 
@@ -26,6 +27,9 @@ class WireSilhouettes {
 
   /// The share of the images that show wire at a place; 1 where too few were looked at to tell.
   double Share(const Vec3& p) const;
+
+  /// The same for each point of a curve.
+  std::vector<double> SharesAlong(const Polyline& points) const;
 
   /// One of the images.
   struct View {

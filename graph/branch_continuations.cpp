@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "graph/hermite_bridge.h"
+#include "graph/open_ends.h"
 #include "kernel/point_grid.h"
 #include "kernel/quantile.h"
 
@@ -14,22 +15,12 @@ namespace curvefusion {
 namespace {
 
 constexpr double kStep = 0.0015;
-// A branch that nothing leaves its node opposite to within this angle ends there.
-constexpr double kOpenCosine = 0.7;
 // Curves that run along the way do not cross it.
 constexpr double kParallelCosine = 0.8;
 constexpr double kFacingCosine = 0.85;
 constexpr double kLeastBranch = 0.012;
 // At the very end of a branch the ridges of other wires draw it sideways.
 constexpr double kBlurred = 0.006;
-
-// The end of a branch that no other continues.
-struct OpenEnd {
-  NodeId node = -1;
-  EdgeId edge = -1;
-  Vec3 position;
-  Vec3 outward;  ///< unit
-};
 
 // A point of a curve, with its direction.
 struct CurvePoint {
@@ -43,33 +34,12 @@ struct CurvePoints {
   std::vector<CurvePoint> points;
 };
 
-Vec3 OutwardDirection(const SkeletonGraph& graph, NodeId node, EdgeId id, double fit_length) {
-  Polyline points = graph.edge(id).points;
-  if (graph.edge(id).nodes[0] != node) std::reverse(points.begin(), points.end());
-  const std::vector<double> arc_length = CumulativeLength(points);
-  const Vec3 outer = PointAt(points, arc_length, std::min(kBlurred, 0.25 * arc_length.back()));
-  const Vec3 inner = PointAt(points, arc_length, kBlurred + fit_length);
-  const Vec3 chord = outer - inner;
-  return chord.norm() > 0 ? Vec3(chord.normalized()) : Vec3(Vec3::Zero());
-}
-
+// Ends of branches that are long enough to tell where they lead.
 std::vector<OpenEnd> FindOpenEnds(const SkeletonGraph& graph, const ContinuationOptions& options) {
-  std::vector<OpenEnd> open;
-  for (const NodeId node : graph.Nodes()) {
-    std::vector<OpenEnd> ends;
-    for (const EdgeId id : graph.IncidentEdges(node)) {
-      const auto [a, b] = graph.edge(id).nodes;
-      if (a == b) continue;
-      ends.push_back(
-          {node, id, graph.position(node), OutwardDirection(graph, node, id, options.fit_length)});
-    }
-    for (const OpenEnd& end : ends) {
-      const bool goes_on = std::any_of(ends.begin(), ends.end(), [&](const OpenEnd& next) {
-        return -next.outward.dot(end.outward) > kOpenCosine;
-      });
-      if (!goes_on && Length(graph.edge(end.edge).points) > kLeastBranch) open.push_back(end);
-    }
-  }
+  std::vector<OpenEnd> open = OpenEnds(graph, {kBlurred, options.fit_length});
+  std::erase_if(open, [&graph](const OpenEnd& end) {
+    return Length(graph.edge(end.edge).points) <= kLeastBranch;
+  });
   return open;
 }
 

@@ -11,6 +11,7 @@
 
 #include "graph/gap_evidence.h"
 #include "graph/hermite_bridge.h"
+#include "graph/open_ends.h"
 #include "kernel/point_grid.h"
 
 namespace curvefusion {
@@ -21,16 +22,9 @@ namespace {
 constexpr double kAttachedFactor = 2;
 // Where two ends continue each other this well the longer of their edges vouches for both.
 constexpr double kContinuing = 0.9;
-// A branch that nothing leaves its junction opposite to within this angle is open.
-constexpr double kOpenCosine = 0.7;
 
-struct FreeEnd {
-  NodeId node;
-  EdgeId edge;
-  Vec3 position;
-  Vec3 outward;
+struct FacingEnd : OpenEnd {
   double max_gap;  ///< farther it reaches in no direction
-  bool is_free;
 };
 
 // A point on a curve that an end may be joined to.
@@ -44,7 +38,7 @@ struct Join {
   int end;
   EdgeId edge;
   int index;
-  const FreeEnd* facing;  ///< what it continues; null for the side of a curve
+  const FacingEnd* facing;  ///< what it continues; null for the side of a curve
   bool operator<(const Join& other) const {
     return std::tie(cost, end, edge, index) <
            std::tie(other.cost, other.end, other.edge, other.index);
@@ -59,53 +53,36 @@ Polyline PointsFrom(const SkeletonGraph& graph, NodeId node, EdgeId id) {
   return points;
 }
 
-FreeEnd MakeEnd(const SkeletonGraph& graph, NodeId node, EdgeId id, const FreeEndOptions& options) {
-  const Polyline points = PointsFrom(graph, node, id);
-  const std::vector<double> arc_length = CumulativeLength(points);
-  const Vec3 inner = PointAt(points, arc_length, options.fit_length);
-  const double factor = graph.Degree(graph.OtherEnd(id, node)) >= 3 ? kAttachedFactor : 1;
-  return {node,
-          id,
-          points.front(),
-          (points.front() - inner).normalized(),
-          std::max(options.touch_distance, factor * options.max_gap_per_length * arc_length.back()),
-          graph.Degree(node) == 1};
+FacingEnd WithReach(const SkeletonGraph& graph, const OpenEnd& end, const FreeEndOptions& options) {
+  const double factor = graph.Degree(graph.OtherEnd(end.edge, end.node)) >= 3 ? kAttachedFactor : 1;
+  const double length = Length(graph.edge(end.edge).points);
+  return {end, std::max(options.touch_distance, factor * options.max_gap_per_length * length)};
 }
 
-std::vector<FreeEnd> FreeEnds(const SkeletonGraph& graph, const FreeEndOptions& options) {
-  std::vector<FreeEnd> ends;
+std::vector<FacingEnd> FreeEnds(const SkeletonGraph& graph, const FreeEndOptions& options) {
+  std::vector<FacingEnd> ends;
   for (const NodeId node : graph.Nodes()) {
     if (graph.Degree(node) != 1) continue;
-    ends.push_back(MakeEnd(graph, node, graph.IncidentEdges(node)[0], options));
+    ends.push_back(WithReach(graph, FreeEnd(graph, node, {.length = options.fit_length}), options));
   }
   return ends;
 }
 
 // By node, what an end may continue there: the free end, or the branches of a junction that nothing
 // leaves on the other side.
-using FacingEnds = std::vector<std::vector<FreeEnd>>;
+using FacingEnds = std::vector<std::vector<FacingEnd>>;
 
 FacingEnds FindFacingEnds(const SkeletonGraph& graph, const FreeEndOptions& options) {
   FacingEnds facing;
-  for (const NodeId node : graph.Nodes()) {
-    facing.resize(std::max<size_t>(facing.size(), node + 1));
-    std::vector<FreeEnd> branches;
-    for (const EdgeId id : graph.IncidentEdges(node)) {
-      branches.push_back(MakeEnd(graph, node, id, options));
-    }
-    for (const FreeEnd& branch : branches) {
-      const bool goes_on = std::any_of(branches.begin(), branches.end(), [&](const FreeEnd& next) {
-        return -next.outward.dot(branch.outward) > kOpenCosine;
-      });
-      if (!goes_on) facing[node].push_back(branch);
-    }
-  }
+  if (!graph.Nodes().empty()) facing.resize(graph.Nodes().back() + 1);
+  for (const OpenEnd& end : OpenEnds(graph, {.length = options.fit_length}))
+    facing[end.node].push_back(WithReach(graph, end, options));
   return facing;
 }
 
 // Length of the loop that joining an end to a point of a neighbouring edge would close; infinite
 // where the two edges share no node.
-double LoopLength(const SkeletonGraph& graph, const FreeEnd& end, const CurvePoint& target) {
+double LoopLength(const SkeletonGraph& graph, const FacingEnd& end, const CurvePoint& target) {
   const SkeletonEdge& from = graph.edge(end.edge);
   const SkeletonEdge& to = graph.edge(target.edge);
   const std::vector<double> arc_length = CumulativeLength(to.points);
@@ -132,12 +109,12 @@ NodeId NodeNear(const SkeletonGraph& graph, const CurvePoint& target, double dis
 
 // Whether a point of a curve lies just behind a free end of it that looks the other way than `end`:
 // then the two ends belong together, and the end must not run into the side of the other's tip.
-bool IsBehindFacingEnd(const SkeletonGraph& graph, const FreeEnd& end, const CurvePoint& target,
+bool IsBehindFacingEnd(const SkeletonGraph& graph, const FacingEnd& end, const CurvePoint& target,
                        const FacingEnds& facing, const FreeEndOptions& options) {
   const SkeletonEdge& edge = graph.edge(target.edge);
   return std::any_of(edge.nodes.begin(), edge.nodes.end(), [&](NodeId node) {
     if (node == end.node || graph.Degree(node) != 1) return false;
-    const FreeEnd& other = facing[node].front();
+    const FacingEnd& other = facing[node].front();
     return other.outward.dot(end.outward) < 0 &&
            (other.position - edge.points[target.index]).norm() < options.max_gap;
   });
@@ -150,7 +127,7 @@ double ReachAt(double cosine, double max_gap, double max_angle, double touch_dis
   return cosine > 0 ? std::max(reach, touch_distance) : reach;
 }
 
-double ReachForSide(const FreeEnd& end, const Vec3& p, const GapEvidence& evidence,
+double ReachForSide(const FacingEnd& end, const Vec3& p, const GapEvidence& evidence,
                     const FreeEndOptions& options) {
   const Vec3 gap = p - end.position;
   double reach = ReachAt(end.outward.dot(gap.normalized()), options.max_gap, options.max_angle,
@@ -162,7 +139,7 @@ double ReachForSide(const FreeEnd& end, const Vec3& p, const GapEvidence& eviden
 }
 
 // For a point next to the other end, which may lie ahead where the ends overlap.
-double ReachForFacing(const FreeEnd& end, const FreeEnd& other, const Vec3& p,
+double ReachForFacing(const FacingEnd& end, const FacingEnd& other, const Vec3& p,
                       const FreeEndOptions& options) {
   const Vec3 way = (p - end.position).normalized();
   const double cosine = std::min(end.outward.dot(way), -other.outward.dot(way));
@@ -175,10 +152,10 @@ double ReachForFacing(const FreeEnd& end, const FreeEnd& other, const Vec3& p,
 
 // What joining an end to a point costs: its length over how far the end may reach there; infinite
 // where it is not allowed.
-Join MakeJoin(const SkeletonGraph& graph, const std::vector<FreeEnd>& ends, int index,
+Join MakeJoin(const SkeletonGraph& graph, const std::vector<FacingEnd>& ends, int index,
               const CurvePoint& target, const FacingEnds& facing, const GapEvidence& evidence,
               const FreeEndOptions& options) {
-  const FreeEnd& end = ends[index];
+  const FacingEnd& end = ends[index];
   Join join{std::numeric_limits<double>::infinity(), index, target.edge, target.index, nullptr};
   const Vec3& p = graph.edge(target.edge).points[target.index];
   const double length = (p - end.position).norm();
@@ -190,7 +167,7 @@ Join MakeJoin(const SkeletonGraph& graph, const std::vector<FreeEnd>& ends, int 
     reach = ReachForSide(end, p, evidence, options);
   }
   if (node >= 0) {
-    for (const FreeEnd& other : facing[node]) {
+    for (const FacingEnd& other : facing[node]) {
       const double reach_for_it = ReachForFacing(end, other, p, options);
       if (reach_for_it <= reach || length > reach_for_it) continue;
       if (evidence.IsCrossed(end.position, other.position, {end.edge, other.edge})) continue;
@@ -204,7 +181,7 @@ Join MakeJoin(const SkeletonGraph& graph, const std::vector<FreeEnd>& ends, int 
   return join;
 }
 
-std::vector<Join> CandidateJoins(const SkeletonGraph& graph, const std::vector<FreeEnd>& ends,
+std::vector<Join> CandidateJoins(const SkeletonGraph& graph, const std::vector<FacingEnd>& ends,
                                  const FacingEnds& facing, const GapEvidence& evidence,
                                  const FreeEndOptions& options) {
   std::vector<Vec3> positions;
@@ -232,7 +209,7 @@ std::vector<Join> CandidateJoins(const SkeletonGraph& graph, const std::vector<F
 }
 
 // The cheapest joins such that each end is used once.
-std::vector<Join> SelectJoins(const SkeletonGraph& graph, const std::vector<FreeEnd>& ends,
+std::vector<Join> SelectJoins(const SkeletonGraph& graph, const std::vector<FacingEnd>& ends,
                               const FacingEnds& facing, const GapEvidence& evidence,
                               const FreeEndOptions& options) {
   std::map<NodeId, char> used;
@@ -262,9 +239,9 @@ Polyline WithStraightTip(const Polyline& points, double tip, double length) {
 }
 
 struct Bridge {
-  const FreeEnd* from;
+  const FacingEnd* from;
   NodeId to;
-  const FreeEnd* facing;
+  const FacingEnd* facing;
 };
 
 // On in the end's direction, and in that of what it continues there.
@@ -332,16 +309,16 @@ void StraightenTips(SkeletonGraph& graph, const FreeEndOptions& options) {
 
 void CloseFreeEnds(SkeletonGraph& graph, const FreeEndOptions& options,
                    const ObservedPoints& points) {
-  const std::vector<FreeEnd> ends = FreeEnds(graph, options);
+  const std::vector<FacingEnd> ends = FreeEnds(graph, options);
   if (ends.empty()) return;
   const FacingEnds facing = FindFacingEnds(graph, options);
   const std::vector<Join> joins = SelectJoins(
       graph, ends, facing, GapEvidence(graph, points, options.evidence_radius), options);
   std::vector<Bridge> bridges;
-  std::map<EdgeId, std::map<int, std::vector<const FreeEnd*>, std::greater<>>> splits;
+  std::map<EdgeId, std::map<int, std::vector<const FacingEnd*>, std::greater<>>> splits;
   for (const Join& join : joins) {
     const NodeId node = NodeNear(graph, {join.edge, join.index}, options.snap_distance);
-    const FreeEnd* from = &ends[join.end];
+    const FacingEnd* from = &ends[join.end];
     if (node >= 0) bridges.push_back({from, node, join.facing});
     if (node < 0) splits[join.edge][join.index].push_back(from);
   }
@@ -351,7 +328,7 @@ void CloseFreeEnds(SkeletonGraph& graph, const FreeEndOptions& options,
     for (const auto& [index, sources] : ends_of_index) {
       const NodeId node = graph.SplitEdge(front, static_cast<size_t>(index));
       front = graph.IncidentEdges(node)[0];
-      for (const FreeEnd* source : sources) bridges.push_back({source, node, nullptr});
+      for (const FacingEnd* source : sources) bridges.push_back({source, node, nullptr});
     }
   }
   for (const Bridge& bridge : bridges) {

@@ -6,31 +6,40 @@ namespace curvefusion {
 
 namespace {
 
+// What leaves within this angle of straight on continues a branch.
 constexpr double kOpenCosine = 0.7;
 
-OpenEnd MakeEnd(const SkeletonGraph& graph, NodeId node, EdgeId id, bool at_front,
-                double fit_length) {
-  Polyline points = graph.edge(id).points;
+// The end of an edge at its front or at its back.
+OpenEnd MakeEnd(const SkeletonGraph& graph, EdgeId id, bool at_front, const EndPiece& piece) {
+  const SkeletonEdge& edge = graph.edge(id);
+  Polyline points = edge.points;
   if (!at_front) std::reverse(points.begin(), points.end());
-  const Vec3 inner = PointAt(points, CumulativeLength(points), fit_length);
-  return {node, id, points.front(), (points.front() - inner).normalized(),
-          graph.Degree(node) == 1};
+  const std::vector<double> arc_length = CumulativeLength(points);
+  const double skipped = std::min(piece.skipped, 0.25 * arc_length.back());
+  const Vec3 inward = PointAt(points, arc_length, piece.skipped + piece.length) -
+                      PointAt(points, arc_length, skipped);
+  const NodeId node = edge.nodes[at_front ? 0 : 1];
+  // normalized() leaves zero as it is.
+  return {node, id, points.front(), -inward.normalized(), graph.Degree(node) == 1};
+}
+
+std::vector<OpenEnd> Branches(const SkeletonGraph& graph, NodeId node, const EndPiece& piece) {
+  std::vector<OpenEnd> branches;
+  for (const EdgeId id : graph.IncidentEdges(node)) {
+    // A self-loop stands there twice.
+    const bool is_second = std::any_of(branches.begin(), branches.end(),
+                                       [id](const OpenEnd& other) { return other.edge == id; });
+    branches.push_back(MakeEnd(graph, id, graph.edge(id).nodes[0] == node && !is_second, piece));
+  }
+  return branches;
 }
 
 }  // namespace
 
-std::vector<OpenEnd> OpenEnds(const SkeletonGraph& graph, double fit_length) {
+std::vector<OpenEnd> OpenEnds(const SkeletonGraph& graph, const EndPiece& piece) {
   std::vector<OpenEnd> open;
   for (const NodeId node : graph.Nodes()) {
-    std::vector<OpenEnd> branches;
-    for (const EdgeId id : graph.IncidentEdges(node)) {
-      const SkeletonEdge& edge = graph.edge(id);
-      const bool is_loop = edge.nodes[0] == edge.nodes[1];
-      const bool is_second =
-          is_loop && !branches.empty() && branches.back().edge == id;
-      branches.push_back(
-          MakeEnd(graph, node, id, is_loop ? !is_second : edge.nodes[0] == node, fit_length));
-    }
+    const std::vector<OpenEnd> branches = Branches(graph, node, piece);
     for (const OpenEnd& branch : branches) {
       const bool goes_on = std::any_of(branches.begin(), branches.end(), [&](const OpenEnd& next) {
         return -next.outward.dot(branch.outward) > kOpenCosine;
@@ -41,9 +50,8 @@ std::vector<OpenEnd> OpenEnds(const SkeletonGraph& graph, double fit_length) {
   return open;
 }
 
-OpenEnd FreeEnd(const SkeletonGraph& graph, NodeId node, double fit_length) {
-  const EdgeId edge = graph.IncidentEdges(node)[0];
-  return MakeEnd(graph, node, edge, graph.edge(edge).nodes[0] == node, fit_length);
+OpenEnd FreeEnd(const SkeletonGraph& graph, NodeId node, const EndPiece& piece) {
+  return Branches(graph, node, piece).front();
 }
 
 }  // namespace curvefusion

@@ -8,18 +8,24 @@ namespace curvefusion {
 
 /// An end of an edge that no other edge continues.
 struct OpenEnd {
-  NodeId node = 0;
-  EdgeId edge = 0;
+  NodeId node = -1;
+  EdgeId edge = -1;
   Vec3 position;
-  Vec3 outward;  ///< unit; the direction of the last `fit_length` of the edge
+  Vec3 outward;          ///< unit; zero for an edge without length
   bool is_free = false;  ///< nothing else ends at the node
+};
+
+/// The piece of an edge next to its end that gives the end's direction.
+struct EndPiece {
+  double skipped = 0;  ///< metres; the very end, which other wires may draw sideways
+  double length = 0;   ///< metres
 };
 
 /// Free ends, and branches of junctions that nothing leaves on the other side within 45 degrees, by
 /// node.
-std::vector<OpenEnd> OpenEnds(const SkeletonGraph& graph, double fit_length);
+std::vector<OpenEnd> OpenEnds(const SkeletonGraph& graph, const EndPiece& piece);
 
 /// The end of the only edge at a node.
-OpenEnd FreeEnd(const SkeletonGraph& graph, NodeId node, double fit_length);
+OpenEnd FreeEnd(const SkeletonGraph& graph, NodeId node, const EndPiece& piece);
 
 }  // namespace curvefusion

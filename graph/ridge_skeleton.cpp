@@ -104,4 +104,11 @@ SkeletonGraph ExtractRidgeSkeleton(const ObservedPoints& points, const RidgeOpti
   return graph;
 }
 
+void TidyRidgeSkeleton(SkeletonGraph& graph, const RidgeOptions& options) {
+  DropShortLoops(graph, options.network.min_loop);
+  PruneSpurs(graph, options.network.min_spur);
+  DropSmallComponents(graph, options.min_component);
+  ResolveIntersections(graph, 0);
+}
+
 }  // namespace curvefusion

@@ -32,4 +32,8 @@ void VisitOptions(RidgeOptions& options, OptionVisitor& visitor);
 /// no radii and no observations. Shift the points with ShiftAlongRays first where radii are known.
 SkeletonGraph ExtractRidgeSkeleton(const ObservedPoints& points, const RidgeOptions& options);
 
+/// Drops short loops, spurs and small parts from such a skeleton, and makes curves that touch meet
+/// in junctions.
+void TidyRidgeSkeleton(SkeletonGraph& graph, const RidgeOptions& options);
+
 }  // namespace curvefusion
