@@ -6,6 +6,7 @@
 
 #include "capture/frame_stream.h"
 #include "fusion/axis_correction.h"
+#include "fusion/close_wires.h"
 #include "fusion/ray_noise.h"
 
 namespace curvefusion {
@@ -17,6 +18,7 @@ struct RunContext {
   const PipelineOptions& options;
   PipelineObserver& observer;
   StageLog log;
+  double magnification = 1;  // of points, where wires are close
 };
 
 // "Removing large surfaces" needs a model of them: all frames in one volume.
@@ -60,6 +62,8 @@ SegmentedScan SegmentBundles(const Sequence& sequence, const TsdfVolume& volume,
   const StageLog::Timer timer(run.log, "segmentation");
   SegmentedScan scan;
   const SegmentationModel model = LearnSegmentation(sequence, volume, run.options.segmentation);
+  run.magnification = Magnification(model.row_spacing, run.options.resolved_spacing);
+  run.log.Count("segmentation", "row spacing, mm", model.row_spacing / kMillimetre);
   size_t candidates = 0, points = 0;
   for (const auto& [first, last] :
        SplitIntoBundles(sequence.frame_count(), run.options.segmentation.bundle.frames)) {
@@ -122,7 +126,7 @@ SkeletonGraph Contract(const ObservedPoints& points, const std::string& name, Ru
   SkeletonGraph skeleton =
       ratio > 1 ? Transformed(ExtractRidgeSkeleton(Transformed(points, metric), run.options.ridge),
                               metric.inverse())
-                : ExtractRidgeSkeleton(points, run.options.ridge);
+                : ExtractRidgeSkeleton(points, run.options.ridge, run.magnification);
   run.log.Count("contraction", "ray noise ratio", ratio);
   run.observer.OnProgress("contraction", 1, 1);
   run.observer.OnPoints(name + "_points", points);
@@ -136,11 +140,12 @@ std::pair<ObservedPoints, std::vector<RigidTransform>> RegisterBundles(const Seg
                                                                        RunContext& run) {
   const StageLog::Timer timer(run.log, "registration");
   CarriedPoints carried(run.options.carried);
+  const RidgeProjectionOptions ridges =
+      ForCloseWires(run.options.ridge.projection, run.magnification);
   std::vector<RigidTransform> T_registered_bundle;
   for (const ObservedPoints& bundle : scan.bundles) {
     T_registered_bundle.push_back(
-        carried.AddBundle(bundle, run.options.ridge.projection, run.options.registration)
-            .T_target_source);
+        carried.AddBundle(bundle, ridges, run.options.registration).T_target_source);
     run.observer.OnProgress("bundle registration", static_cast<int64_t>(T_registered_bundle.size()),
                             static_cast<int64_t>(scan.bundles.size()));
   }
@@ -164,7 +169,8 @@ RegisteredFrames RegisterFramesToCurves(const SegmentedScan& scan,
                                   T_registered_frame[i].inverse()));
   }
   RegisteredFrames registered =
-      RegisterFrames(on_axis, T_registered_frame, cameras, run.options.ridge.projection,
+      RegisterFrames(on_axis, T_registered_frame, cameras,
+                     ForCloseWires(run.options.ridge.projection, run.magnification),
                      run.options.registration, run.options.frames);
   run.observer.OnProgress("frame registration", 1, 1);
   run.log.Count("registration", "registered frames", registered.registered);
