@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fusion/alignment.h"
 #include "graph/ridge_skeleton.h"
 #include "graph/skeleton_graph.h"
 #include "kernel/observed_points.h"
@@ -17,5 +18,11 @@ RidgeProjectionOptions ForCloseWires(RidgeProjectionOptions options, double magn
 /// ExtractRidgeSkeleton of the magnified points, in the points' own size.
 SkeletonGraph ExtractRidgeSkeleton(const ObservedPoints& points, const RidgeOptions& options,
                                    double magnification);
+
+/// AlignPoints for ridges of a row of wires so close that drift may bring each next to its
+/// neighbour: starts `row_spacing` (metres) to either side across the wires are tried too, and the
+/// best is taken that clearly more points agree with. A row_spacing of 0 is AlignPoints.
+AlignmentResult AlignRows(const RidgePoints& ridges, const AlignmentTarget& target,
+                          const AlignmentOptions& options, double row_spacing);
 
 }  // namespace curvefusion

@@ -18,7 +18,9 @@ struct RunContext {
   const PipelineOptions& options;
   PipelineObserver& observer;
   StageLog log;
-  double magnification = 1;  // of points, where wires are close
+  double row_spacing = 0;    // of close wires, metres; 0 where there are none
+  double row_diameter = 0;   // of theirs, metres, roughly
+  double magnification = 1;  // of points, for them
 };
 
 // "Removing large surfaces" needs a model of them: all frames in one volume.
@@ -62,6 +64,8 @@ SegmentedScan SegmentBundles(const Sequence& sequence, const TsdfVolume& volume,
   const StageLog::Timer timer(run.log, "segmentation");
   SegmentedScan scan;
   const SegmentationModel model = LearnSegmentation(sequence, volume, run.options.segmentation);
+  run.row_spacing = model.row_spacing;
+  run.row_diameter = model.row_diameter;
   run.magnification = Magnification(model.row_spacing, run.options.resolved_spacing);
   run.log.Count("segmentation", "row spacing, mm", model.row_spacing / kMillimetre);
   size_t candidates = 0, points = 0;
@@ -114,6 +118,10 @@ RadiusEstimate MeasureRadii(const SkeletonGraph& skeleton, const Sequence& seque
   const StageLog::Timer timer(run.log, "radius");
   RadiusEstimate estimate =
       EstimateRadius(skeleton, sequence, AllFrames(sequence), run.options.radius);
+  // Strips of wires so close that none stands alone are not measured one by one.
+  if (estimate.global_radius == 0) {
+    estimate.global_radius = estimate.unmeasured_radius = 0.5 * run.row_diameter;
+  }
   run.log.Count("radius", "strips", static_cast<double>(estimate.strips.size()));
   run.observer.OnProgress("radius", 1, 1);
   return estimate;
@@ -145,7 +153,8 @@ std::pair<ObservedPoints, std::vector<RigidTransform>> RegisterBundles(const Seg
   std::vector<RigidTransform> T_registered_bundle;
   for (const ObservedPoints& bundle : scan.bundles) {
     T_registered_bundle.push_back(
-        carried.AddBundle(bundle, ridges, run.options.registration).T_target_source);
+        carried.AddBundle(bundle, ridges, run.options.registration, run.row_spacing)
+            .T_target_source);
     run.observer.OnProgress("bundle registration", static_cast<int64_t>(T_registered_bundle.size()),
                             static_cast<int64_t>(scan.bundles.size()));
   }

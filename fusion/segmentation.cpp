@@ -125,6 +125,7 @@ bool LearnCloseRows(const Sequence& sequence, const SegmentationOptions& options
       MeasureStripes(candidates, colours, sequence, options.max_row_spacing);
   if (stripes.share < kMinStripedShare) return false;
   model.row_spacing = stripes.spacing;
+  model.row_diameter = stripes.width;
   model.colours = std::move(colours);
   return true;
 }

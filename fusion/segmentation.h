@@ -33,8 +33,9 @@ void VisitOptions(SegmentationOptions& options, OptionVisitor& visitor);
 /// What has to be known of a whole sequence before its bundles are segmented.
 struct SegmentationModel {
   OpennessGrid openness{OpennessOptions{}};
-  SheetGrid sheets;        ///< rows of wires that depth shows as surfaces
-  double row_spacing = 0;  ///< of their wires, metres; 0 where there are none
+  SheetGrid sheets;         ///< rows of wires that depth shows as surfaces
+  double row_spacing = 0;   ///< of their wires, metres; 0 where there are none
+  double row_diameter = 0;  ///< of their wires, metres, roughly
   WireColours colours;
 };
 

@@ -17,6 +17,8 @@ constexpr int kStraightPx = 6;
 constexpr double kParallel = 0.95;
 // Nearer crests are one.
 constexpr int kNearestPx = 3;
+// Of 255: more likely wire than not.
+constexpr int kLikely = 128;
 
 bool IsCrest(const StripeField& stripes, const PosteriorImage& image, const Vec2& pixel,
              const Vec2& normal) {
@@ -48,6 +50,18 @@ std::optional<int> NextStripe(const StripeField& stripes, const PosteriorImage& 
   return std::nullopt;
 }
 
+// Pixels across a stripe that are likelier wire, as far as the middle of the gap to the next.
+int WidthPx(const PosteriorImage& image, const Vec2& pixel, const Vec2& normal, int spacing_px) {
+  int width = 0;
+  for (int step = -spacing_px / 2; step <= spacing_px / 2; ++step) {
+    const Vec2 p = pixel + step * normal;
+    const int u = static_cast<int>(std::lround(p.x()));
+    const int v = static_cast<int>(std::lround(p.y()));
+    width += image.Contains(u, v) && image(u, v) >= kLikely;
+  }
+  return width;
+}
+
 }  // namespace
 
 SheetStripes MeasureStripes(const std::vector<WireCandidates>& frames, const WireColours& colours,
@@ -55,7 +69,7 @@ SheetStripes MeasureStripes(const std::vector<WireCandidates>& frames, const Wir
   const ColourLookup lookup(sequence, colours.shift_px);
   const double focal_px = sequence.color_camera.fx;
   double area = 0, striped = 0;
-  std::vector<double> spacings;
+  std::vector<double> spacings, widths;
   for (const WireCandidates& frame : frames) {
     const PosteriorImage posterior = ApplyPosterior(BinColours(frame.color), colours.posterior);
     const StripeField stripes(posterior);
@@ -72,10 +86,11 @@ SheetStripes MeasureStripes(const std::vector<WireCandidates>& frames, const Wir
       if (!next) return;
       striped += *next;
       spacings.push_back(*next * metres_per_px);
+      widths.push_back(WidthPx(posterior, pixel, at.normal, *next) * metres_per_px);
     });
   }
   if (spacings.empty()) return {};
-  return {striped / area, Quantile(std::move(spacings), 0.5)};
+  return {striped / area, Median(std::move(spacings)), Median(std::move(widths))};
 }
 
 }  // namespace curvefusion

@@ -10,7 +10,8 @@ namespace curvefusion {
 struct SheetStripes {
   double share = 0;  ///< of the sheets' area that is straight stripes side by side
   double spacing =
-      0;  ///< metres from the middle of one stripe to the next, the usual one; 0 = none
+      0;             ///< metres from the middle of one stripe to the next, the usual one; 0 = none
+  double width = 0;  ///< metres, of a stripe, roughly: where wire is likelier than background
 };
 
 /// Looks in the rows of frames for straight parallel stripes of wire colour, up to
