@@ -27,7 +27,8 @@ Sequence OneCamera() {
   return sequence;
 }
 
-// A board at one metre, all of it in the mask and in a row, of the colours that `is_green` says.
+// A board at one metre, all of it in the mask and in a row, of the colours that `is_green` says. It
+// begins and ends with a wire, so that nothing looks shifted.
 template <typename IsGreen>
 WireCandidates Board(const IsGreen& is_green) {
   WireCandidates frame;
@@ -36,7 +37,7 @@ WireCandidates Board(const IsGreen& is_green) {
   frame.rows = MaskImage(kWidth / 2, kHeight / 2, 1);
   frame.color = ColorImage(kWidth, kHeight, kGrey);
   for (int v = 30; v < 130; ++v) {
-    for (int u = 80; u < 160; ++u) {
+    for (int u = 80; u < 157; ++u) {
       frame.mask(u, v) = 1;
       if (is_green(u, v)) frame.color(u, v) = kGreen;
     }
