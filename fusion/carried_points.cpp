@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "fusion/close_wires.h"
 #include "kernel/voxel_grid.h"
 
 namespace curvefusion {
@@ -25,14 +26,15 @@ void VisitOptions(CarriedPointsOptions& options, OptionVisitor& visitor) {
 
 AlignmentResult CarriedPoints::AddBundle(const ObservedPoints& bundle,
                                          const RidgeProjectionOptions& ridges,
-                                         const AlignmentOptions& alignment) {
+                                         const AlignmentOptions& alignment, double row_spacing) {
   AlignmentResult result;
   if (!points_.empty() && !bundle.empty()) {
     const RidgePoints curves = ProjectToRidges(points_, ridges);
     AlignmentOptions patient = alignment;
     patient.max_iterations = std::max(alignment.max_iterations, kIterations);
-    result = AlignPoints(ProjectToRidges(bundle, ridges).positions,
-                         AlignmentTarget({curves.positions, curves.directions}), patient);
+    result =
+        AlignRows(ProjectToRidges(bundle, ridges),
+                  AlignmentTarget({curves.positions, curves.directions}), patient, row_spacing);
     if (!result.converged || result.inlier_fraction < options_.min_inliers) {
       result.T_target_source = RigidTransform::Identity();
     }

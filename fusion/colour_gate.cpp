@@ -5,6 +5,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "fusion/colour_lookup.h"
+#include "fusion/stripe_field.h"
 #include "fusion/wire_posterior.h"
 
 namespace curvefusion {
@@ -21,10 +23,11 @@ constexpr int kMaxShift_px = 3;
 constexpr int kShiftRounds = 4;
 // The likeliest pixel is looked for within so many.
 constexpr int kPeakReach_px = 2;
-// Rows reach so many pixels beyond where the volume's rendering shows them.
-constexpr int kRowMargin = 4;
 // Of 255: surely wire, as no background that was seen has that colour.
 constexpr int kSurePosterior = 200;
+// Colours that blur mixes of wire and background are of neither in the end: each round takes the
+// half that lies in valleys for background.
+constexpr int kSharpeningRounds = 4;
 
 // The greatest value within a square around each pixel.
 Image<uint8_t> Dilated(const Image<uint8_t>& image, int radius) {
@@ -33,40 +36,6 @@ Image<uint8_t> Dilated(const Image<uint8_t>& image, int radius) {
   cv::Mat target(image.height(), image.width(), CV_8U, dilated.data());
   cv::dilate(source, target, cv::Mat::ones(2 * radius + 1, 2 * radius + 1, CV_8U));
   return dilated;
-}
-
-// The colour pixel at which a depth pixel is seen; false outside the image.
-class ColourLookup {
- public:
-  ColourLookup(const Sequence& sequence, const Vec2& shift_px)
-      : sequence_(sequence), shift_px_(shift_px) {}
-
-  bool Find(int u, int v, float depth, int& color_u, int& color_v) const {
-    const Vec3 p_color = sequence_.T_color_depth * sequence_.depth_camera.Unproject(u, v, depth);
-    if (p_color.z() <= 0) return false;
-    const Vec2 pixel = sequence_.color_camera.Project(p_color) + shift_px_;
-    color_u = static_cast<int>(std::lround(pixel.x()));
-    color_v = static_cast<int>(std::lround(pixel.y()));
-    return sequence_.color_camera.Contains(pixel);
-  }
-
- private:
-  const Sequence& sequence_;
-  Vec2 shift_px_;
-};
-
-// Calls body(u, v, color_u, color_v) for the pixels of a mask that were measured.
-template <typename Body>
-void ForEachColour(const MaskImage& mask, const DepthImage& depth, const ColourLookup& lookup,
-                   const Body& body) {
-  int color_u = 0, color_v = 0;
-  for (int v = 0; v < mask.height(); ++v) {
-    for (int u = 0; u < mask.width(); ++u) {
-      if (mask(u, v) && depth(u, v) > 0 && lookup.Find(u, v, depth(u, v), color_u, color_v)) {
-        body(u, v, color_u, color_v);
-      }
-    }
-  }
 }
 
 void Learn(const WireCandidates& frame, const MaskImage& wire, const MaskImage& background,
@@ -177,18 +146,24 @@ void DropUnresolved(const PosteriorImage& posterior, const ColourLookup& lookup,
   });
 }
 
-// The pixels of the mask in and next to rows.
-MaskImage InRows(const WireCandidates& frame) {
-  const MaskImage rows = Dilated(frame.rows, kRowMargin);
-  const int factor = frame.mask.width() / rows.width();
-  MaskImage in_rows = frame.mask;
-  for (int v = 0; v < in_rows.height(); ++v) {
-    for (int u = 0; u < in_rows.width(); ++u) {
-      in_rows(u, v) &=
-          rows(std::min(u / factor, rows.width() - 1), std::min(v / factor, rows.height() - 1));
-    }
-  }
-  return in_rows;
+bool AnySet(const MaskImage& mask) {
+  return std::find(mask.data(), mask.data() + mask.size(), 1) != mask.data() + mask.size();
+}
+
+// In rows, wire is what lies on crests and background what lies in valleys; elsewhere the mask and
+// what surrounds it.
+void LearnFromStripes(const WireCandidates& frame, const WireColours& colours,
+                      const ColourLookup& lookup, WireColourModel& model) {
+  const StripeField stripes(ApplyPosterior(BinColours(frame.color), colours.posterior));
+  const MaskImage in_rows = PixelsInRows(frame);
+  MaskImage wire = frame.mask, background = BackgroundAround(frame.mask);
+  for (size_t i = 0; i < wire.size(); ++i) wire.data()[i] &= !in_rows.data()[i];
+  ForEachColour(in_rows, frame.depth, lookup, [&](int u, int v, int x, int y) {
+    const StripePart part = stripes.At(x, y).part;
+    wire(u, v) = part == StripePart::kCrest;
+    background(u, v) = part == StripePart::kValley;
+  });
+  Learn(frame, wire, background, lookup, model);
 }
 
 }  // namespace
@@ -211,6 +186,19 @@ void VisitOptions(ColourGateOptions& options, OptionVisitor& visitor) {
                 options.max_width);
 }
 
+MaskImage PixelsInRows(const WireCandidates& frame) {
+  const MaskImage rows = Dilated(frame.rows, frame.row_margin);
+  const int factor = frame.mask.width() / rows.width();
+  MaskImage in_rows = frame.mask;
+  for (int v = 0; v < in_rows.height(); ++v) {
+    for (int u = 0; u < in_rows.width(); ++u) {
+      in_rows(u, v) &=
+          rows(std::min(u / factor, rows.width() - 1), std::min(v / factor, rows.height() - 1));
+    }
+  }
+  return in_rows;
+}
+
 WireColours LearnWireColours(const std::vector<WireCandidates>& frames, const Sequence& sequence,
                              const ColourGateOptions& options) {
   WireColours colours;
@@ -231,13 +219,33 @@ WireColours LearnWireColours(const std::vector<WireCandidates>& frames, const Se
   return colours;
 }
 
+void SharpenColours(const std::vector<WireCandidates>& frames, const Sequence& sequence,
+                    WireColours& colours) {
+  const ColourLookup lookup(sequence, colours.shift_px);
+  for (int round = 0; round < kSharpeningRounds; ++round) {
+    WireColourModel model;
+    for (const WireCandidates& frame : frames) LearnFromStripes(frame, colours, lookup, model);
+    colours.posterior = model.Posterior();
+  }
+}
+
+void ThinToCrests(const WireColours& colours, const Sequence& sequence, WireCandidates& frame) {
+  const MaskImage in_rows = PixelsInRows(frame);
+  if (!AnySet(in_rows)) return;
+  const StripeField stripes(ApplyPosterior(BinColours(frame.color), colours.posterior));
+  ForEachColour(in_rows, frame.depth, ColourLookup(sequence, colours.shift_px),
+                [&](int u, int v, int x, int y) {
+                  const StripePart part = stripes.At(x, y).part;
+                  if (part != StripePart::kCrest && part != StripePart::kPlateau) {
+                    frame.mask(u, v) = 0;
+                  }
+                });
+}
+
 void GateByColour(const WireColours& colours, const Sequence& sequence,
                   const ColourGateOptions& options, WireCandidates& frame) {
-  const MaskImage in_rows = InRows(frame);
-  if (std::find(in_rows.data(), in_rows.data() + in_rows.size(), 1) ==
-      in_rows.data() + in_rows.size()) {
-    return;
-  }
+  const MaskImage in_rows = PixelsInRows(frame);
+  if (!AnySet(in_rows)) return;
   const PosteriorImage posterior = ApplyPosterior(BinColours(frame.color), colours.posterior);
   const PosteriorImage peak = Dilated(posterior, kPeakReach_px);
   const ColourLookup lookup(sequence, colours.shift_px);

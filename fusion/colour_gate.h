@@ -39,6 +39,7 @@ struct WireCandidates {
   MaskImage mask;  ///< of the depth image
   MaskImage rows;  ///< where depth may be one sheet before several wires; smaller than `mask` by an
                    ///< integer factor
+  int row_margin = 4;  ///< rows reach so many pixels of `rows` beyond where that shows them
   DepthImage depth;
   ColorImage color;
 };
@@ -54,5 +55,20 @@ WireColours LearnWireColours(const std::vector<WireCandidates>& frames, const Se
 /// Linear in pixels.
 void GateByColour(const WireColours& colours, const Sequence& sequence,
                   const ColourGateOptions& options, WireCandidates& frame);
+
+/// The pixels of the mask in and next to rows.
+MaskImage PixelsInRows(const WireCandidates& frame);
+
+/// Learns the colours again where masks cover rows whole, gaps and all: wire is what lies in the
+/// middle of the stripes that the colours so far show in rows, background what lies in the middle
+/// between. Where gaps are few pixels wide they have blurred colours that nothing around the object
+/// has; taken for wire, they would close the gaps. Linear in pixels.
+void SharpenColours(const std::vector<WireCandidates>& frames, const Sequence& sequence,
+                    WireColours& colours);
+
+/// Leaves of the mask, in and next to rows, the pixels in the middle of the stripes that the wires'
+/// colours make in the colour image, and those of levels wider than a stripe: where depth is one
+/// sheet, what it has beside a wire's axis only blurs the axis. Linear in pixels.
+void ThinToCrests(const WireColours& colours, const Sequence& sequence, WireCandidates& frame);
 
 }  // namespace curvefusion

@@ -6,6 +6,7 @@
 
 #include "capture/frame_stream.h"
 #include "fusion/axis_correction.h"
+#include "fusion/close_wires.h"
 #include "fusion/ray_noise.h"
 
 namespace curvefusion {
@@ -17,6 +18,9 @@ struct RunContext {
   const PipelineOptions& options;
   PipelineObserver& observer;
   StageLog log;
+  double row_spacing = 0;    // of close wires, metres; 0 where there are none
+  double row_diameter = 0;   // of theirs, metres, roughly
+  double magnification = 1;  // of points, for them
 };
 
 // "Removing large surfaces" needs a model of them: all frames in one volume.
@@ -60,6 +64,10 @@ SegmentedScan SegmentBundles(const Sequence& sequence, const TsdfVolume& volume,
   const StageLog::Timer timer(run.log, "segmentation");
   SegmentedScan scan;
   const SegmentationModel model = LearnSegmentation(sequence, volume, run.options.segmentation);
+  run.row_spacing = model.row_spacing;
+  run.row_diameter = model.row_diameter;
+  run.magnification = Magnification(model.row_spacing, run.options.resolved_spacing);
+  run.log.Count("segmentation", "row spacing, mm", model.row_spacing / kMillimetre);
   size_t candidates = 0, points = 0;
   for (const auto& [first, last] :
        SplitIntoBundles(sequence.frame_count(), run.options.segmentation.bundle.frames)) {
@@ -110,6 +118,10 @@ RadiusEstimate MeasureRadii(const SkeletonGraph& skeleton, const Sequence& seque
   const StageLog::Timer timer(run.log, "radius");
   RadiusEstimate estimate =
       EstimateRadius(skeleton, sequence, AllFrames(sequence), run.options.radius);
+  // Strips of wires so close that none stands alone are not measured one by one.
+  if (estimate.global_radius == 0) {
+    estimate.global_radius = estimate.unmeasured_radius = 0.5 * run.row_diameter;
+  }
   run.log.Count("radius", "strips", static_cast<double>(estimate.strips.size()));
   run.observer.OnProgress("radius", 1, 1);
   return estimate;
@@ -122,7 +134,7 @@ SkeletonGraph Contract(const ObservedPoints& points, const std::string& name, Ru
   SkeletonGraph skeleton =
       ratio > 1 ? Transformed(ExtractRidgeSkeleton(Transformed(points, metric), run.options.ridge),
                               metric.inverse())
-                : ExtractRidgeSkeleton(points, run.options.ridge);
+                : ExtractRidgeSkeleton(points, run.options.ridge, run.magnification);
   run.log.Count("contraction", "ray noise ratio", ratio);
   run.observer.OnProgress("contraction", 1, 1);
   run.observer.OnPoints(name + "_points", points);
@@ -136,10 +148,12 @@ std::pair<ObservedPoints, std::vector<RigidTransform>> RegisterBundles(const Seg
                                                                        RunContext& run) {
   const StageLog::Timer timer(run.log, "registration");
   CarriedPoints carried(run.options.carried);
+  const RidgeProjectionOptions ridges =
+      ForCloseWires(run.options.ridge.projection, run.magnification);
   std::vector<RigidTransform> T_registered_bundle;
   for (const ObservedPoints& bundle : scan.bundles) {
     T_registered_bundle.push_back(
-        carried.AddBundle(bundle, run.options.ridge.projection, run.options.registration)
+        carried.AddBundle(bundle, ridges, run.options.registration, run.row_spacing)
             .T_target_source);
     run.observer.OnProgress("bundle registration", static_cast<int64_t>(T_registered_bundle.size()),
                             static_cast<int64_t>(scan.bundles.size()));
@@ -164,7 +178,8 @@ RegisteredFrames RegisterFramesToCurves(const SegmentedScan& scan,
                                   T_registered_frame[i].inverse()));
   }
   RegisteredFrames registered =
-      RegisterFrames(on_axis, T_registered_frame, cameras, run.options.ridge.projection,
+      RegisterFrames(on_axis, T_registered_frame, cameras,
+                     ForCloseWires(run.options.ridge.projection, run.magnification),
                      run.options.registration, run.options.frames);
   run.observer.OnProgress("frame registration", 1, 1);
   run.log.Count("registration", "registered frames", registered.registered);

@@ -39,6 +39,7 @@ struct PipelineOptions {
   FrameRegistrationOptions frames;
   double axis_depth = 0;
   double min_linearity = 0.3;
+  double resolved_spacing = 0;
   RidgeOptions ridge;
   L1Options l1;
   SkeletonFusionOptions fusion;

@@ -37,6 +37,7 @@ PipelineOptions BestOptions() {
   options.segmentation.opening.solid_depth = 0.03;
   options.segmentation.openness.stride = 5;
   options.segmentation.gate.frames = 10;
+  options.segmentation.max_row_spacing = 0.013;
   UseWorkableReading(options.segmentation.difference);
   options.segmentation.difference.silhouette_margin_px = 6;
   options.segmentation.difference.min_neighbours = 8;
@@ -48,6 +49,7 @@ PipelineOptions BestOptions() {
   options.registration.max_iterations = 12;
   options.axis_depth = 0.8;
   options.completion.enabled = true;
+  options.resolved_spacing = 0.014;
   options.colour_adjustment.enabled = true;
   options.radius.max_mean_diameter = 0.016;
   return options;
@@ -85,6 +87,11 @@ void VisitOptions(PipelineOptions& options, OptionVisitor& visitor) {
        "Deviation: a cloud that looks less curve-like than this from near is contracted in a "
        "space compressed along the viewing rays, along which depth noise is largest."},
       options.min_linearity);
+  visitor.Visit(
+      {"resolved_spacing", "m", 0, 0.1,
+       "Deviation: where rows of wires are closer than this, points are magnified so much "
+       "before contraction that they are as far apart; 0 = never."},
+      options.resolved_spacing);
   VisitOptions(options.ridge, visitor);
   visitor.BeginSection("l1_contraction");
   VisitOptions(options.l1, visitor);

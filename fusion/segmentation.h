@@ -8,6 +8,7 @@
 #include "fusion/colour_verification.h"
 #include "fusion/depth_opening.h"
 #include "fusion/difference_set.h"
+#include "fusion/floating_sheets.h"
 #include "fusion/ghost_removal.h"
 #include "fusion/openness.h"
 #include "fusion/tsdf_volume.h"
@@ -22,6 +23,7 @@ struct SegmentationOptions {
   DepthOpeningOptions opening;
   DifferenceSetOptions difference;
   ColourGateOptions gate;
+  double max_row_spacing = 0;
   ColourEdgeOptions edges;
   BundleOptions bundle;
   GhostRemovalOptions ghosts;
@@ -30,7 +32,10 @@ void VisitOptions(SegmentationOptions& options, OptionVisitor& visitor);
 
 /// What has to be known of a whole sequence before its bundles are segmented.
 struct SegmentationModel {
-  OpennessGrid openness;
+  OpennessGrid openness{OpennessOptions{}};
+  SheetGrid sheets;         ///< rows of wires that depth shows as surfaces
+  double row_spacing = 0;   ///< of their wires, metres; 0 where there are none
+  double row_diameter = 0;  ///< of their wires, metres, roughly
   WireColours colours;
 };
 
