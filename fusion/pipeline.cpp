@@ -321,6 +321,7 @@ Reconstruction ReconstructThinParts(const TsdfVolume& volume, const Sequence& se
     result.skeleton = FuseBundleSkeletons(scan, run);
   }
   AssignMeasuredRadii(run, result);
+  DropThickParts(run.options.radius, result.skeleton);  // nothing is to be added to them
   AddMissedWires(run, result);
   if (RefineInColour(sequence, run, result)) AssignMeasuredRadii(run, result);
   DropThickParts(run.options.radius, result.skeleton);

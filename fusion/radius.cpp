@@ -242,7 +242,7 @@ void DropThickParts(const RadiusOptions& options, SkeletonGraph& skeleton) {
       length += edge_length;
       diameters += 2 * Median(edge.radii) * edge_length;
     }
-    if (diameters <= options.max_mean_diameter * length) continue;
+    if (length > 0 && diameters <= options.max_mean_diameter * length) continue;
     for (const EdgeId id : part) skeleton.RemoveEdge(id);
   }
   skeleton.RemoveIsolatedNodes();

@@ -85,7 +85,8 @@ void AssignRadii(const RadiusEstimate& estimate, const RadiusOptions& options,
                  SkeletonGraph& skeleton);
 
 /// Removes connected parts that are on average thicker than options.max_mean_diameter: no thin
-/// structures but strips of larger surfaces that only some views show. Radii must be assigned.
+/// structures but strips of larger surfaces that only some views show. Parts without radii are
+/// removed too: where the images show no strip at all there is no wire. AssignRadii comes before.
 void DropThickParts(const RadiusOptions& options, SkeletonGraph& skeleton);
 
 }  // namespace curvefusion

@@ -234,6 +234,15 @@ TEST(RadiusSharedData, Cubeframe) {
   }
 }
 
+TEST(DropThickParts, DropsWhatNoStripWasFoundOf) {
+  RadiusOptions options;
+  options.max_mean_diameter = 0.016;
+  SkeletonGraph skeleton;
+  skeleton.AddPolyline({{0, 0, 0}, {0.1, 0, 0}});
+  DropThickParts(options, skeleton);
+  EXPECT_TRUE(skeleton.empty());
+}
+
 TEST(DropThickParts, KeepsThickWiresOfThinObjects) {
   SkeletonGraph skeleton;
   std::vector<NodeId> nodes;
