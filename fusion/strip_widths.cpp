@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "fusion/wire_color.h"
 #include "kernel/parallel.h"
@@ -23,6 +24,8 @@ constexpr double kMinSignificance = 4;
 constexpr double kMaxMisfit = 3;
 constexpr size_t kMinOwnStrips = 20;  // for an edge to have a colour of its own
 constexpr double kSameColor = 0.08;   // radians between the directions of two colours
+// The blurred flank of a strand beside a strip, which must not come into its background.
+constexpr double kFlankPx = 2.5;
 
 // What MeasureStrip finds, in the order of the strips; those not measurable have width 0.
 std::vector<ColoredStrip> MeasureColors(const std::vector<FoundStrip>& strips) {
@@ -91,6 +94,34 @@ void Reposition(const std::vector<SolvedWidth>& solved, double bin,
   }
 }
 
+// How far the next strand stays away from what a strip is compared with; negative where it comes
+// in. The width is that of the edge: with their own, strips measured too narrow would be chosen.
+double BackgroundRoom(const FoundStrip& strip) {
+  return strip.sample.clearance_px - strip.position.width_px - kStripMarginPx - kFlankPx;
+}
+
+// Strips whose background is clear; of an edge with few of them also the clearest others, as many
+// as give it a diameter that weighs little: a strand in the background makes strips too narrow.
+std::vector<size_t> BestStrips(const std::vector<FoundStrip>& strips,
+                               const std::vector<SolvedWidth>& solved) {
+  std::map<EdgeId, std::vector<std::pair<double, size_t>>> by_edge;
+  for (size_t i = 0; i < strips.size(); ++i) {
+    if (solved[i].width_px <= 0) continue;
+    const double room = BackgroundRoom(strips[i]);
+    by_edge[strips[i].sample.edge].emplace_back(-std::min(room, 0.0), i);
+  }
+  std::vector<size_t> best;
+  for (auto& [edge, of_edge] : by_edge) {
+    std::sort(of_edge.begin(), of_edge.end());  // by what is missing: 0 for clear ones
+    for (size_t k = 0; k < of_edge.size(); ++k) {
+      if (k >= kMinOwnStrips && of_edge[k].first > 0) break;
+      best.push_back(of_edge[k].second);
+    }
+  }
+  std::sort(best.begin(), best.end());
+  return best;
+}
+
 // The median centre of the strips around strip i on the same edge.
 double MedianCenterAround(const std::vector<FoundStrip>& strips, size_t i) {
   std::vector<double> centers;
@@ -145,9 +176,9 @@ std::vector<StripWidth> SolveStripWidths(std::vector<FoundStrip> strips,
     solved = SolveAll(strips, colored, ColorsByEdge(strips, colored, options));
   }
   std::vector<StripWidth> widths;
-  for (size_t i = 0; i < strips.size(); ++i) {
+  for (const size_t i : BestStrips(strips, solved)) {
     const double diameter = solved[i].width_px * strips[i].sample.metres_per_px;
-    if (diameter <= 0 || diameter > options.max_diameter) continue;
+    if (diameter > options.max_diameter) continue;
     widths.push_back(
         {strips[i].sample.edge, strips[i].sample.arc_length, strips[i].frame, diameter});
   }
