@@ -118,6 +118,22 @@ TEST_F(RadiusTest, AWireOfOneThicknessHasOneRadius) {
   for (const EdgeRadius& edge : estimate.edges) EXPECT_TRUE(edge.along.empty());
 }
 
+TEST_F(RadiusTest, ANeighbourInTheBackgroundDoesNotMatter) {
+  // Three like wires, 12.4 mm apart on one side and 15.2 mm on the other: 10 to 12 pixels. The
+  // outer ones come into what the middle one is compared with up to 11.5 pixels.
+  const Rgb color{60, 160, 70};
+  std::vector<RenderedWire> wires;
+  SkeletonGraph skeleton;
+  for (const int side : {-1, 0, 1}) {
+    wires.push_back({{-0.12, side * 0.0124, 0.6}, {0.12, side * 0.0152, 0.6}, 0.005, color});
+    skeleton.AddPolyline({wires.back().front, wires.back().back});
+  }
+  const Sequence sequence = MakeSequence("neighbours");
+  WriteFrames(sequence, wires);
+  const RadiusEstimate estimate = EstimateRadius(skeleton, sequence, AllFrames(), {});
+  EXPECT_NEAR(2 * estimate.edges[1].radius, 0.005, 0.03 * 0.005);  // 4 % less with all strips
+}
+
 TEST_F(RadiusTest, ThePaperCountsPixels) {
   RadiusOptions options;
   options.strip_model = false;
