@@ -16,7 +16,7 @@ constexpr float kBehind = 0.03f;
 // Of the outline: so much may hang together with what lies beside it, and so much must be free. The
 // rest is hidden by something nearer, or lies at the image's border.
 constexpr double kMaxAttached = 0.2;
-constexpr double kMinFree = 0.5;
+constexpr double kMinFree = 0.6;
 // Smaller parts are specks: at .7 m and half resolution a wire 40 mm long has so many.
 constexpr size_t kMinPixels = 100;
 // Of a cell's pixels in all renderings.
