@@ -11,6 +11,7 @@
 #include "meshing/junction_union.h"
 #include "meshing/junction_wrap.h"
 #include "meshing/self_intersections.h"
+#include "meshing/sweep.h"
 #include "meshing/union_cleaning.h"
 
 namespace curvefusion {
@@ -19,12 +20,12 @@ namespace {
 
 // In radii.
 constexpr double kPerturbation = 2e-3;  // each further attempt adds as much again
-constexpr double kMinEdge = 0.02;
-constexpr double kMinHeight = 0.002;
+constexpr double kMinEdge = 0.06;
+constexpr double kMinHeight = 0.02;
 constexpr double kZoneRadius = 0.2;
 
 constexpr int kCleaningRounds = 7;
-constexpr std::array<double, 5> kZoneFactors = {0.1, 2.0, 0.4, 4.0, 0.03};
+constexpr std::array<double, 5> kZoneFactors = {0.3, 0.03, 0.7, 0.1, 0.01};
 
 using Place = std::tuple<float, float, float>;
 Place PlaceOf(const Vec3f& p) { return {p.x(), p.y(), p.z()}; }
@@ -38,6 +39,12 @@ std::map<Place, int> RingsByPlace(const Junction& junction) {
   return rings;
 }
 
+Vec3 RandomOffset(double amplitude, uint64_t& seed) {
+  Vec3 offset;
+  for (double& x : offset) x = amplitude * (2 * HashedNumber(seed++) - 1);
+  return offset;
+}
+
 std::vector<TriangleMesh> PerturbedStubs(const Junction& junction,
                                          const std::map<Place, int>& rings, int attempt,
                                          uint64_t seed) {
@@ -48,9 +55,7 @@ std::vector<TriangleMesh> PerturbedStubs(const Junction& junction,
   for (TriangleMesh& stub : stubs) {
     for (Vec3f& v : stub.vertices) {
       if (rings.count(PlaceOf(v)) > 0) continue;
-      Vec3 offset;
-      for (double& x : offset) x = amplitude * (2 * HashedNumber(seed++) - 1);
-      v = (v.cast<double>() + offset).cast<float>();
+      v = (v.cast<double>() + RandomOffset(amplitude, seed)).cast<float>();
     }
   }
   return stubs;
@@ -83,8 +88,7 @@ std::optional<TriangleMesh> OpenAtCutRings(TriangleMesh mesh, const Junction& ju
   return mesh;
 }
 
-// Cleaning makes sheets collide that pass each other closely: there it is done more finely at
-// first, then more coarsely.
+// Cleaning makes sheets collide that pass each other closely: there it is done more finely.
 class ZoneList {
  public:
   explicit ZoneList(double radius) : radius_(radius) {}
@@ -130,12 +134,11 @@ class ZoneList {
 
 // Cleans a union until nothing collides.
 std::optional<TriangleMesh> CleanSoundly(const UnionMesh& united, const Junction& junction) {
-  std::vector<Vec3f> kept;
-  for (const auto& ring : junction.cut_rings) kept.insert(kept.end(), ring.begin(), ring.end());
   ZoneList zones(kZoneRadius * junction.radius);
   for (int round = 0; round < kCleaningRounds; ++round) {
-    std::optional<TriangleMesh> clean = CleanUnion(
-        united, kept, {kMinEdge * junction.radius, kMinHeight * junction.radius, zones.Zones()});
+    std::optional<TriangleMesh> clean =
+        CleanUnion(united, junction.cut_rings,
+                   {kMinEdge * junction.radius, kMinHeight * junction.radius, zones.Zones()});
     if (!clean) return std::nullopt;
     const auto collisions = FindSelfIntersectionsInFiles(*clean);
     if (collisions.empty()) return clean;
@@ -144,10 +147,18 @@ std::optional<TriangleMesh> CleanSoundly(const UnionMesh& united, const Junction
   return std::nullopt;
 }
 
+void Roughen(UnionMesh& united, double amplitude, const std::map<Place, int>& rings) {
+  uint64_t seed = 0;
+  for (Vec3& v : united.vertices) {
+    if (rings.count(PlaceOf(v.cast<float>())) == 0) v += RandomOffset(amplitude, seed);
+  }
+}
+
 // What is left to do for the union of a junction's stubs.
-std::optional<TriangleMesh> Finished(const std::optional<UnionMesh>& united,
-                                     const Junction& junction, const std::map<Place, int>& rings) {
+std::optional<TriangleMesh> Finished(std::optional<UnionMesh> united, const Junction& junction,
+                                     const std::map<Place, int>& rings) {
   if (!united) return std::nullopt;
+  Roughen(*united, kSurfaceRoughness * junction.radius, rings);
   std::optional<TriangleMesh> clean = CleanSoundly(*united, junction);
   if (!clean) return std::nullopt;
   return OpenAtCutRings(std::move(*clean), junction, rings);
@@ -160,8 +171,8 @@ JunctionMesh MeshJunction(const Junction& junction, const JunctionMeshOptions& o
   const std::map<Place, int> rings = RingsByPlace(junction);
   JunctionMesh result;
   while (!result.surface && result.attempts < options.max_attempts) {
-    const auto united = UniteSolids(PerturbedStubs(junction, rings, result.attempts++, seed));
-    result.surface = Finished(united, junction, rings);
+    auto united = UniteSolids(PerturbedStubs(junction, rings, result.attempts++, seed));
+    result.surface = Finished(std::move(united), junction, rings);
   }
   if (!result.surface && options.last_resort) {
     result.surface = Finished(WrapJunction(junction), junction, rings);

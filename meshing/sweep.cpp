@@ -6,6 +6,8 @@
 #include <numbers>
 #include <utility>
 
+#include "meshing/hashed_number.h"
+
 namespace curvefusion {
 
 namespace {
@@ -96,7 +98,8 @@ class RingWriter {
   void AddRing(const RingFrame& frame, double radius) {
     for (int k = 0; k < rings_.sides; ++k) {
       const double angle = phase_ + 2 * std::numbers::pi * k / rings_.sides;
-      Vec3 offset = radius * corner_radius_ *
+      const double noise = 2 * HashedNumber(rings_.vertices.size()) - 1;
+      Vec3 offset = radius * corner_radius_ * (1 + kSurfaceRoughness * noise) *
                     (std::cos(angle) * frame.normal + std::sin(angle) * frame.binormal);
       offset += frame.mitre_stretch * offset.dot(frame.mitre_direction) * frame.mitre_direction;
       rings_.vertices.push_back((frame.centre + offset).cast<float>());

@@ -9,6 +9,12 @@
 
 namespace curvefusion {
 
+/// Vertices lie off flat facets at random by so many radii, a thousandth of what can be printed:
+/// rounding to float32 alone puts them off by about the tolerance of programs that look for
+/// self-intersections in floating point (Open3D's is_watertight), which then take some triangles of
+/// one facet for crossing.
+inline constexpr double kSurfaceRoughness = 1e-4;
+
 /// The vertices of a tube before it is triangulated: rings of `sides` vertices each, in order along
 /// the tube, then the poles of rounded ends. Rounded to float32 here, once: all that follows works
 /// on the coordinates that are written to the file.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
+#include <map>
 #include <tuple>
 #include <utility>
 
@@ -18,7 +18,7 @@ constexpr int kMaxPasses = 12;
 constexpr double kMinCosCollapse = 0.5;
 constexpr double kMinCosFlip = 0.9;
 // The shortest edge of a flat triangle may be collapsed up to this multiple of the least length.
-constexpr double kFlatCollapse = 5;
+constexpr double kFlatCollapse = 3;
 
 using Vertex = SurfaceMesh::VertexHandle;
 using HalfEdge = SurfaceMesh::HalfedgeHandle;
@@ -39,9 +39,9 @@ double MinHeight(const Vec3& a, const Vec3& b, const Vec3& c) {
 
 class UnionCleaner {
  public:
-  UnionCleaner(SurfaceMesh& mesh, const std::vector<Vec3f>& kept,
+  UnionCleaner(SurfaceMesh& mesh, const std::vector<std::vector<Vec3f>>& kept_rings,
                const UnionCleaningOptions& options)
-      : mesh_(mesh), options_(options) {
+      : mesh_(mesh), options_(options), ring_(mesh.n_vertices(), -1) {
     mesh_.request_vertex_status();
     mesh_.request_edge_status();
     mesh_.request_halfedge_status();
@@ -49,11 +49,18 @@ class UnionCleaner {
     for (const CleaningZone& zone : options.zones) {
       max_factor_ = std::max(max_factor_, zone.factor);
     }
-    std::set<std::tuple<float, float, float>> places;
-    for (const Vec3f& p : kept) places.insert({p.x(), p.y(), p.z()});
+    std::map<std::tuple<float, float, float>, int> ring_at;
+    for (size_t ring = 0; ring < kept_rings.size(); ++ring) {
+      for (const Vec3f& p : kept_rings[ring]) {
+        ring_at[{p.x(), p.y(), p.z()}] = static_cast<int>(ring);
+      }
+    }
     for (const auto v : mesh_.vertices()) {
       const auto& p = mesh_.point(v);
-      mesh_.status(v).set_locked(places.count({p[0], p[1], p[2]}) > 0);
+      const auto found = ring_at.find({p[0], p[1], p[2]});
+      if (found == ring_at.end()) continue;
+      ring_[v.idx()] = found->second;
+      mesh_.status(v).set_locked(true);
     }
   }
 
@@ -145,9 +152,8 @@ class UnionCleaner {
     const Edge e = mesh_.edge_handle(h);
     const Vertex from = mesh_.from_vertex_handle(h);
     const Vertex to = mesh_.to_vertex_handle(h);
-    if ((mesh_.status(from).locked() && mesh_.status(to).locked()) || !mesh_.is_flip_ok(e)) {
-      return false;
-    }
+    const bool within_ring = ring_[from.idx()] >= 0 && ring_[from.idx()] == ring_[to.idx()];
+    if (within_ring || !mesh_.is_flip_ok(e)) return false;
     const Vec3 a = PointOf(mesh_, from);
     const Vec3 b = PointOf(mesh_, to);
     const Vec3 c = Opposite(h);
@@ -195,12 +201,14 @@ class UnionCleaner {
 
   SurfaceMesh& mesh_;
   const UnionCleaningOptions& options_;
+  std::vector<int> ring_;  // of each vertex, -1 = none
   double max_factor_ = 1;
 };
 
 }  // namespace
 
-std::optional<TriangleMesh> CleanUnion(const UnionMesh& mesh, const std::vector<Vec3f>& kept,
+std::optional<TriangleMesh> CleanUnion(const UnionMesh& mesh,
+                                       const std::vector<std::vector<Vec3f>>& kept_rings,
                                        const UnionCleaningOptions& options) {
   TriangleMesh rounded;
   rounded.triangles = mesh.triangles;
@@ -208,7 +216,7 @@ std::optional<TriangleMesh> CleanUnion(const UnionMesh& mesh, const std::vector<
   for (const Vec3& v : mesh.vertices) rounded.vertices.push_back(v.cast<float>());
   std::optional<SurfaceMesh> surface = ToSurfaceMesh(rounded);
   if (!surface) return std::nullopt;
-  UnionCleaner(*surface, kept, options).Run();
+  UnionCleaner(*surface, kept_rings, options).Run();
   return ToTriangleMesh(*surface);
 }
 

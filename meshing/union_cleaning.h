@@ -23,9 +23,11 @@ struct UnionCleaningOptions {
 };
 
 /// Rounds a closed union to float32, collapses short edges (link condition, no flipped normals) and
-/// flips the longest edge of flat triangles. Vertices at the places `kept` do not move. Nothing
-/// where the union is not an oriented manifold. The result may still intersect itself: check it.
-std::optional<TriangleMesh> CleanUnion(const UnionMesh& mesh, const std::vector<Vec3f>& kept,
+/// flips the longest edge of flat triangles. Vertices at the places of `kept_rings` do not move,
+/// and edges between two of one ring stay. Nothing where the union is not an oriented manifold. The
+/// result may still intersect itself: check it.
+std::optional<TriangleMesh> CleanUnion(const UnionMesh& mesh,
+                                       const std::vector<std::vector<Vec3f>>& kept_rings,
                                        const UnionCleaningOptions& options);
 
 }  // namespace curvefusion
