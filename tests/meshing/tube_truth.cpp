@@ -1,5 +1,8 @@
 #include "tests/meshing/tube_truth.h"
 
+#include <CGAL/Alpha_shape_3.h>
+#include <CGAL/Alpha_shape_cell_base_3.h>
+#include <CGAL/Alpha_shape_vertex_base_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Fixed_alpha_shape_3.h>
 #include <CGAL/Fixed_alpha_shape_cell_base_3.h>
@@ -7,9 +10,11 @@
 #include <CGAL/Regular_triangulation_3.h>
 
 #include <algorithm>
-#include <cstdlib>
+#include <cmath>
+#include <limits>
 #include <map>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "kernel/disjoint_sets.h"
@@ -30,7 +35,25 @@ using CellBase =
 using Triangulation =
     CGAL::Regular_triangulation_3<Kernel,
                                   CGAL::Triangulation_data_structure_3<VertexBase, CellBase>>;
+using GrowingVertexBase =
+    CGAL::Alpha_shape_vertex_base_3<Kernel, CGAL::Regular_triangulation_vertex_base_3<Kernel>,
+                                    CGAL::Tag_true, CGAL::Tag_true>;
+using GrowingCellBase =
+    CGAL::Alpha_shape_cell_base_3<Kernel, CGAL::Regular_triangulation_cell_base_3<Kernel>,
+                                  CGAL::Tag_true, CGAL::Tag_true>;
+// Compares alphas exactly.
+using AlphaFiltration = CGAL::Alpha_shape_3<
+    CGAL::Regular_triangulation_3<
+        Kernel, CGAL::Triangulation_data_structure_3<GrowingVertexBase, GrowingCellBase>>,
+    CGAL::Tag_true>;
+using Alpha = AlphaFiltration::NT;
 using AlphaShape = CGAL::Fixed_alpha_shape_3<Triangulation>;
+
+// Where tubes of balls touch, pairs of balls up to a spacing (.1 r) from the place do so while the
+// scale grows by up to (.1 / 2)^2; a little more than that.
+constexpr double kBallWave = 0.003;
+// In radii: changes nearer to each other than this are at one place.
+constexpr double kSiteRadius = 0.5;
 
 std::vector<Kernel::Weighted_point_3> BallsAlong(const SkeletonGraph& graph, double scale) {
   std::vector<Kernel::Weighted_point_3> balls;
@@ -55,6 +78,85 @@ std::vector<Kernel::Weighted_point_3> BallsAlong(const SkeletonGraph& graph, dou
     }
   }
   return balls;
+}
+
+// The alpha from which on a simplex belongs to the complex.
+Alpha EntryOf(const AlphaFiltration::Alpha_status& status) {
+  return status.is_Gabriel() ? status.alpha_min() : status.alpha_mid();
+}
+
+Vec3 PlaceOf(AlphaFiltration::Vertex_handle v) {
+  return {v->point().x(), v->point().y(), v->point().z()};
+}
+
+// Calls visit(alpha, sign, place) for every simplex: when it enters, by what it changes the Euler
+// characteristic, and its middle.
+template <class Visit>
+void VisitSimplices(const AlphaFiltration& shape, const Visit& visit) {
+  for (AlphaFiltration::Vertex_handle v : shape.finite_vertex_handles()) {
+    visit(EntryOf(*v->get_alpha_status()), 1, PlaceOf(v));
+  }
+  for (auto e = shape.finite_edges_begin(); e != shape.finite_edges_end(); ++e) {
+    const Vec3 sum = PlaceOf(e->first->vertex(e->second)) + PlaceOf(e->first->vertex(e->third));
+    visit(EntryOf(shape.get_alpha_status(*e)), -1, sum / 2);
+  }
+  for (auto f = shape.finite_facets_begin(); f != shape.finite_facets_end(); ++f) {
+    Vec3 sum = Vec3::Zero();
+    for (int k = 1; k < 4; ++k) sum += PlaceOf(f->first->vertex((f->second + k) % 4));
+    visit(EntryOf(shape.get_alpha_status(*f)), 1, sum / 3);
+  }
+  for (auto c = shape.finite_cells_begin(); c != shape.finite_cells_end(); ++c) {
+    Vec3 sum = Vec3::Zero();
+    for (int k = 0; k < 4; ++k) sum += PlaceOf(c->vertex(k));
+    visit(c->get_alpha(), -1, sum / 4);
+  }
+}
+
+// A change of the Euler characteristic while radii grow.
+struct EulerChange {
+  double scale;  // of the radii
+  int64_t change;
+  Vec3 place;
+};
+
+// What happens at one place, in order: changes that follow each other within what balls wave are
+// one, as balls of two tubes that touch at a point touch in several pairs and close the holes
+// between them at once.
+void AddChangesOfPlace(const std::vector<EulerChange>& changes, EulerRange& range) {
+  int64_t sum = 0;
+  for (size_t i = 0; i < changes.size(); ++i) {
+    sum += changes[i].change;
+    if (i + 1 < changes.size() && changes[i + 1].scale - changes[i].scale < kBallWave) continue;
+    // A hole that closes may do so at both of its mouths and leave a pocket.
+    (sum > 0 ? range.high : range.low) += sum > 0 ? 2 * sum : sum;
+    sum = 0;
+  }
+}
+
+void AddChanges(std::vector<EulerChange> changes, double site_radius, EulerRange& range) {
+  std::sort(changes.begin(), changes.end(),
+            [](const auto& a, const auto& b) { return a.scale < b.scale; });
+  DisjointSets sites(changes.size());
+  for (size_t i = 0; i < changes.size(); ++i) {
+    for (size_t j = 0; j < i; ++j) {
+      if ((changes[i].place - changes[j].place).norm() < site_radius) {
+        sites.Unite(static_cast<int>(i), static_cast<int>(j));
+      }
+    }
+  }
+  std::map<int, std::vector<EulerChange>> of_site;
+  for (size_t i = 0; i < changes.size(); ++i) {
+    of_site[sites.Root(static_cast<int>(i))].push_back(changes[i]);
+  }
+  for (const auto& [root, at_site] : of_site) AddChangesOfPlace(at_site, range);
+}
+
+double LeastRadius(const SkeletonGraph& graph) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const EdgeId id : graph.Edges()) {
+    for (const double r : graph.edge(id).radii) least = std::min(least, r);
+  }
+  return least;
 }
 
 }  // namespace
@@ -92,31 +194,6 @@ Topology TopologyOfTubes(const SkeletonGraph& graph, double scale) {
   return topology;
 }
 
-namespace {
-
-// How often the distance from one edge to another, followed along it, turns while it differs from
-// the sum of the radii by less than the tolerance.
-int64_t TurnsOfGap(const SkeletonEdge& along, const SkeletonEdge& other, double tolerance) {
-  constexpr int kParts = 8;  // of a segment
-  std::vector<double> distances;
-  for (size_t i = 0; i + 1 < along.points.size(); ++i) {
-    for (int k = 0; k < kParts; ++k) {
-      const double t = static_cast<double>(k) / kParts;
-      const Vec3 p = along.points[i] + t * (along.points[i + 1] - along.points[i]);
-      distances.push_back(Project(other.points, p).distance / (along.radii[i] + other.radii[0]));
-    }
-  }
-  int64_t turns = 0;
-  for (size_t i = 1; i + 1 < distances.size(); ++i) {
-    const bool turns_here =
-        (distances[i] - distances[i - 1]) * (distances[i + 1] - distances[i]) < 0;
-    turns += turns_here && std::abs(distances[i] - 1) < tolerance;
-  }
-  return turns;
-}
-
-}  // namespace
-
 Topology TopologyOfStraightTubes(const SkeletonGraph& graph, double scale) {
   const std::vector<EdgeId> edges = graph.Edges();
   Topology topology{static_cast<int64_t>(edges.size()), static_cast<int64_t>(edges.size())};
@@ -138,26 +215,36 @@ Topology TopologyOfStraightTubes(const SkeletonGraph& graph, double scale) {
   return topology;
 }
 
-int64_t CountGrazingContacts(const SkeletonGraph& graph, double scale_tolerance) {
-  constexpr int kSteps = 5;  // to either side
-  int64_t contacts = 0;
-  Topology before = TopologyOfTubes(graph, 1 - scale_tolerance);
-  for (int k = 1 - kSteps; k <= kSteps; ++k) {
-    const Topology now = TopologyOfTubes(graph, 1 + scale_tolerance * k / kSteps);
-    contacts += std::abs(now.euler - before.euler);
-    before = now;
-  }
-  return contacts;
-}
-
-int64_t CountGrazingTurns(const SkeletonGraph& graph, double tolerance) {
-  int64_t turns = 0;
-  for (const EdgeId a : graph.Edges()) {
-    for (const EdgeId b : graph.Edges()) {
-      if (a != b) turns += TurnsOfGap(graph.edge(a), graph.edge(b), tolerance);
+EulerRange EulerOfTubesWithin(const SkeletonGraph& graph, double tolerance) {
+  const double radius = LeastRadius(graph);
+  const auto alpha_at = [radius](double scale) {
+    return Alpha((scale * scale - 1) * radius * radius);
+  };
+  const auto balls = BallsAlong(graph, 1);
+  const AlphaFiltration shape(balls.begin(), balls.end(), 0, AlphaFiltration::GENERAL);
+  // Simplices that enter together change nothing, unless one of them is critical.
+  std::map<Alpha, EulerChange> entries;
+  EulerRange range;
+  VisitSimplices(shape, [&, first = alpha_at(1 - tolerance), last = alpha_at(1 + tolerance)](
+                            const Alpha& alpha, int sign, const Vec3& place) {
+    if (alpha <= first) {
+      range.low = range.high += sign;
+    } else if (alpha <= last) {
+      entries.try_emplace(alpha, EulerChange{0, 0, place}).first->second.change += sign;
     }
+  });
+  std::vector<EulerChange> changes;
+  for (auto& [alpha, entry] : entries) {
+    entry.scale = std::sqrt(1 + CGAL::to_double(alpha) / (radius * radius));
+    if (entry.change != 0) changes.push_back(entry);
   }
-  return turns;
+  AddChanges(std::move(changes), kSiteRadius * radius, range);
+  constexpr int kSteps = 5;  // to either side
+  for (int k = -kSteps; k <= kSteps; ++k) {
+    const int64_t euler = TopologyOfTubes(graph, 1 + tolerance * k / kSteps).euler;
+    range = {std::min(range.low, euler), std::max(range.high, euler)};
+  }
+  return range;
 }
 
 SurfaceDeviation DeviationFromTubes(const TriangleMesh& mesh, const SkeletonGraph& graph) {

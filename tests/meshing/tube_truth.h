@@ -24,15 +24,19 @@ Topology TopologyOfTubes(const SkeletonGraph& graph, double scale = 1);
 /// along wires side by side wave, which makes holes that are not there.
 Topology TopologyOfStraightTubes(const SkeletonGraph& graph, double scale = 1);
 
-/// The number of contacts that come or go, and of holes and pockets that open or close, while all
-/// radii grow from 1 - scale_tolerance to 1 + scale_tolerance: that many may come out either way.
-/// Two that cancel each other within a fifth of the tolerance are not counted.
-int64_t CountGrazingContacts(const SkeletonGraph& graph, double scale_tolerance);
-
-/// Contacts that the steps of CountGrazingContacts pass over: where tubes run nearly along each
-/// other, the number of places at which the distance of their axes turns within the tolerance
-/// (a part of the sum of the radii) of touching. At each a contact may come or go.
-int64_t CountGrazingTurns(const SkeletonGraph& graph, double tolerance);
+/// The Euler characteristics that the union may have where every contact, hole or pocket that comes
+/// or goes while all radii grow from 1 - tolerance to 1 + tolerance may be there or not, whatever
+/// the others are. Each changes the characteristic by one, and by another where a hole leaves a
+/// pocket; they are found exactly, as critical simplices of the weighted alpha complex. Those
+/// within half a radius that follow each other at once count as what they do together: balls along
+/// two tubes touch in several pairs where the tubes touch once. Where radii differ the tolerance is
+/// a part of the least, and what the characteristic is at eleven scales within it counts as well.
+struct EulerRange {
+  int64_t low = 0;
+  int64_t high = 0;
+  bool Contains(int64_t euler) const { return low <= euler && euler <= high; }
+};
+EulerRange EulerOfTubesWithin(const SkeletonGraph& graph, double tolerance);
 
 /// The greatest distance of a vertex of the mesh from the surface of its nearest tube, outwards and
 /// inwards, in radii of that tube.
