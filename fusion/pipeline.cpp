@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <optional>
 #include <utility>
 
 #include "capture/frame_stream.h"
@@ -240,8 +241,8 @@ void ReportAdjustment(const ColourAdjustment& adjusted, StageLog& log) {
 }
 
 // Deviation: what images look past is dropped, and what they show besides is added.
-void CompleteBySilhouettes(const ColourAdjustment& adjusted, RunContext& run,
-                           Reconstruction& result) {
+void CorrectBySilhouettes(const ColourAdjustment& adjusted, RunContext& run,
+                          Reconstruction& result) {
   if (run.options.silhouettes.max_frames == 0) return;
   const char* stage = "silhouettes";
   const StageLog::Timer timer(run.log, stage);
@@ -262,16 +263,17 @@ void CompleteBySilhouettes(const ColourAdjustment& adjusted, RunContext& run,
   run.observer.OnGraph("corrected", result.skeleton);
 }
 
-// Deviation: curves of known radius and poses as exact as the colour images show them. False where
-// nothing was changed.
-bool RefineInColour(const Sequence& given, RunContext& run, Reconstruction& result) {
-  if (!run.options.colour_adjustment.enabled || result.skeleton.empty()) return false;
+// Deviation: curves of known radius and poses as exact as the colour images show them. Nothing
+// where nothing was changed.
+std::optional<ColourAdjustment> RefineInColour(const Sequence& given, RunContext& run,
+                                               Reconstruction& result) {
+  if (!run.options.colour_adjustment.enabled || result.skeleton.empty()) return std::nullopt;
   const StageLog::Timer timer(run.log, "colour adjustment");
   std::vector<RigidTransform> T_world_given;
   for (const SequenceFrame& frame : given.frames) T_world_given.push_back(frame.T_world_camera);
   ColourAdjustment adjusted = AdjustToColours(result.skeleton, result.sequence, T_world_given,
                                               run.options.colour_adjustment);
-  result.skeleton = std::move(adjusted.skeleton);
+  result.skeleton = adjusted.skeleton;
   for (size_t i = 0; i < result.sequence.frames.size(); ++i) {
     result.sequence.frames[i].T_world_camera = adjusted.T_world_camera[i];
   }
@@ -280,9 +282,7 @@ bool RefineInColour(const Sequence& given, RunContext& run, Reconstruction& resu
   ReportAdjustment(adjusted, run.log);
   run.observer.OnProgress("colour adjustment", 1, 1);
   run.observer.OnGraph("adjusted", result.skeleton);
-  if (!adjusted.skipped.empty()) return false;
-  CompleteBySilhouettes(adjusted, run, result);
-  return true;
+  return adjusted.skipped.empty() ? std::optional(std::move(adjusted)) : std::nullopt;
 }
 
 // Deviation: wires that depth has missed and colour images show.
@@ -323,7 +323,10 @@ Reconstruction ReconstructThinParts(const TsdfVolume& volume, const Sequence& se
   AssignMeasuredRadii(run, result);
   DropThickParts(run.options.radius, result.skeleton);  // nothing is to be added to them
   AddMissedWires(run, result);
-  if (RefineInColour(sequence, run, result)) AssignMeasuredRadii(run, result);
+  if (const auto adjusted = RefineInColour(sequence, run, result)) {
+    CorrectBySilhouettes(*adjusted, run, result);
+    AssignMeasuredRadii(run, result);
+  }
   DropThickParts(run.options.radius, result.skeleton);
   LookForEvidence(run, result);
   result.stages = run.log.stages();

@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 #include <vector>
@@ -165,7 +166,7 @@ bool IsThin(const WireSilhouettes& silhouettes, const Polyline& curve, double ra
     const Vec3 u = tangents[i].unitOrthogonal();
     const Vec3 v = tangents[i].cross(u);
     for (int k = 0; k < kDirections; ++k) {
-      const double angle = 2 * M_PI * k / kDirections;
+      const double angle = 2 * std::numbers::pi * k / kDirections;
       ++beside;
       free += silhouettes.Share(
                   curve[i] + 3 * radius * (std::cos(angle) * u + std::sin(angle) * v)) < kMinShare

@@ -15,9 +15,9 @@ namespace curvefusion {
 class WireSilhouettes {
  public:
   /// `frames` of the sequence, whose poses and colour camera fit the curves, and for each how
-  /// likely its pixels are to show wire; at most max_frames of them are used. Decodes their depth
-  /// images, which tell where something large stands before a place; throws Error(kBadInput) like
-  /// LoadDepth.
+  /// likely its pixels are to show wire (these images must outlive this); at most max_frames of
+  /// them are used. Decodes their depth images, which tell where something large stands before a
+  /// place; throws Error(kBadInput) like LoadDepth.
   WireSilhouettes(const Sequence& sequence, const std::vector<int>& frames,
                   const std::vector<PosteriorImage>& posteriors, int max_frames);
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "fusion/silhouette_path.h"
 #include "fusion/silhouette_pruning.h"
 #include "fusion/silhouette_seeds.h"
@@ -68,7 +70,7 @@ TEST(SilhouettePath, FollowsAWireBesideItsGuide) {
   const SilhouetteScan scan({kUpper});
   Polyline guide;
   for (const Vec3& p : TestLine({-0.03, 0, 0}, {0.03, 0, 0}))
-    guide.emplace_back(p.x(), 0.004 * std::cos(p.x() / 0.03 * M_PI / 2), 0);
+    guide.emplace_back(p.x(), 0.004 * std::cos(p.x() / 0.03 * std::numbers::pi / 2), 0);
   const auto path = PathThroughSilhouettes(scan.Silhouettes(), guide, 0.95);
   ASSERT_TRUE(path.has_value());
   EXPECT_EQ(path->front(), guide.front());
