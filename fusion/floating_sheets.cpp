@@ -99,13 +99,7 @@ void SheetGrid::Pool() {
   sheets_.clear();
   for (const auto& entry : counts_) {
     const VoxelKey& key = entry.first;
-    Counts sum;
-    for (int i = 0; i < 27; ++i) {
-      const auto it = counts_.find({key.x + i % 3 - 1, key.y + i / 3 % 3 - 1, key.z + i / 9 - 1});
-      if (it == counts_.end()) continue;
-      sum.floating += it->second.floating;
-      sum.all += it->second.all;
-    }
+    const Counts sum = SumAround(counts_, key);
     if (sum.floating > kMinSheetShare * sum.all) sheets_.insert(key);
   }
 }

@@ -42,6 +42,11 @@ class SheetGrid {
   struct Counts {
     int floating = 0;
     int all = 0;
+    Counts& operator+=(const Counts& other) {
+      floating += other.floating;
+      all += other.all;
+      return *this;
+    }
   };
   std::unordered_map<VoxelKey, Counts, VoxelKeyHash> counts_;
   std::unordered_set<VoxelKey, VoxelKeyHash> sheets_;

@@ -85,13 +85,7 @@ void OpennessGrid::Pool() {
   shares_.clear();
   for (const auto& entry : counts_) {
     const VoxelKey& key = entry.first;
-    Counts sum;
-    for (int i = 0; i < 27; ++i) {
-      const auto it = counts_.find({key.x + i % 3 - 1, key.y + i / 3 % 3 - 1, key.z + i / 9 - 1});
-      if (it == counts_.end()) continue;
-      sum.passed += it->second.passed;
-      sum.ended += it->second.ended;
-    }
+    const Counts sum = SumAround(counts_, key);
     const int all = sum.passed + sum.ended;
     if (all >= kMinPixels) shares_[key] = static_cast<float>(sum.passed) / static_cast<float>(all);
   }

@@ -55,6 +55,11 @@ class OpennessGrid {
   struct Counts {
     int ended = 0;
     int passed = 0;
+    Counts& operator+=(const Counts& other) {
+      ended += other.ended;
+      passed += other.passed;
+      return *this;
+    }
   };
 
   OpennessOptions options_;

@@ -34,6 +34,17 @@ inline VoxelKey VoxelOf(const Vec3& p, double voxel_size) {
           static_cast<int>(std::floor(p.z() / voxel_size))};
 }
 
+/// The sum of what a map of voxels holds of a voxel and of the 26 around it; its values have +=.
+template <class Map>
+typename Map::mapped_type SumAround(const Map& values, const VoxelKey& key) {
+  typename Map::mapped_type sum;
+  for (int i = 0; i < 27; ++i) {
+    const auto it = values.find({key.x + i % 3 - 1, key.y + i / 3 % 3 - 1, key.z + i / 9 - 1});
+    if (it != values.end()) sum += it->second;
+  }
+  return sum;
+}
+
 /// Numbers cells in the order in which they are first asked for: an open-addressing hash table.
 class VoxelNumbers {
  public:
