@@ -37,8 +37,8 @@ constexpr double kCornerAngle = 1.0;             // the same as for smoothing
 constexpr double kVideoStep = 20 * kMillimetre;  // cameras in hands move less from frame to frame
 constexpr int kMinStrips = 300;
 constexpr double kMinAcceptedShare = 0.1;
-constexpr double kMaxResidualPx =
-    0.4;                          // those that fit come to .1; more is a wire taken for the next
+// Curves that fit come to .1; more is a wire taken for the next.
+constexpr double kMaxResidualPx = 0.4;
 constexpr double kMinGain = 0.8;  // of the residual
 // How far a colour image lies beside its depth image for itself: shutters are not in step.
 constexpr double kColorJitterPx = 0.5;
