@@ -60,14 +60,6 @@ RidgeProjectionOptions ForCloseWires(RidgeProjectionOptions options, double magn
   return options;
 }
 
-SkeletonGraph ExtractRidgeSkeleton(const ObservedPoints& points, const RidgeOptions& options,
-                                   double magnification) {
-  if (magnification == 1) return ExtractRidgeSkeleton(points, options);
-  const AffineTransform magnify(Eigen::Scaling(magnification));
-  return Transformed(ExtractRidgeSkeleton(Transformed(points, magnify), options),
-                     magnify.inverse());
-}
-
 AlignmentResult AlignRows(const RidgePoints& ridges, const AlignmentTarget& target,
                           const AlignmentOptions& options, double row_spacing) {
   AlignmentResult best = AlignPoints(ridges.positions, target, options);

@@ -1,9 +1,7 @@
 #pragma once
 
 #include "fusion/alignment.h"
-#include "graph/ridge_skeleton.h"
-#include "graph/skeleton_graph.h"
-#include "kernel/observed_points.h"
+#include "graph/ridge_projection.h"
 
 namespace curvefusion {
 
@@ -14,10 +12,6 @@ double Magnification(double row_spacing, double resolved);
 
 /// The options with all lengths divided by a magnification.
 RidgeProjectionOptions ForCloseWires(RidgeProjectionOptions options, double magnification);
-
-/// ExtractRidgeSkeleton of the magnified points, in the points' own size.
-SkeletonGraph ExtractRidgeSkeleton(const ObservedPoints& points, const RidgeOptions& options,
-                                   double magnification);
 
 /// AlignPoints for ridges of a row of wires so close that drift may bring each next to its
 /// neighbour: starts `row_spacing` (metres) to either side across the wires are tried too, and the

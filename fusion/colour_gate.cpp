@@ -146,10 +146,6 @@ void DropUnresolved(const PosteriorImage& posterior, const ColourLookup& lookup,
   });
 }
 
-bool AnySet(const MaskImage& mask) {
-  return std::find(mask.data(), mask.data() + mask.size(), 1) != mask.data() + mask.size();
-}
-
 // In rows, wire is what lies on crests and background what lies in valleys; elsewhere the mask and
 // what surrounds it.
 void LearnFromStripes(const WireCandidates& frame, const WireColours& colours,

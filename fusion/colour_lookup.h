@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cmath>
-
 #include "capture/sequence.h"
 #include "kernel/geometry.h"
 #include "kernel/image.h"
@@ -21,8 +19,9 @@ class ColourLookup {
     const Vec3 p_color = sequence_.T_color_depth * sequence_.depth_camera.Unproject(u, v, depth);
     if (p_color.z() <= 0) return false;
     const Vec2 pixel = sequence_.color_camera.Project(p_color) + shift_px_;
-    color_u = static_cast<int>(std::lround(pixel.x()));
-    color_v = static_cast<int>(std::lround(pixel.y()));
+    const Eigen::Vector2i rounded = PinholeCamera::Rounded(pixel);
+    color_u = rounded.x();
+    color_v = rounded.y();
     return sequence_.color_camera.Contains(pixel);
   }
 

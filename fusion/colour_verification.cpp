@@ -86,8 +86,8 @@ MaskImage MaskPixelsOnEdges(const MaskImage& mask, const DepthImage& depth, cons
       if (p_color.z() <= 0) continue;
       const Vec2 pixel = color_camera.Project(p_color);
       if (!color_camera.Contains(pixel)) continue;
-      on_edge(u, v) = near_edges(static_cast<int>(std::lround(pixel.x())),
-                                 static_cast<int>(std::lround(pixel.y())));
+      const Eigen::Vector2i at = PinholeCamera::Rounded(pixel);
+      on_edge(u, v) = near_edges(at.x(), at.y());
     }
   });
   return on_edge;

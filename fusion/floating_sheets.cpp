@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "fusion/rendered_points.h"
+
 namespace curvefusion {
 
 namespace {
@@ -84,15 +86,11 @@ MaskImage FloatingSheets(const DepthImage& kept, const DepthImage& rendering) {
 
 void SheetGrid::AddFrame(const MaskImage& floating, const DepthImage& rendering,
                          const PinholeCamera& camera, const RigidTransform& T_world_camera) {
-  for (int v = 0; v < rendering.height(); ++v) {
-    for (int u = 0; u < rendering.width(); ++u) {
-      if (!(rendering(u, v) > 0)) continue;
-      const Vec3 p_world = T_world_camera * camera.Unproject(u, v, rendering(u, v));
-      Counts& cell = counts_[VoxelOf(p_world, kCell)];
-      ++cell.all;
-      cell.floating += floating(u, v);
-    }
-  }
+  ForEachRenderedPoint(rendering, camera, T_world_camera, [&](int u, int v, const Vec3& p_world) {
+    Counts& cell = counts_[VoxelOf(p_world, kCell)];
+    ++cell.all;
+    cell.floating += floating(u, v);
+  });
 }
 
 void SheetGrid::Pool() {
@@ -112,12 +110,8 @@ MaskImage SheetGrid::Mask(const DepthImage& rendering, const PinholeCamera& came
                           const RigidTransform& T_world_camera) const {
   MaskImage mask(rendering.width(), rendering.height(), 0);
   if (sheets_.empty()) return mask;
-  for (int v = 0; v < rendering.height(); ++v) {
-    for (int u = 0; u < rendering.width(); ++u) {
-      if (!(rendering(u, v) > 0)) continue;
-      mask(u, v) = Contains(T_world_camera * camera.Unproject(u, v, rendering(u, v)));
-    }
-  }
+  ForEachRenderedPoint(rendering, camera, T_world_camera,
+                       [&](int u, int v, const Vec3& p_world) { mask(u, v) = Contains(p_world); });
   return mask;
 }
 

@@ -6,6 +6,7 @@
 
 #include "capture/frame_stream.h"
 #include "fusion/difference_set.h"
+#include "fusion/rendered_points.h"
 #include "kernel/parallel.h"
 
 namespace curvefusion {
@@ -100,13 +101,9 @@ MaskImage OpennessGrid::Grilles(const DepthImage& rendering, const PinholeCamera
                                 const RigidTransform& T_world_camera) const {
   MaskImage grilles(rendering.width(), rendering.height(), 0);
   if (shares_.empty()) return grilles;
-  for (int v = 0; v < rendering.height(); ++v) {
-    for (int u = 0; u < rendering.width(); ++u) {
-      if (!(rendering(u, v) > 0)) continue;
-      const Vec3 p_world = T_world_camera * camera.Unproject(u, v, rendering(u, v));
-      grilles(u, v) = Share(p_world) > options_.max_share;
-    }
-  }
+  ForEachRenderedPoint(rendering, camera, T_world_camera, [&](int u, int v, const Vec3& p_world) {
+    grilles(u, v) = Share(p_world) > options_.max_share;
+  });
   return grilles;
 }
 

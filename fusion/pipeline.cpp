@@ -131,11 +131,11 @@ RadiusEstimate MeasureRadii(const SkeletonGraph& skeleton, const Sequence& seque
 SkeletonGraph Contract(const ObservedPoints& points, const std::string& name, RunContext& run) {
   const StageLog::Timer timer(run.log, "contraction");
   const double ratio = RayNoiseRatio(points, run.options.min_linearity);
-  const AffineTransform metric = NoiseMetric(points, ratio);
-  SkeletonGraph skeleton =
-      ratio > 1 ? Transformed(ExtractRidgeSkeleton(Transformed(points, metric), run.options.ridge),
-                              metric.inverse())
-                : ExtractRidgeSkeleton(points, run.options.ridge, run.magnification);
+  const AffineTransform T_space_world =
+      ratio > 1 ? NoiseMetric(points, ratio) : AffineTransform(Eigen::Scaling(run.magnification));
+  SkeletonGraph skeleton = ratio > 1 || run.magnification > 1
+                               ? ExtractRidgeSkeleton(points, run.options.ridge, T_space_world)
+                               : ExtractRidgeSkeleton(points, run.options.ridge);
   run.log.Count("contraction", "ray noise ratio", ratio);
   run.observer.OnProgress("contraction", 1, 1);
   run.observer.OnPoints(name + "_points", points);

@@ -71,11 +71,6 @@ SegmentedFrame SegmentFrame(const Sequence& sequence, int frame, const TsdfVolum
   return segmented;
 }
 
-bool HasRows(const WireCandidates& frame) {
-  return std::find(frame.rows.data(), frame.rows.data() + frame.rows.size(), 1) !=
-         frame.rows.data() + frame.rows.size();
-}
-
 std::vector<int> FramesToLearnFrom(const Sequence& sequence, int count) {
   count = std::min(count, sequence.frame_count());
   std::vector<int> frames(count);
@@ -117,7 +112,8 @@ void SetRowMargin(int margin, std::vector<WireCandidates>& candidates) {
 // Learns the colours of close rows; false where the colours show no stripes in rows.
 bool LearnCloseRows(const Sequence& sequence, const SegmentationOptions& options,
                     std::vector<WireCandidates>& candidates, SegmentationModel& model) {
-  if (std::none_of(candidates.begin(), candidates.end(), HasRows)) return false;
+  const auto has_rows = [](const WireCandidates& frame) { return AnySet(frame.rows); };
+  if (std::none_of(candidates.begin(), candidates.end(), has_rows)) return false;
   SetRowMargin(kCloseRowMargin, candidates);
   WireColours colours = LearnWireColours(candidates, sequence, options.gate);
   SharpenColours(candidates, sequence, colours);

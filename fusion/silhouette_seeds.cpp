@@ -94,11 +94,10 @@ class CellSearch {
       const Vec2 pixel = silhouettes_.color_camera().Project(p);
       if (!silhouettes_.color_camera().Contains(pixel)) continue;
       const double reach_px = silhouettes_.color_camera().fx * reach / (p.z() - reach) + 0.7;
-      const int u = static_cast<int>(std::floor(pixel.x() + 0.5));
-      const int v = static_cast<int>(std::floor(pixel.y() + 0.5));
+      const Eigen::Vector2i at = PinholeCamera::Rounded(pixel);
       ++looked;
-      missed += distances_[i].to_wire.at<float>(v, u) > reach_px ? 1 : 0;
-      unexplained += distances_[i].to_unexplained.at<float>(v, u) <= reach_px ? 1 : 0;
+      missed += distances_[i].to_wire.at<float>(at.y(), at.x()) > reach_px ? 1 : 0;
+      unexplained += distances_[i].to_unexplained.at<float>(at.y(), at.x()) <= reach_px ? 1 : 0;
       if (missed > max_missed) return false;
     }
     return 2 * looked >= count && unexplained >= kMinUnexplained * count;
@@ -181,8 +180,8 @@ bool IsThin(const WireSilhouettes& silhouettes, const Polyline& curve, double ra
 // curve may lie beside its wire.
 bool IsApart(const SkeletonGraph& skeleton, const Polyline& curve, double radius) {
   int near = 0;
+  const std::vector<EdgeId> edges = skeleton.Edges();
   for (const Vec3& p : curve) {
-    const std::vector<EdgeId> edges = skeleton.Edges();
     near += std::any_of(edges.begin(), edges.end(), [&](EdgeId id) {
       return Project(skeleton.edge(id).points, p).distance < 2.5 * radius;
     });

@@ -227,10 +227,10 @@ void VisitOptions(WireCompletionOptions& options, OptionVisitor& visitor) {
 CompletedWires CompleteWires(const SkeletonGraph& skeleton, const Sequence& sequence,
                              const WireCompletionOptions& options) {
   CompletedWires result{skeleton, 0, 0};
-  if (FindContinuations(skeleton, options.continuations).empty()) return result;
+  auto ways = FindContinuations(skeleton, options.continuations);
+  if (ways.empty()) return result;
   const WireImages images(skeleton, sequence, options);
   for (int round = 0; round < options.rounds; ++round) {
-    const auto ways = FindContinuations(result.skeleton, options.continuations);
     std::vector<Trial> trials = MakeTrials(result.skeleton, ways, options.step);
     images.Look(SampleStrips(result.skeleton, options.step), trials);
     const auto wires = Wires(trials, ways.size(), options);
@@ -238,6 +238,7 @@ CompletedWires CompleteWires(const SkeletonGraph& skeleton, const Sequence& sequ
     if (wires.empty()) break;
     result.added += static_cast<int>(wires.size());
     AddContinuations(result.skeleton, wires, options.continuations);
+    ways = FindContinuations(result.skeleton, options.continuations);
   }
   return result;
 }

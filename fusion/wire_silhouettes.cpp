@@ -1,7 +1,6 @@
 #include "fusion/wire_silhouettes.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "capture/frame_stream.h"
 #include "kernel/parallel.h"
@@ -54,8 +53,8 @@ bool WireSilhouettes::IsHidden(const View& view, const Vec3& p_depth) const {
   if (p_depth.z() <= 0) return false;
   const Vec2 pixel = depth_camera_.Project(p_depth);
   if (!depth_camera_.Contains(pixel)) return false;
-  const float farthest = view.farthest(static_cast<int>(pixel.x() + 0.5) / kCellPx,
-                                       static_cast<int>(pixel.y() + 0.5) / kCellPx);
+  const Eigen::Vector2i at = PinholeCamera::Rounded(pixel);
+  const float farthest = view.farthest(at.x() / kCellPx, at.y() / kCellPx);
   return farthest > 0 && farthest < static_cast<float>(p_depth.z()) - kHidingDistance;
 }
 
@@ -66,8 +65,8 @@ ViewCount WireSilhouettes::Count(const Vec3& p) const {
     if (p_color.z() <= 0) continue;
     const Vec2 pixel = color_camera_.Project(p_color);
     if (!color_camera_.Contains(pixel)) continue;
-    const bool is_wire = IsWire((*view.posterior)(static_cast<int>(std::floor(pixel.x() + 0.5)),
-                                                  static_cast<int>(std::floor(pixel.y() + 0.5))));
+    const Eigen::Vector2i at = PinholeCamera::Rounded(pixel);
+    const bool is_wire = IsWire((*view.posterior)(at.x(), at.y()));
     if (!is_wire && IsHidden(view, view.T_depth_world * p)) continue;
     ++count.looked;
     count.seen += is_wire ? 1 : 0;

@@ -104,6 +104,12 @@ SkeletonGraph ExtractRidgeSkeleton(const ObservedPoints& points, const RidgeOpti
   return graph;
 }
 
+SkeletonGraph ExtractRidgeSkeleton(const ObservedPoints& points, const RidgeOptions& options,
+                                   const AffineTransform& T_space_world) {
+  return Transformed(ExtractRidgeSkeleton(Transformed(points, T_space_world), options),
+                     T_space_world.inverse());
+}
+
 void TidyRidgeSkeleton(SkeletonGraph& graph, const RidgeOptions& options) {
   DropShortLoops(graph, options.network.min_loop);
   PruneSpurs(graph, options.network.min_spur);

@@ -32,6 +32,11 @@ struct PinholeCamera {
            pixel.y() < height - 0.5;
   }
 
+  /// The pixel that a place in the image rounds to; it lies in the image where Contains says so.
+  static Eigen::Vector2i Rounded(const Vec2& pixel) {
+    return (pixel.array() + 0.5).floor().cast<int>();
+  }
+
   /// The same camera with an image `factor` times as large (0.5: half width and height).
   PinholeCamera Scaled(double factor) const {
     return {static_cast<int>(std::lround(width * factor)),

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cstddef>
@@ -47,5 +48,9 @@ using Rgb = std::array<uint8_t, 3>;
 using ColorImage = Image<Rgb>;
 /// 0 or 1 per pixel.
 using MaskImage = Image<uint8_t>;
+
+inline bool AnySet(const MaskImage& mask) {
+  return std::find(mask.data(), mask.data() + mask.size(), 1) != mask.data() + mask.size();
+}
 
 }  // namespace curvefusion

@@ -6,6 +6,8 @@
 #include <limits>
 #include <random>
 
+#include "graph/ridge_skeleton.h"
+
 namespace curvefusion {
 namespace {
 
@@ -42,8 +44,9 @@ ObservedPoints Row() {
 
 TEST(ExtractRidgeSkeleton, PartsCloseWiresWhereMagnified) {
   const ObservedPoints row = Row();
-  EXPECT_NE(ExtractRidgeSkeleton(row, RidgeOptions(), 1).ComponentCount(), 6);
-  const SkeletonGraph skeleton = ExtractRidgeSkeleton(row, RidgeOptions(), 1.6);
+  EXPECT_NE(ExtractRidgeSkeleton(row, RidgeOptions()).ComponentCount(), 6);
+  const SkeletonGraph skeleton =
+      ExtractRidgeSkeleton(row, RidgeOptions(), AffineTransform(Eigen::Scaling(1.6)));
   EXPECT_EQ(skeleton.ComponentCount(), 6);
   EXPECT_EQ(skeleton.edge_count(), 6);
   for (const EdgeId edge : skeleton.Edges()) {
@@ -91,7 +94,9 @@ TEST(AlignRows, OfNothingOrWithoutRowsIsAlignPoints) {
 }
 
 TEST(ExtractRidgeSkeleton, OfNothingIsEmpty) {
-  EXPECT_TRUE(ExtractRidgeSkeleton(ObservedPoints(), RidgeOptions(), 2).empty());
+  EXPECT_TRUE(
+      ExtractRidgeSkeleton(ObservedPoints(), RidgeOptions(), AffineTransform(Eigen::Scaling(2.0)))
+          .empty());
 }
 
 }  // namespace
