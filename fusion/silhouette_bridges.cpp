@@ -88,7 +88,7 @@ std::vector<Target> TargetsAhead(const SkeletonGraph& skeleton, const OpenEnd& e
       const double length = way.norm();
       if (length > max_gap || length <= 0) continue;
       const double ahead = end.outward.dot(way) / length;
-      if (ahead < (length < kNear ? 0 : kFacingCosine)) continue;
+      if (length > kSnapDistance && ahead < (length < kNear ? 0 : kFacingCosine)) continue;
       const double cost = length * (2 - ahead);
       if (cost < best.cost) best = {cost, id, i};
     }

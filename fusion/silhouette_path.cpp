@@ -20,6 +20,7 @@ constexpr double kMiddleRadius = 0.003;  // metres; about that of a wire
 constexpr double kStep = 0.003;          // metres
 constexpr double kCorridor = 0.006;      // metres beside the guide
 constexpr double kMaxDetour = 1.3;
+constexpr double kReach = 0.009;  // metres; from a place to a wire next to it
 
 using Cell = std::array<int, 3>;
 
@@ -138,6 +139,31 @@ std::optional<Polyline> PathThroughSilhouettes(const WireSilhouettes& silhouette
   // Ends may lie a wire beside where they should.
   if (length <= 0 || length > kMaxDetour * Length(guide) + kCorridor) return std::nullopt;
   return Resample(path, kStep);
+}
+
+std::optional<Vec3> NearestWire(const WireSilhouettes& silhouettes, const Vec3& p,
+                                double min_share) {
+  Polyline places;
+  VisitAround(Cell{}, static_cast<int>(kReach / kGrid), [&](const Cell& cell, double distance) {
+    const Vec3 place = p + kGrid * Vec3(cell[0], cell[1], cell[2]);
+    if (distance * kGrid <= kReach && silhouettes.Share(place) >= min_share)
+      places.push_back(place);
+  });
+  if (places.empty()) return std::nullopt;
+  Vec3 middle = *std::min_element(places.begin(), places.end(), [&p](const Vec3& a, const Vec3& b) {
+    return (a - p).squaredNorm() < (b - p).squaredNorm();
+  });
+  for (int round = 0; round < 2; ++round) {
+    Vec3 sum = Vec3::Zero();
+    int count = 0;
+    for (const Vec3& place : places) {
+      if ((place - middle).norm() > kMiddleRadius) continue;
+      sum += place;
+      ++count;
+    }
+    middle = sum / count;
+  }
+  return middle;
 }
 
 }  // namespace curvefusion

@@ -14,4 +14,9 @@ namespace curvefusion {
 std::optional<Polyline> PathThroughSilhouettes(const WireSilhouettes& silhouettes,
                                                const Polyline& guide, double min_share);
 
+/// The middle of the wire next to a place: of what at least min_share of the images show as wire,
+/// no farther than a wire and its radius. Nothing where there is none.
+std::optional<Vec3> NearestWire(const WireSilhouettes& silhouettes, const Vec3& p,
+                                double min_share);
+
 }  // namespace curvefusion

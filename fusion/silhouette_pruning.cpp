@@ -116,6 +116,16 @@ Polyline Rerouted(const WireSilhouettes& silhouettes, const Polyline& points, do
 
 }  // namespace
 
+void MoveJunctionsIntoWires(const WireSilhouettes& silhouettes, double min_share,
+                            SkeletonGraph& skeleton) {
+  for (const NodeId node : skeleton.Nodes()) {
+    const Vec3 p = skeleton.position(node);
+    if (skeleton.Degree(node) < 2 || silhouettes.Share(p) >= min_share) continue;
+    const std::optional<Vec3> place = NearestWire(silhouettes, p, min_share);
+    if (place) skeleton.MoveNode(node, *place);
+  }
+}
+
 double DropRefutedParts(const WireSilhouettes& silhouettes, double min_share,
                         SkeletonGraph& skeleton) {
   const double before = skeleton.TotalLength();

@@ -5,6 +5,11 @@
 
 namespace curvefusion {
 
+/// Moves junctions that less than min_share of the images show as wire into the wire next to them;
+/// RerouteCurves leads their edges there.
+void MoveJunctionsIntoWires(const WireSilhouettes& silhouettes, double min_share,
+                            SkeletonGraph& skeleton);
+
 /// Removes what images look past: stretches of edges that less than min_share of the images show as
 /// wire, with the stubs that remain. Short stretches at junctions stay, since those may lie beside
 /// where wires meet, and so do short ones that are missed by little. Returns the length removed,

@@ -57,8 +57,9 @@ bool TellWires(const WireSilhouettes& silhouettes, const SkeletonGraph& skeleton
 SilhouetteChanges CorrectTopology(const WireSilhouettes& silhouettes,
                                   const SilhouetteOptions& options, SkeletonGraph& skeleton) {
   SilhouetteChanges changes;
-  changes.removed = DropRefutedParts(silhouettes, options.min_share, skeleton);
+  MoveJunctionsIntoWires(silhouettes, options.bridges.min_share, skeleton);
   RerouteCurves(silhouettes, options.bridges.min_share, skeleton);
+  changes.removed = DropRefutedParts(silhouettes, options.min_share, skeleton);
   const std::vector<FoundPiece> pieces = AddUnexplainedWires(silhouettes, skeleton);
   changes.found = static_cast<int>(pieces.size());
   changes.bridges = BridgeOpenEnds(silhouettes, options.bridges, skeleton);

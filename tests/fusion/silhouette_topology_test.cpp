@@ -124,6 +124,33 @@ TEST(SilhouettePruning, LeadsAStretchBackToItsWire) {
   EXPECT_TRUE(Faults(graph).empty());
 }
 
+// Depth has drawn the place where a stem meets a bar 6 mm past the bar.
+TEST(SilhouettePruning, MovesAJunctionBackIntoItsWires) {
+  const SilhouetteScan scan({kUpper, TestLine({0, -0.05, 0}, {0, 0, 0})});
+  SkeletonGraph graph;
+  const Vec3 beside(0, 0.006, 0);
+  const NodeId junction = graph.AddNode(beside);
+  for (const Vec3& tip : {Vec3(-0.06, 0, 0), Vec3(0.06, 0, 0), Vec3(0, -0.05, 0)})
+    AddTestEdge(graph, graph.AddNode(tip), junction, TestLine(tip, beside));
+  MoveJunctionsIntoWires(scan.Silhouettes(), 0.9, graph);
+  EXPECT_LT((graph.position(junction) - Vec3(0, 0, 0)).norm(), kTolerance);
+  RerouteCurves(scan.Silhouettes(), 0.9, graph);
+  EXPECT_EQ(DropRefutedParts(scan.Silhouettes(), 0.7, graph), 0);
+  EXPECT_EQ(graph.Degree(junction), 3);
+  EXPECT_TRUE(Faults(graph).empty());
+}
+
+TEST(SilhouettePruning, LeavesAJunctionFarFromAllWires) {
+  const SilhouetteScan scan({kUpper});
+  SkeletonGraph graph;
+  const Vec3 away(0, 0.02, 0);
+  const NodeId corner = graph.AddNode(away);
+  for (const double x : {-0.06, 0.06})
+    AddTestEdge(graph, graph.AddNode({x, 0, 0}), corner, TestLine({x, 0, 0}, away));
+  MoveJunctionsIntoWires(scan.Silhouettes(), 0.9, graph);
+  EXPECT_EQ(graph.position(corner), away);
+}
+
 TEST(SilhouetteBridges, JoinEndsThatFaceEachOther) {
   const SilhouetteScan scan(With(kBars, kAcross));
   SkeletonGraph graph = BarsWithGap(true);
@@ -151,6 +178,15 @@ TEST(SilhouetteBridges, JoinAFreeEndToTheCurveAhead) {
   EXPECT_EQ(graph.ComponentCount(), 1);
   EXPECT_EQ(graph.edge_count(), 3);
   EXPECT_TRUE(Faults(graph).empty());
+}
+
+TEST(SilhouetteBridges, JoinAFreeEndToTheCurveItHasJustPassed) {
+  const SilhouetteScan scan({kBars[1], kBetween});
+  SkeletonGraph graph;
+  AddTestEdge(graph, kBars[1]);
+  AddTestEdge(graph, TestLine({0.001, -0.025, 0.001}, {0.001, 0.027, 0.001}));
+  EXPECT_EQ(JoinEndsToSides(scan.Silhouettes(), {}, graph), 1);
+  EXPECT_EQ(graph.ComponentCount(), 1);
 }
 
 TEST(SilhouetteBridges, LeaveAFreeEndThatIsOne) {
