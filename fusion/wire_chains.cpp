@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kReach = 10 * kMillimetre;
 constexpr double kMaxTurn = 0.44;
+constexpr double kCorner = 1.05;  // a rod bent around 10 mm turns by no more
 
 // An end of an edge at a node, and where the edge goes from there.
 struct EdgeEnd {
@@ -28,10 +29,29 @@ Vec3 DirectionFrom(const Polyline& points, bool from_back) {
   return (inner - (from_back ? points.back() : points.front())).normalized();
 }
 
+double Turn(const Vec3& before, const Vec3& after) {
+  return std::acos(std::clamp(before.normalized().dot(after.normalized()), -1.0, 1.0));
+}
+
+// Whether a curve turns sharply somewhere: two wires, and their junction lies in it.
+bool HasCorner(const Polyline& points) {
+  const std::vector<double> arc_lengths = CumulativeLength(points);
+  for (const double place : arc_lengths) {
+    if (place < kReach || place > arc_lengths.back() - kReach) continue;
+    const Vec3 p = PointAt(points, arc_lengths, place);
+    const Vec3 before = p - PointAt(points, arc_lengths, place - kReach);
+    const Vec3 after = PointAt(points, arc_lengths, place + kReach) - p;
+    if (Turn(before, after) > kCorner) return true;
+  }
+  return false;
+}
+
+// The ends of the edges without a corner.
 std::map<NodeId, std::vector<EdgeEnd>> EndsAtNodes(const SkeletonGraph& skeleton) {
   std::map<NodeId, std::vector<EdgeEnd>> ends;
   for (const EdgeId id : skeleton.Edges()) {
     const SkeletonEdge& edge = skeleton.edge(id);
+    if (HasCorner(edge.points)) continue;
     ends[edge.nodes[0]].push_back({id, DirectionFrom(edge.points, false)});
     ends[edge.nodes[1]].push_back({id, DirectionFrom(edge.points, true)});
   }
@@ -47,8 +67,7 @@ std::map<EdgeId, int> WiresOfEdges(const SkeletonGraph& skeleton) {
     std::vector<std::tuple<double, size_t, size_t>> pairs;  // turn, ends
     for (size_t i = 0; i < ends.size(); ++i) {
       for (size_t j = i + 1; j < ends.size(); ++j) {
-        const double cosine = -ends[i].direction.dot(ends[j].direction);
-        const double turn = std::acos(std::clamp(cosine, -1.0, 1.0));
+        const double turn = Turn(-ends[i].direction, ends[j].direction);
         if (turn < kMaxTurn) pairs.emplace_back(turn, i, j);
       }
     }
