@@ -5,6 +5,7 @@
 
 #include "fusion/silhouette_pruning.h"
 #include "fusion/silhouette_seeds.h"
+#include "graph/corners.h"
 #include "kernel/quantile.h"
 
 namespace curvefusion {
@@ -12,6 +13,7 @@ namespace curvefusion {
 namespace {
 
 constexpr double kTrustedShare = 0.9;
+constexpr double kCorner = 0.64;  // radians; contraction rounds where wires meet at right angles
 
 // Wires that no depth image shows are believed where they join others at both ends, or go on from
 // one that is no shorter: between dense wires there are places that no image looks through.
@@ -62,6 +64,7 @@ SilhouetteChanges CorrectTopology(const WireSilhouettes& silhouettes,
   changes.removed = DropRefutedParts(silhouettes, options.min_share, skeleton);
   const std::vector<FoundPiece> pieces = AddUnexplainedWires(silhouettes, skeleton);
   changes.found = static_cast<int>(pieces.size());
+  SplitAtCorners(skeleton, kCorner);
   changes.bridges = BridgeOpenEnds(silhouettes, options.bridges, skeleton);
   changes.joins = JoinEndsToSides(silhouettes, options.bridges, skeleton);
   DropLoosePieces(pieces, skeleton);

@@ -5,6 +5,7 @@
 #include <tuple>
 #include <vector>
 
+#include "graph/corners.h"
 #include "kernel/disjoint_sets.h"
 #include "kernel/polyline.h"
 
@@ -14,7 +15,7 @@ namespace {
 
 constexpr double kReach = 10 * kMillimetre;
 constexpr double kMaxTurn = 0.44;
-constexpr double kCorner = 1.05;  // a rod bent around 10 mm turns by no more
+constexpr double kCorner = 1.05;
 
 // An end of an edge at a node, and where the edge goes from there.
 struct EdgeEnd {
@@ -33,25 +34,12 @@ double Turn(const Vec3& before, const Vec3& after) {
   return std::acos(std::clamp(before.normalized().dot(after.normalized()), -1.0, 1.0));
 }
 
-// Whether a curve turns sharply somewhere: two wires, and their junction lies in it.
-bool HasCorner(const Polyline& points) {
-  const std::vector<double> arc_lengths = CumulativeLength(points);
-  for (const double place : arc_lengths) {
-    if (place < kReach || place > arc_lengths.back() - kReach) continue;
-    const Vec3 p = PointAt(points, arc_lengths, place);
-    const Vec3 before = p - PointAt(points, arc_lengths, place - kReach);
-    const Vec3 after = PointAt(points, arc_lengths, place + kReach) - p;
-    if (Turn(before, after) > kCorner) return true;
-  }
-  return false;
-}
-
 // The ends of the edges without a corner.
 std::map<NodeId, std::vector<EdgeEnd>> EndsAtNodes(const SkeletonGraph& skeleton) {
   std::map<NodeId, std::vector<EdgeEnd>> ends;
   for (const EdgeId id : skeleton.Edges()) {
     const SkeletonEdge& edge = skeleton.edge(id);
-    if (HasCorner(edge.points)) continue;
+    if (SharpestCorner(edge.points, kCorner)) continue;
     ends[edge.nodes[0]].push_back({id, DirectionFrom(edge.points, false)});
     ends[edge.nodes[1]].push_back({id, DirectionFrom(edge.points, true)});
   }

@@ -243,6 +243,27 @@ TEST(SilhouetteTopology, CompletesAndPrunesAtOnce) {
   EXPECT_TRUE(Faults(graph).empty());
 }
 
+// Contraction has lost the bar between two rungs and drawn each rung round a corner into what is
+// left of the bar.
+TEST(SilhouetteTopology, JoinsCornersThatWereJunctions) {
+  const Polyline bar = TestLine({-0.06, 0, 0}, {0.06, 0, 0});
+  std::vector<Polyline> wires{bar};
+  SkeletonGraph graph;
+  for (const double side : {-1.0, 1.0}) {
+    const Vec3 corner(0.010 * side, 0, 0);
+    wires.push_back(TestLine(corner, corner + Vec3(0, 0.05, 0)));
+    Polyline bent = TestLine({0.06 * side, 0, 0}, corner);
+    const Polyline rung = wires.back();
+    bent.insert(bent.end(), rung.begin() + 1, rung.end());
+    AddTestEdge(graph, bent);
+  }
+  const SilhouetteScan scan(wires);
+  CorrectTopology(scan.Silhouettes(), {}, graph);
+  EXPECT_EQ(graph.ComponentCount(), 1);
+  EXPECT_EQ(graph.edge_count(), 5);
+  EXPECT_TRUE(Faults(graph).empty());
+}
+
 TEST(SilhouetteTopology, DropsWhatIsFoundButReachesNothing) {
   const SilhouetteScan scan(With(kBars, TestLine({0, -0.02, 0.01}, {0, 0.02, -0.01})));
   SkeletonGraph graph;
