@@ -256,6 +256,7 @@ void CorrectBySilhouettes(const ColourAdjustment& adjusted, RunContext& run,
       CorrectTopology(silhouettes, run.options.silhouettes, result.skeleton);
   TidyRidgeSkeleton(result.skeleton, run.options.ridge);
   run.log.Count(stage, "removed, m", changes.removed);
+  run.log.Count(stage, "rungs", changes.rungs);
   run.log.Count(stage, "found", changes.found);
   run.log.Count(stage, "bridges", changes.bridges);
   run.log.Count(stage, "joins", changes.joins);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "fusion/silhouette_pruning.h"
+#include "fusion/silhouette_rungs.h"
 #include "fusion/silhouette_seeds.h"
 #include "graph/corners.h"
 #include "kernel/quantile.h"
@@ -62,6 +63,7 @@ SilhouetteChanges CorrectTopology(const WireSilhouettes& silhouettes,
   MoveJunctionsIntoWires(silhouettes, options.bridges.min_share, skeleton);
   RerouteCurves(silhouettes, options.bridges.min_share, skeleton);
   changes.removed = DropRefutedParts(silhouettes, options.min_share, skeleton);
+  changes.rungs = DropRungsInSheets(silhouettes, options.bridges.min_share, skeleton);
   const std::vector<FoundPiece> pieces = AddUnexplainedWires(silhouettes, skeleton);
   changes.found = static_cast<int>(pieces.size());
   SplitAtCorners(skeleton, kCorner);
