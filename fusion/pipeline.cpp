@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -22,6 +23,7 @@ struct RunContext {
   double row_spacing = 0;    // of close wires, metres; 0 where there are none
   double row_diameter = 0;   // of theirs, metres, roughly
   double magnification = 1;  // of points, for them
+  double ray_noise_ratio = 1;
 };
 
 // "Removing large surfaces" needs a model of them: all frames in one volume.
@@ -130,7 +132,7 @@ RadiusEstimate MeasureRadii(const SkeletonGraph& skeleton, const Sequence& seque
 
 SkeletonGraph Contract(const ObservedPoints& points, const std::string& name, RunContext& run) {
   const StageLog::Timer timer(run.log, "contraction");
-  const double ratio = RayNoiseRatio(points, run.options.min_linearity);
+  const double ratio = run.ray_noise_ratio;
   const AffineTransform T_space_world =
       ratio > 1 ? NoiseMetric(points, ratio) : AffineTransform(Eigen::Scaling(run.magnification));
   SkeletonGraph skeleton = ratio > 1 || run.magnification > 1
@@ -203,14 +205,23 @@ void CorrectPoses(const std::vector<RigidTransform>& T_registered_world, Sequenc
   }
 }
 
+// Noise blurs the points of a single bundle, drift only those of several together.
+ObservedPoints LargestBundle(const SegmentedScan& scan) {
+  const auto largest =
+      std::max_element(scan.bundles.begin(), scan.bundles.end(),
+                       [](const auto& a, const auto& b) { return a.size() < b.size(); });
+  return largest == scan.bundles.end() ? ObservedPoints{} : *largest;
+}
+
 // Best profile: bundles, then single frames, are registered to the curves they see; their points
 // are carried along and contracted once. Where noise blurs the curves, single frames would be
 // registered to noise: they keep the poses of their bundles.
 void ContractCarriedPoints(const SegmentedScan& scan, RunContext& run, Reconstruction& result) {
+  run.ray_noise_ratio = RayNoiseRatio(LargestBundle(scan), run.options.min_linearity);
   const auto [points, T_registered_frame] = RegisterBundles(scan, run);
   SkeletonGraph first = Contract(points, "registered_bundles", run);
   AssignRadii(MeasureRadii(first, result.sequence, run), run.options.radius, first);
-  if (RayNoiseRatio(points, run.options.min_linearity) > 1) {
+  if (run.ray_noise_ratio > 1) {
     CorrectPoses(T_registered_frame, result.sequence);
     result.points = MoveToAxis(points, first, run.options.axis_depth);
   } else {

@@ -84,8 +84,10 @@ void VisitOptions(PipelineOptions& options, OptionVisitor& visitor) {
                 options.axis_depth);
   visitor.Visit(
       {"min_linearity", "", 0, 1,
-       "Deviation: a cloud that looks less curve-like than this from near is contracted in a "
-       "space compressed along the viewing rays, along which depth noise is largest."},
+       "Deviation: where the points of one bundle look less curve-like than this from near, all "
+       "are "
+       "contracted in a space compressed along the viewing rays, along which depth noise is "
+       "largest."},
       options.min_linearity);
   visitor.Visit(
       {"resolved_spacing", "m", 0, 0.1,
