@@ -61,7 +61,7 @@ void SkeletonGraph::Reserve(size_t nodes, size_t edges) {
 
 NodeId SkeletonGraph::AddNode(const Vec3& position) {
   const auto id = static_cast<NodeId>(nodes_.size());
-  nodes_.emplace_back(Node{position, {}});
+  nodes_.push_back({position, {}});
   node_versions_.push_back(0);
   TouchNode(id);
   ++node_count_;
@@ -76,10 +76,10 @@ EdgeId SkeletonGraph::AddEdge(SkeletonEdge edge) {
   assert(edge.observations.empty() || edge.observations.size() == edge.points.size());
   const EdgeId id = static_cast<EdgeId>(edges_.size());
   for (const NodeId node : edge.nodes) {
-    nodes_[node]->edges.push_back(id);
+    nodes_[node].edges.push_back(id);
     TouchNode(node);
   }
-  edges_.emplace_back(std::move(edge));
+  edges_.push_back(std::move(edge));
   edge_versions_.push_back(0);
   TouchEdge(id);
   ++edge_count_;
@@ -94,16 +94,15 @@ EdgeId SkeletonGraph::AddPolyline(Polyline points) {
 }
 
 void SkeletonGraph::Detach(NodeId node, EdgeId edge) {
-  auto& incident = nodes_[node]->edges;
+  auto& incident = nodes_[node].edges;
   incident.erase(std::find(incident.begin(), incident.end(), edge));
   TouchNode(node);
 }
 
 SkeletonEdge SkeletonGraph::TakeEdge(EdgeId edge) {
   assert(HasEdge(edge));
-  SkeletonEdge taken = std::move(*edges_[edge]);
+  SkeletonEdge taken = std::move(edges_[edge]);
   for (const NodeId node : taken.nodes) Detach(node, edge);
-  edges_[edge].reset();
   edge_versions_[edge] = 0;
   --edge_count_;
   return taken;
@@ -111,7 +110,7 @@ SkeletonEdge SkeletonGraph::TakeEdge(EdgeId edge) {
 
 void SkeletonGraph::RemoveNode(NodeId node) {
   assert(HasNode(node) && Degree(node) == 0);
-  nodes_[node].reset();
+  nodes_[node] = Node();
   node_versions_[node] = 0;
   --node_count_;
 }
@@ -123,10 +122,10 @@ void SkeletonGraph::RemoveIsolatedNodes(int since) {
 }
 
 void SkeletonGraph::MoveNode(NodeId node, const Vec3& position) {
-  nodes_[node]->position = position;
+  nodes_[node].position = position;
   TouchNode(node);
-  for (const EdgeId id : nodes_[node]->edges) {
-    SkeletonEdge& edge = *edges_[id];
+  for (const EdgeId id : nodes_[node].edges) {
+    SkeletonEdge& edge = edges_[id];
     TouchEdge(id);
     if (edge.nodes[0] == node) edge.points.front() = position;
     if (edge.nodes[1] == node) edge.points.back() = position;
@@ -135,7 +134,7 @@ void SkeletonGraph::MoveNode(NodeId node, const Vec3& position) {
 
 void SkeletonGraph::SetCurve(EdgeId edge, Polyline points, std::vector<double> radii,
                              std::vector<double> observations) {
-  SkeletonEdge& target = *edges_[edge];
+  SkeletonEdge& target = edges_[edge];
   assert(points.front() == position(target.nodes[0]));
   assert(points.back() == position(target.nodes[1]));
   target.points = std::move(points);
@@ -165,16 +164,16 @@ void SkeletonGraph::MergeNodes(NodeId kept, NodeId merged) {
   if (kept == merged) return;
   MoveNode(merged, position(kept));  // touches the edges
   TouchNode(kept);
-  const auto moved = nodes_[merged]->edges;
+  const auto moved = nodes_[merged].edges;
   for (const EdgeId id : moved) {
-    SkeletonEdge& edge = *edges_[id];
+    SkeletonEdge& edge = edges_[id];
     for (NodeId& node : edge.nodes) {
       if (node != merged) continue;
       node = kept;
-      nodes_[kept]->edges.push_back(id);
+      nodes_[kept].edges.push_back(id);
     }
   }
-  nodes_[merged]->edges.clear();
+  nodes_[merged].edges.clear();
   RemoveNode(merged);
   for (const EdgeId id : moved) {
     if (!HasEdge(id) || edge(id).nodes[0] != edge(id).nodes[1]) continue;
@@ -187,7 +186,7 @@ bool SkeletonGraph::IsInsideCurve(NodeId node) const {
 }
 
 NodeId SkeletonGraph::OtherEnd(EdgeId edge, NodeId node) const {
-  const std::array<NodeId, 2>& nodes = edges_[edge]->nodes;
+  const std::array<NodeId, 2>& nodes = edges_[edge].nodes;
   return nodes[0] == node ? nodes[1] : nodes[0];
 }
 
@@ -205,7 +204,7 @@ SkeletonEdge SkeletonGraph::TakeChain(NodeId first, EdgeId next) {
 }
 
 void SkeletonGraph::DissolveChainsFrom(NodeId node) {
-  const auto incident = nodes_[node]->edges;
+  const auto incident = nodes_[node].edges;
   for (const EdgeId id : incident) {
     if (!HasEdge(id)) continue;
     const NodeId other = OtherEnd(id, node);
@@ -232,21 +231,21 @@ void SkeletonGraph::DissolveDegree2Nodes(int since) {
 }
 
 bool SkeletonGraph::HasNode(NodeId node) const {
-  return node >= 0 && static_cast<size_t>(node) < nodes_.size() && nodes_[node].has_value();
+  return node >= 0 && static_cast<size_t>(node) < nodes_.size() && node_versions_[node] > 0;
 }
 
 bool SkeletonGraph::HasEdge(EdgeId edge) const {
-  return edge >= 0 && static_cast<size_t>(edge) < edges_.size() && edges_[edge].has_value();
+  return edge >= 0 && static_cast<size_t>(edge) < edges_.size() && edge_versions_[edge] > 0;
 }
 
 const Vec3& SkeletonGraph::position(NodeId node) const {
   assert(HasNode(node));
-  return nodes_[node]->position;
+  return nodes_[node].position;
 }
 
 const SkeletonEdge& SkeletonGraph::edge(EdgeId edge) const {
   assert(HasEdge(edge));
-  return *edges_[edge];
+  return edges_[edge];
 }
 
 std::vector<NodeId> SkeletonGraph::Nodes(int since) const {
@@ -259,21 +258,18 @@ std::vector<EdgeId> SkeletonGraph::Edges(int since) const {
 
 std::span<const EdgeId> SkeletonGraph::IncidentEdges(NodeId node) const {
   assert(HasNode(node));
-  return {nodes_[node]->edges.data(), nodes_[node]->edges.size()};
+  return {nodes_[node].edges.data(), nodes_[node].edges.size()};
 }
 
 double SkeletonGraph::TotalLength() const {
   double length = 0;
-  for (const auto& edge : edges_) {
-    if (edge) length += Length(edge->points);
-  }
+  for (const EdgeId id : Edges()) length += Length(edges_[id].points);
   return length;
 }
 
 int SkeletonGraph::ComponentCount() const {
   DisjointSets sets(nodes_.size());
-  for (const auto& edge : edges_)
-    if (edge) sets.Unite(edge->nodes[0], edge->nodes[1]);
+  for (const EdgeId id : Edges()) sets.Unite(edges_[id].nodes[0], edges_[id].nodes[1]);
   int components = 0;
   for (const NodeId node : Nodes()) components += Degree(node) > 0 && sets.Root(node) == node;
   return components;

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <boost/container/small_vector.hpp>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -112,7 +111,8 @@ class SkeletonGraph {
   int CycleRank() const;
 
  private:
-  struct Node {
+  // One cache line each: what is asked of a node is asked in no order of memory.
+  struct alignas(64) Node {
     Vec3 position;
     boost::container::small_vector<EdgeId, 4> edges;  // more meet at few nodes only
   };
@@ -124,8 +124,8 @@ class SkeletonGraph {
   void TouchNode(NodeId node) { node_versions_[node] = ++version_; }
   void TouchEdge(EdgeId edge) { edge_versions_[edge] = ++version_; }
 
-  std::vector<std::optional<Node>> nodes_;
-  std::vector<std::optional<SkeletonEdge>> edges_;
+  std::vector<Node> nodes_;  // removed ones are empty
+  std::vector<SkeletonEdge> edges_;
   std::vector<int> node_versions_;  // of the last change; 0 where the node is no more
   std::vector<int> edge_versions_;
   int version_ = 0;
