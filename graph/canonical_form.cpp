@@ -36,6 +36,10 @@ int Compare(const SkeletonEdge& a, bool a_reversed, const SkeletonEdge& b, bool 
   return order;
 }
 
+// In canonical order nodes and edges lie anywhere in memory: what is needed so many of them later
+// is fetched in time.
+constexpr size_t kLookahead = 12;
+
 // Places of nodes in ascending order, found by their first coordinate alone where that decides.
 struct SortedNode {
   double x;
@@ -58,7 +62,11 @@ std::vector<SortedNode> SortedNodes(const SkeletonGraph& graph) {
 std::vector<NodeId> AddNodes(const SkeletonGraph& graph, SkeletonGraph& canonical) {
   std::vector<NodeId> new_nodes;
   NodeId last = -1;
-  for (const auto& [x, node] : SortedNodes(graph)) {
+  const std::vector<SortedNode> sorted = SortedNodes(graph);
+  for (size_t i = 0; i < sorted.size(); ++i) {
+    if (i + kLookahead < sorted.size())
+      __builtin_prefetch(&graph.position(sorted[i + kLookahead].node));
+    const NodeId node = sorted[i].node;
     // Adding zero makes the two zeros one.
     const Vec3 position = graph.position(node) + Vec3::Zero();
     if (last < 0 || canonical.position(last) != position) last = canonical.AddNode(position);
@@ -107,30 +115,55 @@ std::vector<DirectedEdge> SortedEdges(const SkeletonGraph& graph,
   return sorted;
 }
 
-// `take` gives an edge of the graph by its handle.
-template <class Take>
-SkeletonGraph InCanonicalOrder(const SkeletonGraph& graph, const Take& take) {
-  SkeletonGraph canonical;
-  canonical.Reserve(graph.node_count(), graph.edge_count());
-  const std::vector<NodeId> new_nodes = AddNodes(graph, canonical);
-  for (const DirectedEdge& directed : SortedEdges(graph, new_nodes, canonical.node_count())) {
-    SkeletonEdge edge = take(directed.edge);
-    if (directed.reversed) Reverse(edge);
-    for (NodeId& node : edge.nodes) node = new_nodes[node];
+// What the canonical form of a graph consists of but for the curves.
+struct CanonicalOrder {
+  SkeletonGraph nodes;            // of the canonical form
+  std::vector<NodeId> new_nodes;  // of each old node
+  std::vector<DirectedEdge> edges;
+};
+
+CanonicalOrder OrderOf(const SkeletonGraph& graph) {
+  CanonicalOrder order;
+  order.nodes.Reserve(graph.node_count(), graph.edge_count());
+  order.new_nodes = AddNodes(graph, order.nodes);
+  order.edges = SortedEdges(graph, order.new_nodes, order.nodes.node_count());
+  return order;
+}
+
+// `at` refers to an edge of the graph by its handle, `take` gives its value.
+template <class At, class Take>
+SkeletonGraph InCanonicalOrder(CanonicalOrder order, const At& at, const Take& take) {
+  const size_t count = order.edges.size();
+  for (size_t i = 0; i < count; ++i) {
+    if (i + 2 * kLookahead < count) __builtin_prefetch(&at(order.edges[i + 2 * kLookahead].edge));
+    if (i + kLookahead < count) {
+      const SkeletonEdge& later = at(order.edges[i + kLookahead].edge);
+      __builtin_prefetch(later.points.data());
+      for (const NodeId node : later.nodes)
+        __builtin_prefetch(&order.nodes.position(order.new_nodes[node]));
+    }
+    SkeletonEdge edge = take(order.edges[i].edge);
+    if (order.edges[i].reversed) Reverse(edge);
+    for (NodeId& node : edge.nodes) node = order.new_nodes[node];
     for (Vec3& p : edge.points) p += Vec3::Zero();
-    canonical.AddEdge(std::move(edge));
+    order.nodes.AddEdge(std::move(edge));
   }
-  return canonical;
+  return std::move(order.nodes);
 }
 
 }  // namespace
 
 SkeletonGraph CanonicalForm(const SkeletonGraph& graph) {
-  return InCanonicalOrder(graph, [&graph](EdgeId id) { return graph.edge(id); });
+  const auto at = [&graph](EdgeId id) -> const SkeletonEdge& { return graph.edge(id); };
+  return InCanonicalOrder(OrderOf(graph), at, at);
 }
 
 SkeletonGraph CanonicalForm(SkeletonGraph&& graph) {
-  return InCanonicalOrder(graph, [&graph](EdgeId id) { return graph.TakeEdge(id); });
+  CanonicalOrder order = OrderOf(graph);
+  std::vector<SkeletonEdge> edges = std::move(graph).TakeEdges();
+  return InCanonicalOrder(
+      std::move(order), [&edges](EdgeId id) -> const SkeletonEdge& { return edges[id]; },
+      [&edges](EdgeId id) { return std::move(edges[id]); });
 }
 
 }  // namespace curvefusion

@@ -28,7 +28,7 @@ double Gap(const SegmentTable& table, const std::array<int, 2>& curves, const Ar
   double gap = a == b ? std::abs(arcs[0] - arcs[1]) : kFar;
   for (int i = 0; i < 2; ++i) {
     for (int j = 0; j < 2; ++j) {
-      if ((a == b && i == j) || table.nodes[a][i] != table.nodes[b][j]) continue;
+      if ((a == b && i == j) || table.curves[a].nodes[i] != table.curves[b].nodes[j]) continue;
       gap = std::min(gap, (i == 0 ? arcs[0] : table.Length(a) - arcs[0]) +
                               (j == 0 ? arcs[1] : table.Length(b) - arcs[1]));
     }
@@ -137,13 +137,15 @@ Stretch StretchOf(const SegmentTable& table, const SegmentPair& pair, double thr
   const std::vector<LinearGap> ways = ShortWays(table, pair, reach);
   const ClosestParameters at = ClosestPointsBeyond(s, t, ways, reach);
   const auto arc_s = [&](double x) {
-    return table.arcs[pair.s] + x * (table.arcs[pair.s + 1] - table.arcs[pair.s]);
+    return table.points[pair.s].arc_length +
+           x * (table.points[pair.s + 1].arc_length - table.points[pair.s].arc_length);
   };
   const auto arc_t = [&](double y) {
-    return table.arcs[pair.t] + y * (table.arcs[pair.t + 1] - table.arcs[pair.t]);
+    return table.points[pair.t].arc_length +
+           y * (table.points[pair.t + 1].arc_length - table.points[pair.t].arc_length);
   };
   Stretch stretch;
-  stretch.curves = {table.curves[pair.s], table.curves[pair.t]};
+  stretch.curves = {table.curve_of[pair.s], table.curve_of[pair.t]};
   stretch.closest = {arc_s(at.s), arc_t(at.t)};
   stretch.distance = (s.a + at.s * (s.b - s.a) - t.a - at.t * (t.b - t.a)).norm();
   const Interval on_s = WithinInterval(s, t, radius, at.s);
@@ -162,7 +164,7 @@ Stretch StretchOf(const SegmentTable& table, const SegmentPair& pair, double thr
 template <class Visit>
 void VisitNeighbours(const SegmentTable& table, const SegmentPair& pair, const Visit& visit) {
   const auto follows = [&table](int from, int to) {
-    return table.IsSegment(to) && table.curves[from] == table.curves[to];
+    return table.IsSegment(to) && table.curve_of[from] == table.curve_of[to];
   };
   for (int ds = -1; ds <= 1; ++ds) {
     for (int dt = -1; dt <= 1; ++dt) {
@@ -190,7 +192,10 @@ DisjointSets ConnectPairs(const SegmentTable& table, const std::vector<SegmentPa
 std::vector<Stretch> Stretches(const SegmentTable& table, const std::vector<SegmentPair>& pairs,
                                double threshold, double radius) {
   DisjointSets sets = ConnectPairs(table, pairs);
+  size_t count = 0;
+  for (int i = 0; i < static_cast<int>(pairs.size()); ++i) count += sets.Root(i) == i;
   std::vector<Stretch> stretches;
+  stretches.reserve(count);
   std::vector<int> stretch_of_root(pairs.size(), -1);
   for (size_t i = 0; i < pairs.size(); ++i) {
     const Stretch here = StretchOf(table, pairs[i], threshold, radius);
@@ -221,20 +226,22 @@ std::vector<Stretch> UnitedStretches(std::vector<Stretch> stretches, double gap)
     return std::tie(a.curves, a.extent[0].low, a.extent[1].low) <
            std::tie(b.curves, b.extent[0].low, b.extent[1].low);
   });
-  std::vector<Stretch> united;
-  for (const Stretch& stretch : stretches) {
-    if (!united.empty() && AreOneStretch(united.back(), stretch, gap)) {
-      united.back().Add(stretch);
+  size_t united = 0;  // those in front
+  for (size_t i = 0; i < stretches.size(); ++i) {
+    if (united > 0 && AreOneStretch(stretches[united - 1], stretches[i], gap)) {
+      stretches[united - 1].Add(stretches[i]);
     } else {
-      united.push_back(stretch);
+      stretches[united++] = stretches[i];
     }
   }
-  return united;
+  stretches.resize(united);
+  return stretches;
 }
 
 Contact ToContact(const SegmentTable& table, const Stretch& stretch, double overlap_extent) {
   const auto place = [&](const Arcs& arcs) -> LocationPair {
-    return {{table.edges[stretch.curves[0]], arcs[0]}, {table.edges[stretch.curves[1]], arcs[1]}};
+    return {{table.curves[stretch.curves[0]].edge, arcs[0]},
+            {table.curves[stretch.curves[1]].edge, arcs[1]}};
   };
   Contact contact;
   contact.closest = place(stretch.closest);
@@ -256,9 +263,11 @@ std::vector<Contact> ContactsOf(const SegmentTable& table, const std::vector<Seg
   // that have a point in common are in contact, lines that have more.
   const double overlap_extent =
       radius > threshold ? kCollinearExtent * radius : 2 * kConnectedReach * radius;
+  const std::vector<Stretch> stretches =
+      UnitedStretches(Stretches(table, pairs, threshold, radius), kStretchGap * radius);
   std::vector<Contact> contacts;
-  for (const Stretch& stretch :
-       UnitedStretches(Stretches(table, pairs, threshold, radius), kStretchGap * radius))
+  contacts.reserve(stretches.size());
+  for (const Stretch& stretch : stretches)
     contacts.push_back(ToContact(table, stretch, overlap_extent));
   return contacts;
 }

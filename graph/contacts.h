@@ -41,7 +41,6 @@ class ContactSearch {
   std::vector<Contact> Find(const SkeletonGraph& graph);
 
   double largest_coordinate() const { return pairs_.largest_coordinate(); }  ///< of the last graph
-  size_t point_count() const { return pairs_.point_count(); }                ///< on all its edges
 
  private:
   double threshold_;

@@ -118,6 +118,22 @@ bool AddBendPoint(SkeletonEdge& edge, int end, double reach) {
   return true;
 }
 
+// A copy of an edge with room for a point at each end that is a node.
+SkeletonEdge WithRoom(const SkeletonEdge& edge, NodeId node) {
+  const auto room = static_cast<size_t>(std::count(edge.nodes.begin(), edge.nodes.end(), node));
+  const auto copy = [room](const auto& values, auto& to) {
+    if (values.empty()) return;
+    to.reserve(values.size() + room);
+    to.assign(values.begin(), values.end());
+  };
+  SkeletonEdge result;
+  result.nodes = edge.nodes;
+  copy(edge.points, result.points);
+  copy(edge.radii, result.radii);
+  copy(edge.observations, result.observations);
+  return result;
+}
+
 // The edges at a node, each once.
 boost::container::small_vector<EdgeId, 8> EdgesAt(const SkeletonGraph& graph, NodeId node) {
   const std::span<const EdgeId> incident = graph.IncidentEdges(node);
@@ -136,7 +152,7 @@ void MoveNodeAndFade(SkeletonGraph& graph, NodeId node, const Vec3& position, do
   const Vec3 displacement = position - graph.position(node);
   if (displacement.isZero(0)) return;
   for (const EdgeId id : EdgesAt(graph, node)) {
-    SkeletonEdge edge = graph.edge(id);
+    SkeletonEdge edge = adds_bend_points ? WithRoom(graph.edge(id), node) : graph.edge(id);
     bool has_bend_point = false;
     for (int end = 0; end < 2; ++end)
       if (adds_bend_points && edge.nodes[end] == node && AddBendPoint(edge, end, reach))
@@ -155,6 +171,10 @@ SkeletonEdge PartOfEdge(const SkeletonEdge& edge, const std::vector<double>& arc
                         double from, double to) {
   assert(from <= to && arc_lengths.size() == edge.points.size());
   return EdgeAt(edge, PlacesBetween(arc_lengths, from, to));
+}
+
+Vec3 CutPoint(const SkeletonEdge& edge, const std::vector<double>& arc_lengths, double at) {
+  return Interpolated(edge.points, PlaceAt(arc_lengths, at));
 }
 
 SkeletonEdge SampledAt(const SkeletonEdge& edge, const std::vector<double>& arc_lengths,

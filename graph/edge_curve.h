@@ -13,6 +13,10 @@ namespace curvefusion {
 SkeletonEdge PartOfEdge(const SkeletonEdge& edge, const std::vector<double>& arc_lengths,
                         double from, double to);
 
+/// The point at which parts of an edge are cut at an arc length, bit for bit as PartOfEdge gives
+/// it.
+Vec3 CutPoint(const SkeletonEdge& edge, const std::vector<double>& arc_lengths, double at);
+
 /// The values of an edge at ascending arc lengths, interpolated. Linear in both.
 SkeletonEdge SampledAt(const SkeletonEdge& edge, const std::vector<double>& arc_lengths,
                        const std::vector<double>& at);

@@ -37,17 +37,10 @@ struct Counts {
   bool operator==(const Counts&) const = default;
 };
 
-// `points` are those of all edges.
-Counts CountsOf(const SkeletonGraph& graph, size_t points) {
+Counts CountsOf(const SkeletonGraph& graph) {
   const auto nodes = static_cast<size_t>(graph.node_count());
   const auto edges = static_cast<size_t>(graph.edge_count());
-  return {graph.node_count(), graph.edge_count(), nodes + points - 2 * edges};
-}
-
-Counts CountsOf(const SkeletonGraph& graph) {
-  size_t points = 0;
-  for (const EdgeId id : graph.Edges()) points += graph.edge(id).points.size();
-  return CountsOf(graph, points);
+  return {graph.node_count(), graph.edge_count(), nodes + graph.point_count() - 2 * edges};
 }
 
 // Brings a graph to the form in which contacts are looked for; every step removes edges, so it
@@ -184,7 +177,7 @@ class Resolution {
   }
 
   void Step(const std::vector<Contact>& contacts) {
-    const Counts now = CountsOf(graph_, search_.point_count());
+    const Counts now = CountsOf(graph_);
     if (IsStuck(now) || rounds_.joining >= kMaxJoiningRounds) {
       StepDown(contacts);
       joined_.reset();

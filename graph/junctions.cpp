@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <boost/container/small_vector.hpp>
 #include <iterator>
+#include <numeric>
+#include <span>
 #include <tuple>
 
 #include "graph/edge_curve.h"
@@ -18,6 +20,8 @@ constexpr double kReach = 4;
 constexpr double kLinkInSnaps = 3;
 // Displacements below this many times the longest link are rounding: no bend.
 constexpr double kBendInLinks = 1e-3;
+// What merging nodes needs is fetched from memory so many nodes ahead, step by step.
+constexpr size_t kLookahead = 6;
 
 // Nodes that places on edges have become.
 class EdgeCutter {
@@ -85,8 +89,7 @@ class EdgeCutter {
     const SkeletonEdge& whole = graph_.edge(id);
     const double length = lengths.back();
     if (std::min(arc, length - arc) <= snap_) return whole.nodes[arc <= length - arc ? 0 : 1];
-    const SkeletonEdge place = PartOfEdge(whole, lengths, arc, arc);
-    const NodeId node = graph_.AddNode(place.points.front());
+    const NodeId node = graph_.AddNode(CutPoint(whole, lengths, arc));
     splits.emplace_back(arc, node);
     return node;
   }
@@ -97,10 +100,14 @@ class EdgeCutter {
   std::vector<NodeId> nodes_;  // of places by their number
 };
 
+// Few nodes or edges, most often.
+using Few = boost::container::small_vector<int, 8>;
+
 // Removes the edges within a group that are no longer than max_link.
-void RemoveLinks(SkeletonGraph& graph, std::vector<NodeId> nodes, double max_link) {
+void RemoveLinks(SkeletonGraph& graph, std::span<const NodeId> group, double max_link) {
+  Few nodes(group.begin(), group.end());
   std::sort(nodes.begin(), nodes.end());
-  std::vector<EdgeId> links;
+  Few links;
   for (const NodeId node : nodes) {
     for (const EdgeId id : graph.IncidentEdges(node)) {
       const NodeId other = graph.OtherEnd(id, node);
@@ -112,39 +119,43 @@ void RemoveLinks(SkeletonGraph& graph, std::vector<NodeId> nodes, double max_lin
     if (graph.HasEdge(id)) graph.RemoveEdge(id);
 }
 
-Vec3 WeightedMean(const SkeletonGraph& graph, const NodeGroup& group) {
+Vec3 WeightedMean(const SkeletonGraph& graph, std::span<const NodeId> nodes,
+                  std::span<const double> weights) {
   Vec3 sum = Vec3::Zero();
   double weight = 0;
-  for (size_t i = 0; i < group.nodes.size(); ++i) {
-    sum += group.weights[i] * graph.position(group.nodes[i]);
-    weight += group.weights[i];
+  for (size_t i = 0; i < nodes.size(); ++i) {
+    sum += weights[i] * graph.position(nodes[i]);
+    weight += weights[i];
   }
   return sum / weight;
 }
 
-// Groups of nodes linked by pairs; each ascending, ordered by their first node.
-std::vector<NodeGroup> LinkedGroups(const std::vector<std::pair<NodeId, NodeId>>& links,
-                                    const SkeletonGraph& graph) {
+// Nodes that links hang together, set by set: each ascending, ordered by their first node.
+struct LinkedNodes {
   std::vector<NodeId> nodes;
+  std::vector<int> begins;  // of each set; one more closes the last
+};
+
+LinkedNodes SetsOf(const std::vector<std::pair<NodeId, NodeId>>& links) {
+  std::vector<NodeId> nodes;
+  nodes.reserve(2 * links.size());
   for (const auto& [a, b] : links) nodes.insert(nodes.end(), {a, b});
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  if (nodes.empty()) return {};
+  if (nodes.empty()) return {{}, {0}};
   std::vector<int> numbers(nodes.back() - nodes.front() + 1);
   for (size_t i = 0; i < nodes.size(); ++i) numbers[nodes[i] - nodes.front()] = static_cast<int>(i);
   const auto index = [&](NodeId node) { return numbers[node - nodes.front()]; };
   DisjointSets sets(nodes.size());
   for (const auto& [a, b] : links) sets.Unite(index(a), index(b));
-  std::vector<NodeGroup> groups(nodes.size());
-  for (size_t i = 0; i < nodes.size(); ++i) {
-    NodeGroup& group = groups[sets.Root(static_cast<int>(i))];
-    group.nodes.push_back(nodes[i]);
-    group.weights.push_back(std::max(1, graph.Degree(nodes[i])));
-  }
-  groups.erase(std::remove_if(groups.begin(), groups.end(),
-                              [](const NodeGroup& group) { return group.nodes.size() < 2; }),
-               groups.end());
-  return groups;
+  // Sorted by counting; a set is numbered as its first node.
+  const int count = static_cast<int>(nodes.size());
+  LinkedNodes linked{std::vector<NodeId>(nodes.size()), std::vector<int>(nodes.size() + 1, 0)};
+  for (int i = 0; i < count; ++i) ++linked.begins[sets.Root(i) + 1];
+  std::partial_sum(linked.begins.begin(), linked.begins.end(), linked.begins.begin());
+  std::vector<int> ends(linked.begins.begin(), linked.begins.end() - 1);
+  for (int i = 0; i < count; ++i) linked.nodes[ends[sets.Root(i)]++] = nodes[i];
+  return linked;
 }
 
 // Moves a node of a group to where the group meets. Its curves bend over a few times the distance
@@ -158,33 +169,62 @@ void Bend(SkeletonGraph& graph, NodeId node, const Vec3& position, double max_li
   MoveNodeWithBends(graph, node, position, kReach * moved);
 }
 
-void MergeGroups(SkeletonGraph& graph, const std::vector<NodeGroup>& groups, double max_link) {
-  for (const NodeGroup& group : groups) {
-    RemoveLinks(graph, group.nodes, max_link);
-    const Vec3 mean = WeightedMean(graph, group);
-    for (const NodeId node : group.nodes) {
-      if (max_link > 0) {
-        Bend(graph, node, mean, max_link);
-      } else {
-        graph.MoveNode(node, mean);
-      }
+void MergeGroup(SkeletonGraph& graph, std::span<const NodeId> nodes,
+                std::span<const double> weights, double max_link) {
+  RemoveLinks(graph, nodes, max_link);
+  const Vec3 mean = WeightedMean(graph, nodes, weights);
+  for (const NodeId node : nodes) {
+    if (max_link > 0) {
+      Bend(graph, node, mean, max_link);
+    } else {
+      graph.MoveNode(node, mean);
     }
-    for (size_t i = 1; i < group.nodes.size(); ++i)
-      graph.MergeNodes(group.nodes[0], group.nodes[i]);
+  }
+  for (const NodeId node : nodes) graph.MergeNodes(nodes[0], node);
+}
+
+// Fetches what merging the nodes behind a position will need.
+void FetchAhead(const SkeletonGraph& graph, const std::vector<NodeId>& nodes, size_t i) {
+  const auto ahead = [&](size_t distance, const auto& fetch) {
+    for (size_t k = i + distance; k < std::min(i + distance + 2, nodes.size()); ++k)
+      if (graph.HasNode(nodes[k]))
+        for (const EdgeId id : graph.IncidentEdges(nodes[k])) fetch(id);
+  };
+  for (size_t k = i + 3 * kLookahead; k < std::min(i + 3 * kLookahead + 2, nodes.size()); ++k)
+    graph.FetchNode(nodes[k]);
+  ahead(2 * kLookahead, [&graph](EdgeId id) { graph.FetchEdge(id); });
+  ahead(kLookahead, [&graph](EdgeId id) { graph.FetchPoints(id); });
+}
+
+// Merges each set of nodes, weighted by their degrees before the first is.
+void MergeLinked(SkeletonGraph& graph, const LinkedNodes& linked, double max_link) {
+  std::vector<double> weights;
+  weights.reserve(linked.nodes.size());
+  for (size_t i = 0; i < linked.nodes.size(); ++i) {
+    if (i + kLookahead < linked.nodes.size()) graph.FetchNode(linked.nodes[i + kLookahead]);
+    weights.push_back(std::max(1, graph.Degree(linked.nodes[i])));
+  }
+  for (size_t i = 0; i + 1 < linked.begins.size(); ++i) {
+    FetchAhead(graph, linked.nodes, static_cast<size_t>(linked.begins[i]));
+    const auto begin = static_cast<size_t>(linked.begins[i]);
+    const size_t count = static_cast<size_t>(linked.begins[i + 1]) - begin;
+    if (count < 2) continue;
+    MergeGroup(graph, {linked.nodes.data() + begin, count}, {weights.data() + begin, count},
+               max_link);
   }
 }
 
 }  // namespace
 
 void MergeNodeGroups(SkeletonGraph& graph, const std::vector<NodeGroup>& groups, double max_link) {
-  MergeGroups(graph, groups, max_link);
+  for (const NodeGroup& group : groups) MergeGroup(graph, group.nodes, group.weights, max_link);
   RemoveZeroLengthSegments(graph);
 }
 
 void JoinLocations(SkeletonGraph& graph, const std::vector<LocationPair>& pairs, double snap) {
   const int before = graph.version();
   const std::vector<std::pair<NodeId, NodeId>> links = EdgeCutter(graph, snap).Cut(pairs);
-  MergeGroups(graph, LinkedGroups(links, graph), kLinkInSnaps * snap);
+  MergeLinked(graph, SetsOf(links), kLinkInSnaps * snap);
   RemoveZeroLengthSegments(graph, before);
 }
 

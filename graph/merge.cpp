@@ -19,6 +19,8 @@ namespace curvefusion {
 namespace {
 
 constexpr int kMaxRounds = 8;
+// Nodes of edges are fetched from memory so many edges ahead.
+constexpr size_t kLookahead = 12;
 // Curves that were joined at both ends of a stretch within the threshold may part a little between.
 constexpr double kParallelSlack = 1.5;
 
@@ -96,7 +98,11 @@ bool IsDangling(const SkeletonGraph& graph, const SkeletonEdge& edge) {
 // version.
 std::vector<std::pair<EdgeId, EdgeId>> EdgesOfSameNodes(const SkeletonGraph& graph, int since) {
   std::vector<std::pair<EdgeId, EdgeId>> pairs;
-  for (const EdgeId id : graph.Edges(since)) {
+  const std::vector<EdgeId> edges = graph.Edges(since);
+  for (size_t i = 0; i < edges.size(); ++i) {
+    if (i + kLookahead < edges.size())
+      for (const NodeId node : graph.edge(edges[i + kLookahead]).nodes) graph.FetchNode(node);
+    const EdgeId id = edges[i];
     const auto& [a, b] = graph.edge(id).nodes;
     const NodeId node = graph.Degree(a) <= graph.Degree(b) ? a : b;
     for (const EdgeId other : graph.IncidentEdges(node)) {

@@ -36,29 +36,29 @@ void AddIfShort(const LinearGap& way, double reach, Ways& ways) {
 
 // Whether there is a way at all between the curves of two segments, as there is between few.
 bool HangTogether(const SegmentTable& table, const SegmentPair& pair) {
-  const int curve_s = table.curves[pair.s];
-  const int curve_t = table.curves[pair.t];
+  const int curve_s = table.curve_of[pair.s];
+  const int curve_t = table.curve_of[pair.t];
   if (curve_s == curve_t) return true;
-  const auto& [a, b] = table.nodes[curve_s];
-  const auto& [c, d] = table.nodes[curve_t];
+  const auto& [a, b] = table.curves[curve_s].nodes;
+  const auto& [c, d] = table.curves[curve_t].nodes;
   return a == c || a == d || b == c || b == d;
 }
 
 // Whether a segment is so near to an end of its curve that a way over the node there may be short.
 bool MayReachNode(const SegmentTable& table, int k, double reach) {
-  const double length = table.Length(table.curves[k]);
+  const double length = table.Length(table.curve_of[k]);
   const double limit = reach + kMargin * (reach + length);
-  return table.arcs[k] <= limit || length - table.arcs[k + 1] <= limit;
+  return table.points[k].arc_length <= limit || length - table.points[k + 1].arc_length <= limit;
 }
 
 void AddWaysOverNodes(const SegmentTable& table, const SegmentPair& pair, double reach,
                       Ways& ways) {
-  const int curve_s = table.curves[pair.s];
-  const int curve_t = table.curves[pair.t];
+  const int curve_s = table.curve_of[pair.s];
+  const int curve_t = table.curve_of[pair.t];
   for (int i = 0; i < 2; ++i) {
     for (int j = 0; j < 2; ++j) {
       if (curve_s == curve_t && i == j) continue;
-      if (table.nodes[curve_s][i] != table.nodes[curve_t][j]) continue;
+      if (table.curves[curve_s].nodes[i] != table.curves[curve_t].nodes[j]) continue;
       AddIfShort({table.FromEnd(pair.s, i), table.FromEnd(pair.s + 1, i), table.FromEnd(pair.t, j),
                   table.FromEnd(pair.t + 1, j)},
                  reach, ways);
@@ -75,7 +75,7 @@ struct SharedPoints {
 };
 SharedPoints FindSharedPoints(const SegmentTable& table, const SegmentPair& pair) {
   SharedPoints shared;
-  if (table.curves[pair.s] == table.curves[pair.t] && pair.t == pair.s + 1) shared = {1, 1, 0};
+  if (table.curve_of[pair.s] == table.curve_of[pair.t] && pair.t == pair.s + 1) shared = {1, 1, 0};
   for (int i = 0; i < 2; ++i) {
     const NodeId node = table.NodeAt(pair.s, i);
     if (node < 0) continue;
@@ -90,15 +90,18 @@ bool Meet(const SegmentTable& table, const SegmentPair& pair) {
   const SharedPoints shared = FindSharedPoints(table, pair);
   if (shared.count == 0) return Intersect(table.At(pair.s), table.At(pair.t));
   if (shared.count == 2) return true;  // straight segments between the same two points
-  return Overlap(table.points[pair.s + shared.side_s], table.points[pair.s + 1 - shared.side_s],
-                 table.points[pair.t + 1 - shared.side_t]);
+  return Overlap(table.points[pair.s + shared.side_s].position,
+                 table.points[pair.s + 1 - shared.side_s].position,
+                 table.points[pair.t + 1 - shared.side_t].position);
 }
 
 Ways FindShortWays(const SegmentTable& table, const SegmentPair& pair, double reach) {
   Ways ways;
   const auto [s, t] = pair;
-  if (table.curves[s] == table.curves[t])
-    AddIfShort({-table.arcs[s], -table.arcs[s + 1], table.arcs[t], table.arcs[t + 1]}, reach, ways);
+  if (table.curve_of[s] == table.curve_of[t])
+    AddIfShort({-table.points[s].arc_length, -table.points[s + 1].arc_length,
+                table.points[t].arc_length, table.points[t + 1].arc_length},
+               reach, ways);
   if (MayReachNode(table, s, reach) && MayReachNode(table, t, reach))
     AddWaysOverNodes(table, pair, reach, ways);
   return ways;
@@ -147,12 +150,47 @@ std::vector<SegmentPair> PairsOfSegments(const BoxTree::Pairs& boxes, const std:
   return pairs;
 }
 
+// Pairs of boxes come in no order of memory: what is needed of the table so many pairs later is
+// fetched in time.
+constexpr size_t kLookahead = 8;
+
+void FetchPoints(const SegmentTable& table, int s) {
+  __builtin_prefetch(&table.curve_of[s]);
+  __builtin_prefetch(&table.points[s]);
+  __builtin_prefetch(&table.points[s + 1]);
+}
+
+void FetchCurve(const SegmentTable& table, int s) {
+  __builtin_prefetch(&table.curves[table.curve_of[s]]);
+}
+
+// Keeps those pairs of boxes i and j for which keep(segments i, segments j) holds.
+template <class Keep>
+void KeepPairs(const SegmentTable& table, const std::vector<int>& segments_i,
+               const std::vector<int>& segments_j, BoxTree::Pairs& boxes, const Keep& keep) {
+  std::vector<SegmentPair> pairs = PairsOfSegments(boxes, segments_i, segments_j);
+  size_t kept = 0;
+  for (size_t n = 0; n < pairs.size(); ++n) {
+    if (n + 2 * kLookahead < pairs.size()) {
+      FetchPoints(table, pairs[n + 2 * kLookahead].s);
+      FetchPoints(table, pairs[n + 2 * kLookahead].t);
+    }
+    if (n + kLookahead < pairs.size()) {
+      FetchCurve(table, pairs[n + kLookahead].s);
+      FetchCurve(table, pairs[n + kLookahead].t);
+    }
+    if (keep(pairs[n])) boxes[kept++] = boxes[n];
+  }
+  boxes.resize(kept);
+}
+
 std::vector<SegmentPair> PairsInTree(const BoxTree& tree, const std::vector<int>& segments,
                                      const SegmentTable& table, double threshold) {
-  const auto keep = [&](int i, int j) {
-    return AreInContact(table, {segments[i], segments[j]}, threshold);
+  const auto filter = [&](BoxTree::Pairs& boxes) {
+    KeepPairs(table, segments, segments, boxes,
+              [&](const SegmentPair& pair) { return AreInContact(table, pair, threshold); });
   };
-  return PairsOfSegments(tree.OverlappingPairs(keep), segments, segments);
+  return PairsOfSegments(tree.OverlappingPairs(filter), segments, segments);
 }
 
 }  // namespace
@@ -191,14 +229,14 @@ void SegmentPairSearch::Update(const SkeletonGraph& graph) {
     Extend(graph, changed);
     CollectPart(graph);
   }
-  Measure();
+  largest_coordinate_ = LargestOfCurrent();
 }
 
 void SegmentPairSearch::Restart(const SkeletonGraph& graph) {
   table_ = SegmentTable();  // the memory is needed for the new ones
   tree_ = BoxTree();
   table_ = SegmentTable(graph);
-  is_current_.assign(table_.edges.size(), true);
+  is_current_.assign(table_.curves.size(), true);
   tree_segments_ = SegmentsFrom(table_, 0);
   tree_ = BoxTree(InflatedBoxes(table_, tree_segments_, threshold_));
   tree_curves_ = table_.curve_count();
@@ -208,10 +246,10 @@ void SegmentPairSearch::Restart(const SkeletonGraph& graph) {
 
 void SegmentPairSearch::DropChanged(const SkeletonGraph& graph) {
   for (int curve = 0; curve < table_.curve_count(); ++curve)
-    is_current_[curve] =
-        is_current_[curve] && graph.version(table_.edges[curve]) == table_.versions[curve];
+    is_current_[curve] = is_current_[curve] &&
+                         graph.version(table_.curves[curve].edge) == table_.curves[curve].version;
   std::erase_if(pairs_, [&](const SegmentPair& pair) {
-    return !is_current_[table_.curves[pair.s]] || !is_current_[table_.curves[pair.t]];
+    return !is_current_[table_.curve_of[pair.s]] || !is_current_[table_.curve_of[pair.t]];
   });
 }
 
@@ -219,20 +257,22 @@ void SegmentPairSearch::Extend(const SkeletonGraph& graph, const std::vector<Edg
   const int first_curve = table_.curve_count();
   const int first_point = table_.point_count();
   table_.Append(graph, changed);
-  is_current_.resize(table_.edges.size(), true);
+  is_current_.resize(table_.curves.size(), true);
   const std::vector<int> added = SegmentsFrom(table_, first_curve);
-  const auto keep = [&](int i, int j) {
-    const int s = tree_segments_[i];
-    return is_current_[table_.curves[s]] && AreInContact(table_, {s, added[j]}, threshold_);
+  const auto keep = [&](BoxTree::Pairs& boxes) {
+    KeepPairs(table_, tree_segments_, added, boxes, [&](const SegmentPair& pair) {
+      return is_current_[table_.curve_of[pair.s]] && AreInContact(table_, pair, threshold_);
+    });
   };
   std::vector<SegmentPair> found =
       PairsOfSegments(tree_.OverlappingPairs(InflatedBoxes(table_, added, threshold_), keep),
                       tree_segments_, added);
   pairs_.insert(pairs_.end(), found.begin(), found.end());
   const std::vector<int> extension = SegmentsFrom(table_, tree_curves_, is_current_);
-  const auto keep_new = [&](int i, int j) {
-    return extension[j] >= first_point &&
-           AreInContact(table_, {extension[i], extension[j]}, threshold_);
+  const auto keep_new = [&](BoxTree::Pairs& boxes) {
+    KeepPairs(table_, extension, extension, boxes, [&](const SegmentPair& pair) {
+      return pair.t >= first_point && AreInContact(table_, pair, threshold_);
+    });
   };
   found = PairsOfSegments(
       BoxTree(InflatedBoxes(table_, extension, threshold_)).OverlappingPairs(keep_new), extension,
@@ -243,13 +283,13 @@ void SegmentPairSearch::Extend(const SkeletonGraph& graph, const std::vector<Edg
 void SegmentPairSearch::CollectPart(const SkeletonGraph& graph) {
   std::vector<EdgeId> edges;
   for (const SegmentPair& pair : pairs_)
-    for (const int k : {pair.s, pair.t}) edges.push_back(table_.edges[table_.curves[k]]);
+    for (const int k : {pair.s, pair.t}) edges.push_back(table_.curves[table_.curve_of[k]].edge);
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   part_ = SegmentTable(graph, edges);
   const auto number = [&](int k) {
-    const int curve = table_.curves[k];
-    const auto at = std::lower_bound(edges.begin(), edges.end(), table_.edges[curve]);
+    const int curve = table_.curve_of[k];
+    const auto at = std::lower_bound(edges.begin(), edges.end(), table_.curves[curve].edge);
     return part_.first_points[at - edges.begin()] + k - table_.first_points[curve];
   };
   part_pairs_.clear();
@@ -260,15 +300,11 @@ void SegmentPairSearch::CollectPart(const SkeletonGraph& graph) {
   std::sort(part_pairs_.begin(), part_pairs_.end());
 }
 
-void SegmentPairSearch::Measure() {
-  largest_coordinate_ = 0;
-  point_count_ = 0;
-  for (int curve = 0; curve < table_.curve_count(); ++curve) {
-    if (!is_current_[curve]) continue;
-    point_count_ += table_.PointCount(curve);
-    for (int k = table_.first_points[curve]; k < table_.first_points[curve + 1]; ++k)
-      largest_coordinate_ = std::max(largest_coordinate_, table_.points[k].cwiseAbs().maxCoeff());
-  }
+double SegmentPairSearch::LargestOfCurrent() const {
+  double largest = 0;
+  for (int curve = 0; curve < table_.curve_count(); ++curve)
+    if (is_current_[curve]) largest = std::max(largest, table_.curves[curve].largest_coordinate);
+  return largest;
 }
 
 }  // namespace curvefusion

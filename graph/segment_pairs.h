@@ -50,7 +50,6 @@ class SegmentPairSearch {
   const std::vector<SegmentPair>& pairs() const { return HasExtension() ? part_pairs_ : pairs_; }
 
   double largest_coordinate() const { return largest_coordinate_; }  ///< of the graph
-  size_t point_count() const { return point_count_; }                ///< on all its edges
 
  private:
   bool HasExtension() const { return table_.curve_count() > tree_curves_; }
@@ -58,7 +57,7 @@ class SegmentPairSearch {
   void Restart(const SkeletonGraph& graph);
   void Extend(const SkeletonGraph& graph, const std::vector<EdgeId>& changed);
   void CollectPart(const SkeletonGraph& graph);
-  void Measure();
+  double LargestOfCurrent() const;
 
   double threshold_;
   SegmentTable table_;              // curves of the tree, then those that have changed since
@@ -72,7 +71,6 @@ class SegmentPairSearch {
   std::vector<SegmentPair> part_pairs_;
   int version_ = 0;
   double largest_coordinate_ = 0;
-  size_t point_count_ = 0;
 };
 
 }  // namespace curvefusion

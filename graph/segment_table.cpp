@@ -6,6 +6,13 @@
 
 namespace curvefusion {
 
+namespace {
+
+// Points of edges are fetched from memory so many edges ahead.
+constexpr size_t kLookahead = 8;
+
+}  // namespace
+
 double ResolutionAt(double largest_coordinate) {
   constexpr double kUlps = 64;
   if (largest_coordinate == 0) return 0;
@@ -22,37 +29,45 @@ double LargestCoordinate(const SkeletonGraph& graph) {
 
 void SegmentTable::Append(const SkeletonGraph& graph, const std::vector<EdgeId>& added) {
   Reserve(graph, added);
-  for (const EdgeId id : added) {
+  for (size_t n = 0; n < added.size(); ++n) {
+    if (n + kLookahead < added.size()) graph.FetchPoints(added[n + kLookahead]);
+    const EdgeId id = added[n];
     const SkeletonEdge& edge = graph.edge(id);
-    const int curve = curve_count();
-    edges.push_back(id);
-    versions.push_back(graph.version(id));
-    nodes.push_back(edge.nodes);
-    double arc = 0;
+    const int number = curve_count();
+    double arc_length = 0;
+    double largest = 0;
     for (size_t i = 0; i < edge.points.size(); ++i) {
-      if (i > 0) arc += (edge.points[i] - edge.points[i - 1]).norm();
-      points.push_back(edge.points[i]);
-      arcs.push_back(arc);
-      curves.push_back(curve);
+      const Vec3& p = edge.points[i];
+      if (i > 0) arc_length += (p - edge.points[i - 1]).norm();
+      largest = std::max(largest, p.cwiseAbs().maxCoeff());
+      points.push_back({p, arc_length});
+      curve_of.push_back(number);
     }
+    curves.push_back({id, graph.version(id), edge.nodes, arc_length, largest});
     first_points.push_back(point_count());
   }
 }
 
 void SegmentTable::Reserve(const SkeletonGraph& graph, const std::vector<EdgeId>& added) {
-  if (!edges.empty()) return;
-  size_t count = 0;
-  for (const EdgeId id : added) count += graph.edge(id).points.size();
-  count += static_cast<size_t>(kRoom * static_cast<double>(count));
-  points.reserve(count);
-  arcs.reserve(count);
-  curves.reserve(count);
+  if (!curves.empty()) return;
+  const auto with_room = [](size_t count) {
+    return count + static_cast<size_t>(kRoom * static_cast<double>(count));
+  };
+  size_t count = graph.point_count();
+  if (added.size() < static_cast<size_t>(graph.edge_count())) {
+    count = 0;
+    for (const EdgeId id : added) count += graph.edge(id).points.size();
+  }
+  points.reserve(with_room(count));
+  curve_of.reserve(with_room(count));
+  curves.reserve(with_room(added.size()));
+  first_points.reserve(with_room(added.size()) + 1);
 }
 
 NodeId SegmentTable::NodeAt(int segment, int side) const {
-  const int curve = curves[segment];
-  if (side == 0) return segment == first_points[curve] ? nodes[curve][0] : -1;
-  return segment + 2 == first_points[curve + 1] ? nodes[curve][1] : -1;
+  const int curve = curve_of[segment];
+  if (side == 0) return segment == first_points[curve] ? curves[curve].nodes[0] : -1;
+  return segment + 2 == first_points[curve + 1] ? curves[curve].nodes[1] : -1;
 }
 
 }  // namespace curvefusion

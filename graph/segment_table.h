@@ -30,26 +30,36 @@ struct SegmentTable {
   static constexpr double kRoom = 0.25;
   void Append(const SkeletonGraph& graph, const std::vector<EdgeId>& added);
 
-  std::vector<EdgeId> edges;                 ///< of each curve
-  std::vector<int> versions;                 ///< of each curve: of its edge
-  std::vector<std::array<NodeId, 2>> nodes;  ///< of each curve
-  std::vector<int> first_points = {0};       ///< of each curve; one more closes the last
-  std::vector<int> curves;                   ///< of each point
-  std::vector<Vec3> points;
-  std::vector<double> arcs;  ///< of each point: arc length from the front of its curve
+  struct Curve {
+    EdgeId edge;
+    int version;  ///< of the edge
+    std::array<NodeId, 2> nodes;
+    double length;
+    double largest_coordinate;
+  };
+  struct Point {
+    Vec3 position;
+    double arc_length;  ///< from the front of the curve
+  };
 
-  int curve_count() const { return static_cast<int>(edges.size()); }
+  std::vector<Curve> curves;
+  std::vector<int> first_points = {0};  ///< of each curve; one more closes the last
+  std::vector<Point> points;
+  std::vector<int> curve_of;  ///< each point
+
+  int curve_count() const { return static_cast<int>(curves.size()); }
   int point_count() const { return static_cast<int>(points.size()); }
   bool IsSegment(int k) const {
-    return k >= 0 && k + 1 < point_count() && curves[k] == curves[k + 1];
+    return k >= 0 && k + 1 < point_count() && curve_of[k] == curve_of[k + 1];
   }
-  Segment At(int k) const { return {points[k], points[k + 1]}; }
+  Segment At(int k) const { return {points[k].position, points[k + 1].position}; }
   int PointCount(int curve) const { return first_points[curve + 1] - first_points[curve]; }
-  double Length(int curve) const { return arcs[first_points[curve + 1] - 1]; }
+  double Length(int curve) const { return curves[curve].length; }
 
   /// Arc length of a point of a curve from its front (end 0) or back (end 1).
   double FromEnd(int point, int end) const {
-    return end == 0 ? arcs[point] : Length(curves[point]) - arcs[point];
+    const double arc_length = points[point].arc_length;
+    return end == 0 ? arc_length : Length(curve_of[point]) - arc_length;
   }
 
   /// The node at which a segment begins (side 0) or ends (side 1); -1 where that is inside a curve.

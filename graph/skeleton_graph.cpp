@@ -79,6 +79,7 @@ EdgeId SkeletonGraph::AddEdge(SkeletonEdge edge) {
     nodes_[node].edges.push_back(id);
     TouchNode(node);
   }
+  point_count_ += edge.points.size();
   edges_.push_back(std::move(edge));
   edge_versions_.push_back(0);
   TouchEdge(id);
@@ -105,12 +106,12 @@ SkeletonEdge SkeletonGraph::TakeEdge(EdgeId edge) {
   for (const NodeId node : taken.nodes) Detach(node, edge);
   edge_versions_[edge] = 0;
   --edge_count_;
+  point_count_ -= taken.points.size();
   return taken;
 }
 
 void SkeletonGraph::RemoveNode(NodeId node) {
   assert(HasNode(node) && Degree(node) == 0);
-  nodes_[node] = Node();
   node_versions_[node] = 0;
   --node_count_;
 }
@@ -137,6 +138,7 @@ void SkeletonGraph::SetCurve(EdgeId edge, Polyline points, std::vector<double> r
   SkeletonEdge& target = edges_[edge];
   assert(points.front() == position(target.nodes[0]));
   assert(points.back() == position(target.nodes[1]));
+  point_count_ += points.size() - target.points.size();
   target.points = std::move(points);
   target.radii = std::move(radii);
   target.observations = std::move(observations);

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 #include "kernel/geometry.h"
 #include "kernel/parallel.h"
@@ -18,6 +19,8 @@ constexpr size_t kBoxesPerLeaf = 6;
 // Leaves or boxes in a chunk of parallel work.
 constexpr size_t kLeavesPerNode = 256;
 constexpr int64_t kBoxesPerChunk = 4096;
+// Pairs that are filtered together: few enough to stay in the nearest cache.
+constexpr size_t kPairsPerBatch = 2048;
 
 Vec3 CentreOf(const BoxTree::Box& box) {
   const Vec3 centre = 0.5 * box.min() + 0.5 * box.max();
@@ -38,15 +41,50 @@ bool Overlap(const BoxTree::Box& a, const BoxTree::Box& b) {
   return overlaps != 0;
 }
 
-// Calls add(index, part) for all indices in parallel, with one part for each chunk of them; all
-// parts as one, ascending.
+// Pairs on their way through a filter.
+class FilteredPairs {
+ public:
+  explicit FilteredPairs(const BoxTree::Filter& filter) : filter_(filter) {
+    batch_.reserve(kPairsPerBatch);
+  }
+
+  void Add(int i, int j) {
+    batch_.emplace_back(i, j);
+    if (batch_.size() == kPairsPerBatch) Flush();
+  }
+
+  BoxTree::Pairs Take() {
+    Flush();
+    return std::move(passed_);
+  }
+
+ private:
+  void Flush() {
+    if (filter_) filter_(batch_);
+    passed_.insert(passed_.end(), batch_.begin(), batch_.end());
+    batch_.clear();
+  }
+
+  const BoxTree::Filter& filter_;
+  BoxTree::Pairs batch_;
+  BoxTree::Pairs passed_;
+};
+
+// Calls add(index, pairs) for all indices in parallel, chunk by chunk of them; what passes the
+// filter, ascending.
 template <class Add>
-BoxTree::Pairs CollectInParallel(int64_t count, int64_t grain, const Add& add) {
+BoxTree::Pairs CollectInParallel(int64_t count, int64_t grain, const BoxTree::Filter& filter,
+                                 const Add& add) {
   std::vector<BoxTree::Pairs> parts((count + grain - 1) / grain);
   ParallelChunks(0, count, grain, [&](int64_t first, int64_t last) {
-    for (int64_t i = first; i < last; ++i) add(static_cast<size_t>(i), parts[first / grain]);
+    FilteredPairs pairs(filter);
+    for (int64_t i = first; i < last; ++i) add(static_cast<size_t>(i), pairs);
+    parts[first / grain] = pairs.Take();
   });
+  size_t passed = 0;
+  for (const BoxTree::Pairs& part : parts) passed += part.size();
   BoxTree::Pairs pairs;
+  pairs.reserve(passed);
   for (const BoxTree::Pairs& part : parts) pairs.insert(pairs.end(), part.begin(), part.end());
   std::sort(pairs.begin(), pairs.end());
   return pairs;
@@ -166,30 +204,26 @@ void BoxTree::VisitLeaf(size_t leaf, size_t first, const Box& box, const Visit& 
     if (Overlap(box, boxes_[i])) visit(numbers_[i]);
 }
 
-BoxTree::Pairs BoxTree::OverlappingPairs(const Filter& keep) const {
+BoxTree::Pairs BoxTree::OverlappingPairs(const Filter& filter) const {
   // In parallel over the nodes of one level, each with those behind it: the right brothers of the
   // nodes on the way up that are left ones.
   const size_t nodes = std::max<size_t>(1, leaves_ / kLeavesPerNode);
-  return CollectInParallel(static_cast<int64_t>(nodes), 1, [&](size_t number, Pairs& part) {
-    const auto visit = [&](int i, int j) {
-      if (i > j) std::swap(i, j);
-      if (!keep || keep(i, j)) part.emplace_back(i, j);
-    };
+  const auto add = [&](size_t number, FilteredPairs& pairs) {
+    const auto visit = [&](int i, int j) { pairs.Add(std::min(i, j), std::max(i, j)); };
     const size_t node = nodes + number;
     VisitPairsWithin(node, visit);
     for (size_t above = node; above > 1; above /= 2)
       if (above % 2 == 0) VisitPairsBetween(node, above + 1, visit);
-  });
+  };
+  return CollectInParallel(static_cast<int64_t>(nodes), 1, filter, add);
 }
 
-BoxTree::Pairs BoxTree::OverlappingPairs(const std::vector<Box>& others, const Filter& keep) const {
-  const auto add = [&](size_t other, Pairs& part) {
-    const int j = static_cast<int>(other);
-    VisitOverlapping(others[other], [&](int i) {
-      if (!keep || keep(i, j)) part.emplace_back(i, j);
-    });
+BoxTree::Pairs BoxTree::OverlappingPairs(const std::vector<Box>& others,
+                                         const Filter& filter) const {
+  const auto add = [&](size_t other, FilteredPairs& pairs) {
+    VisitOverlapping(others[other], [&](int i) { pairs.Add(i, static_cast<int>(other)); });
   };
-  return CollectInParallel(static_cast<int64_t>(others.size()), kBoxesPerChunk, add);
+  return CollectInParallel(static_cast<int64_t>(others.size()), kBoxesPerChunk, filter, add);
 }
 
 BoxTree::Pairs OverlappingBoxes(const std::vector<BoxTree::Box>& boxes) {

@@ -15,17 +15,18 @@ class BoxTree {
  public:
   using Box = Eigen::AlignedBox3d;
   using Pairs = std::vector<std::pair<int, int>>;
-  /// Whether a pair of boxes that overlap counts; called in parallel. None: all do.
-  using Filter = std::function<bool(int i, int j)>;
+  /// Takes those away that do not count from some pairs of boxes that overlap; called in parallel,
+  /// for all pairs some thousand at a time. None: all count.
+  using Filter = std::function<void(Pairs& pairs)>;
 
   explicit BoxTree(const std::vector<Box>& boxes = {});
 
   /// All pairs (i < j, ascending) of boxes that overlap and pass the filter.
-  Pairs OverlappingPairs(const Filter& keep = nullptr) const;
+  Pairs OverlappingPairs(const Filter& filter = nullptr) const;
 
   /// All pairs (i, j), ascending, of a box i of the tree and a box j of others that overlap and
   /// pass the filter.
-  Pairs OverlappingPairs(const std::vector<Box>& others, const Filter& keep = nullptr) const;
+  Pairs OverlappingPairs(const std::vector<Box>& others, const Filter& filter = nullptr) const;
 
  private:
   struct Entry;

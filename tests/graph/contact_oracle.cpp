@@ -184,8 +184,9 @@ std::vector<std::array<int, 4>> Named(const SegmentTable& table,
                                       const std::vector<SegmentPair>& pairs) {
   std::vector<std::array<int, 4>> named;
   for (const auto& [s, t] : pairs)
-    named.push_back({table.edges[table.curves[s]], s - table.first_points[table.curves[s]],
-                     table.edges[table.curves[t]], t - table.first_points[table.curves[t]]});
+    named.push_back(
+        {table.curves[table.curve_of[s]].edge, s - table.first_points[table.curve_of[s]],
+         table.curves[table.curve_of[t]].edge, t - table.first_points[table.curve_of[t]]});
   return named;
 }
 
