@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "kernel/polyline.h"
 
@@ -18,70 +19,99 @@ struct ImagePoint {
   double px_per_metre = 0;
 };
 
-// Projected points in square cells, for queries by distance.
+// Projected points in square cells, for queries by distance that end where nothing nearer can come.
 class PointCells {
  public:
-  PointCells(const PinholeCamera& camera, double cell_px)
-      : cell_px_(cell_px),
-        columns_(static_cast<int>(camera.width / cell_px) + 3),
-        rows_(static_cast<int>(camera.height / cell_px) + 3),
-        cells_(static_cast<size_t>(columns_) * rows_) {}
+  // Points beyond the border count too, as far as queries reach.
+  PointCells(const PinholeCamera& camera, double max_distance_px)
+      : border_(static_cast<int>(std::ceil(max_distance_px / kCellPx))),
+        columns_(static_cast<int>(camera.width / kCellPx) + 1 + 2 * border_),
+        rows_(static_cast<int>(camera.height / kCellPx) + 1 + 2 * border_),
+        first_(static_cast<size_t>(columns_) * rows_ + 1, 0) {}
 
-  void Add(const ImagePoint& point) {
-    const int column = Cell(point.pixel.x());
-    const int row = Cell(point.pixel.y());
-    if (column < 0 || row < 0 || column >= columns_ || row >= rows_) return;
-    cells_[static_cast<size_t>(row) * columns_ + column].push_back(point);
+  // Sorts the points into their cells.
+  void Fill(const std::vector<ImagePoint>& points) {
+    std::vector<int> cells;
+    for (const ImagePoint& point : points) {
+      cells.push_back(Number(Cell(point.pixel.x()), Cell(point.pixel.y())));
+      if (cells.back() >= 0) ++first_[cells.back() + 1];
+    }
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    points_.resize(first_.back());
+    std::vector<int> next = first_;
+    for (size_t i = 0; i < points.size(); ++i) {
+      if (cells[i] >= 0) points_[next[cells[i]]++] = points[i];
+    }
   }
 
-  // Calls visit(point) for all points of the nine cells around a pixel of the image.
+  // Calls visit(point), ring by ring, for the points of all cells around a pixel of the image that
+  // may hold one nearer than `distance_px`, which visit may lessen.
   template <class Visit>
-  void VisitAround(const Vec2& pixel, const Visit& visit) const {
-    for (int row = Cell(pixel.y()) - 1; row <= Cell(pixel.y()) + 1; ++row) {
-      for (int column = Cell(pixel.x()) - 1; column <= Cell(pixel.x()) + 1; ++column) {
-        if (column < 0 || row < 0 || column >= columns_ || row >= rows_) continue;
-        for (const ImagePoint& point : cells_[static_cast<size_t>(row) * columns_ + column]) {
-          visit(point);
+  void VisitNearer(const Vec2& pixel, const double& distance_px, const Visit& visit) const {
+    const int column = Cell(pixel.x()), row = Cell(pixel.y());
+    for (int ring = 0; ring <= border_ && (ring - 1) * kCellPx < distance_px; ++ring) {
+      for (int y = row - ring; y <= row + ring; ++y) {
+        const bool is_edge = y == row - ring || y == row + ring;
+        for (int x = column - ring; x <= column + ring; x += is_edge ? 1 : 2 * ring) {
+          VisitCell(Number(x, y), visit);
         }
       }
     }
   }
 
  private:
-  // The first cell lies outside the image, so that points beyond the border count too.
   int Cell(double coordinate) const {
-    return static_cast<int>(std::floor(coordinate / cell_px_)) + 1;
+    return static_cast<int>(std::floor(coordinate / kCellPx)) + border_;
   }
 
-  double cell_px_;
+  // -1 outside.
+  int Number(int column, int row) const {
+    const bool is_inside = column >= 0 && row >= 0 && column < columns_ && row < rows_;
+    return is_inside ? row * columns_ + column : -1;
+  }
+
+  template <class Visit>
+  void VisitCell(int cell, const Visit& visit) const {
+    if (cell < 0) return;
+    for (int i = first_[cell]; i < first_[cell + 1]; ++i) visit(points_[i]);
+  }
+
+  static constexpr double kCellPx = 8;
+
+  int border_;  // cells on every side of the image
   int columns_;
   int rows_;
-  std::vector<std::vector<ImagePoint>> cells_;
+  std::vector<int> first_;  // of each cell in points_, and the end
+  std::vector<ImagePoint> points_;
 };
 
 PointCells ProjectNeighbours(const std::vector<CurveSample>& neighbours,
                              const PinholeCamera& camera, const RigidTransform& T_camera_world,
-                             double cell_px) {
-  PointCells cells(camera, cell_px);
+                             double max_distance_px) {
+  std::vector<ImagePoint> points;
+  points.reserve(neighbours.size());
   for (const CurveSample& sample : neighbours) {
     const Vec3 p = T_camera_world * sample.position;
     if (p.z() < kMinDepth) continue;
-    cells.Add({camera.Project(p), sample.edge, sample.arc_length, camera.fx / p.z()});
+    points.push_back({camera.Project(p), sample.edge, sample.arc_length, camera.fx / p.z()});
   }
+  PointCells cells(camera, max_distance_px);
+  cells.Fill(points);
   return cells;
 }
 
 double Clearance(const ProjectedSample& sample, const PointCells& cells, double max_clearance_px,
                  double max_along_px) {
   double clearance = max_clearance_px;
-  cells.VisitAround(sample.pixel, [&](const ImagePoint& point) {
+  cells.VisitNearer(sample.pixel, clearance, [&](const ImagePoint& point) {
     const Vec2 offset = point.pixel - sample.pixel;
+    if (offset.squaredNorm() >= clearance * clearance) return;
+    if (std::abs(offset.dot(sample.tangent)) > max_along_px) return;
     const double distance = offset.norm();
-    if (distance >= clearance || std::abs(offset.dot(sample.tangent)) > max_along_px) return;
     const double along_px = std::abs(point.arc_length - sample.arc_length) * point.px_per_metre;
     // Foreshortening below .9 stretches the way along the curve 2.3 times at most.
     const bool is_same_strand = point.edge == sample.edge && along_px < 3 * distance + 6;
-    if (!is_same_strand) clearance = distance;
+    if (!is_same_strand) clearance = std::min(clearance, distance);
   });
   return clearance;
 }
