@@ -10,10 +10,14 @@
 #include "fusion/axis_correction.h"
 #include "fusion/close_wires.h"
 #include "fusion/ray_noise.h"
+#include "kernel/parallel.h"
 
 namespace curvefusion {
 
 namespace {
+
+// Bundles segmented at the same time: much of a bundle is done one step after the other.
+constexpr size_t kBundlesAtOnce = 4;
 
 // What the steps of one run share: where they report to.
 struct RunContext {
@@ -71,15 +75,22 @@ SegmentedScan SegmentBundles(const Sequence& sequence, const TsdfVolume& volume,
   run.row_diameter = model.row_diameter;
   run.magnification = Magnification(model.row_spacing, run.options.resolved_spacing);
   run.log.Count("segmentation", "row spacing, mm", model.row_spacing / kMillimetre);
+  const auto ranges =
+      SplitIntoBundles(sequence.frame_count(), run.options.segmentation.bundle.frames);
   size_t candidates = 0, points = 0;
-  for (const auto& [first, last] :
-       SplitIntoBundles(sequence.frame_count(), run.options.segmentation.bundle.frames)) {
-    const SegmentedBundle bundle =
-        SegmentBundle(sequence, first, last, volume, model, run.options.segmentation);
-    candidates += bundle.difference_set.size();
-    points += bundle.points.size();
-    AddBundle(bundle, scan, run.observer);
-    run.observer.OnProgress("segmentation", last, sequence.frame_count());
+  for (size_t begin = 0; begin < ranges.size(); begin += kBundlesAtOnce) {
+    std::vector<SegmentedBundle> bundles(std::min(kBundlesAtOnce, ranges.size() - begin));
+    ParallelFor(0, static_cast<int64_t>(bundles.size()), 1, [&](int64_t i) {
+      const auto& [first, last] = ranges[begin + static_cast<size_t>(i)];
+      bundles[i] = SegmentBundle(sequence, first, last, volume, model, run.options.segmentation);
+    });
+    for (const SegmentedBundle& bundle : bundles) {
+      candidates += bundle.difference_set.size();
+      points += bundle.points.size();
+      AddBundle(bundle, scan, run.observer);
+    }
+    run.observer.OnProgress("segmentation", ranges[begin + bundles.size() - 1].second,
+                            sequence.frame_count());
   }
   run.log.Count("segmentation", "bundles", static_cast<double>(scan.bundles.size()));
   run.log.Count("segmentation", "candidates", static_cast<double>(candidates));
