@@ -156,14 +156,20 @@ SkeletonGraph Contract(const ObservedPoints& points, const std::string& name, Ru
   return skeleton;
 }
 
+// Registration takes few points, so its ridges need not be as dense as those contraction links.
+RidgeProjectionOptions RegistrationRidges(const RunContext& run) {
+  RidgeProjectionOptions ridges = run.options.ridge.projection;
+  ridges.spacing = std::max(ridges.spacing, run.options.registration_spacing);
+  return ForCloseWires(ridges, run.magnification);
+}
+
 // Registers every bundle to the curves of those before it: all points together, and for every frame
 // how its bundle was moved.
 std::pair<ObservedPoints, std::vector<RigidTransform>> RegisterBundles(const SegmentedScan& scan,
                                                                        RunContext& run) {
   const StageLog::Timer timer(run.log, "registration");
   CarriedPoints carried(run.options.carried);
-  const RidgeProjectionOptions ridges =
-      ForCloseWires(run.options.ridge.projection, run.magnification);
+  const RidgeProjectionOptions ridges = RegistrationRidges(run);
   std::vector<RigidTransform> T_registered_bundle;
   for (const ObservedPoints& bundle : scan.bundles) {
     T_registered_bundle.push_back(
@@ -192,8 +198,7 @@ RegisteredFrames RegisterFramesToCurves(const SegmentedScan& scan,
                                   T_registered_frame[i].inverse()));
   }
   RegisteredFrames registered =
-      RegisterFrames(on_axis, T_registered_frame, cameras,
-                     ForCloseWires(run.options.ridge.projection, run.magnification),
+      RegisterFrames(on_axis, T_registered_frame, cameras, RegistrationRidges(run),
                      run.options.registration, run.options.frames);
   run.observer.OnProgress("frame registration", 1, 1);
   run.log.Count("registration", "registered frames", registered.registered);

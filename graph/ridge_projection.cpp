@@ -37,7 +37,9 @@ struct RidgeSeed {
   int level = 0;
 };
 
-ObservedPoints UsablePoints(const ObservedPoints& points) {
+// The finite points that were seen; where ridge points may be farther apart than the kernel is
+// wide, no more of them than that takes.
+ObservedPoints UsablePoints(const ObservedPoints& points, const RidgeProjectionOptions& options) {
   ObservedPoints usable;
   usable.Reserve(points.size());
   for (size_t i = 0; i < points.size(); ++i) {
@@ -46,7 +48,7 @@ ObservedPoints UsablePoints(const ObservedPoints& points) {
       usable.Add(points.positions[i], points.viewing_rays[i], points.counts[i]);
     }
   }
-  return usable;
+  return options.spacing > options.kernel_sigma ? ResampleOnGrid(usable, options.spacing) : usable;
 }
 
 // The strength that half of the summed strength lies below: outliers, however many, hardly count.
@@ -104,6 +106,7 @@ std::vector<RidgeSeed> MakeSeeds(const ObservedPoints& points,
   const std::vector<Vec3> starts = ResampleOnGrid(points, cell).positions;
   RidgeScaleOptions scale;
   scale.sigma = options.kernel_sigma;
+  scale.sample_spacing = std::max(scale.sample_spacing, options.spacing);
   std::vector<double> limits;
   for (size_t level = 0; level + 1 < levels.size(); ++level) {
     limits.push_back(levels[level].sigma() / options.sigma_per_thickness);
@@ -279,7 +282,9 @@ void VisitOptions(RidgeProjectionOptions& options, OptionVisitor& visitor) {
                 options.least_relative_count);
   visitor.Visit({"iterations", "", 1, 1000, "Deviation: most mean-shift steps of a point."},
                 options.iterations);
-  visitor.Visit({"spacing", "m", 0.0002, 0.02, "Deviation: least distance of ridge points."},
+  visitor.Visit({"spacing", "m", 0.0002, 0.02,
+                 "Deviation: least distance of ridge points; where it is more than the kernel's "
+                 "width the points themselves are resampled on a grid so coarse."},
                 options.spacing);
   visitor.Visit({"min_relative_strength", "", 0, 1,
                  "Deviation: ridge points weaker than this part of the typical one are outliers."},
@@ -319,7 +324,7 @@ ObservedPoints ShiftAlongRays(const ObservedPoints& points, const std::vector<do
 }
 
 RidgePoints ProjectToRidges(const ObservedPoints& points, const RidgeProjectionOptions& options) {
-  const ObservedPoints observed = UsablePoints(points);
+  const ObservedPoints observed = UsablePoints(points, options);
   ObservedPoints usable = observed;
   EqualizeCounts(usable, options.equalization_radius, options.least_relative_count);
   const std::vector<DensityField> levels = MakeLevels(usable, options);
