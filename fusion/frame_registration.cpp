@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 #include "kernel/parallel.h"
 #include "kernel/voxel_grid.h"
@@ -15,8 +16,14 @@ constexpr size_t kCandidatesPerPoint = 4;
 
 ObservedPoints Merged(const std::vector<ObservedPoints>& frames,
                       const std::vector<RigidTransform>& T, double voxel_size) {
+  std::vector<ObservedPoints> moved(frames.size());
+  ParallelFor(0, static_cast<int64_t>(frames.size()), 1,
+              [&](int64_t i) { moved[i] = Transformed(frames[i], T[i]); });
+  size_t points = 0;
+  for (const ObservedPoints& frame : moved) points += frame.size();
   ObservedPoints merged;
-  for (size_t i = 0; i < frames.size(); ++i) Append(merged, Transformed(frames[i], T[i]));
+  merged.Reserve(points);
+  for (ObservedPoints& frame : moved) Append(merged, std::exchange(frame, {}));
   return ResampleOnGrid(merged, voxel_size);
 }
 

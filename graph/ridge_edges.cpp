@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "graph/ridge_contrast.h"
+#include "kernel/parallel.h"
 
 namespace curvefusion {
 
@@ -16,6 +17,7 @@ namespace {
 
 constexpr double kStep = 0.003;
 constexpr int kDirectionsAcross = 6;
+constexpr double kNoNoise = -1;  // in place of the share of an edge
 
 // A place on an edge with its direction and one across, which turns no more than it must.
 struct EdgePlace {
@@ -75,27 +77,32 @@ class EdgeContrast {
   // The noise of a graph with its share of what was seen nearby, the weakest first.
   std::vector<std::pair<double, EdgeId>> Noise(const SkeletonGraph& graph) const {
     const std::vector<EdgeId> edges = graph.Edges();
-    std::vector<std::vector<EdgePlace>> places_of_edge;
+    const auto n = static_cast<int64_t>(edges.size());
+    std::vector<std::vector<EdgePlace>> places_of_edge(edges.size());
+    ParallelFor(0, n, 1, [&](int64_t e) {
+      places_of_edge[e] = PlacesAlong(graph, edges[e], options_);
+      for (EdgePlace& place : places_of_edge[e]) place.count = CountAt(place.position);
+    });
     std::vector<Vec3> positions;
     std::vector<double> counts;
-    for (const EdgeId id : edges) {
-      places_of_edge.push_back(PlacesAlong(graph, id, options_));
-      for (EdgePlace& place : places_of_edge.back()) {
-        place.count = CountAt(place.position);
+    for (const std::vector<EdgePlace>& places : places_of_edge) {
+      for (const EdgePlace& place : places) {
         positions.push_back(place.position);
         counts.push_back(place.count);
       }
     }
     const PointGrid all(positions, options_.neighbourhood);
-    std::vector<std::pair<double, EdgeId>> noise;
-    for (size_t e = 0; e < edges.size(); ++e) {
+    std::vector<double> share_of_noise(edges.size(), kNoNoise);
+    ParallelFor(0, n, 1, [&](int64_t e) {
       const double share = Share(places_of_edge[e], all, counts);
-      if (share >= options_.min_share) continue;
+      if (share >= options_.min_share) return;
       const bool is_in_fork =
           share < options_.min_loop_share && ClosesShortLoop(graph, edges[e], options_.short_loop);
-      if (is_in_fork || Flank(places_of_edge[e]) > options_.max_flank) {
-        noise.emplace_back(share, edges[e]);
-      }
+      if (is_in_fork || Flank(places_of_edge[e]) > options_.max_flank) share_of_noise[e] = share;
+    });
+    std::vector<std::pair<double, EdgeId>> noise;
+    for (size_t e = 0; e < edges.size(); ++e) {
+      if (share_of_noise[e] != kNoNoise) noise.emplace_back(share_of_noise[e], edges[e]);
     }
     std::sort(noise.begin(), noise.end());
     return noise;

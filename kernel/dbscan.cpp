@@ -1,36 +1,147 @@
 #include "kernel/dbscan.h"
 
-#include "kernel/point_grid.h"
+#include <cmath>
+#include <numeric>
+
+#include "kernel/disjoint_sets.h"
+#include "kernel/voxel_grid.h"
 
 namespace curvefusion {
 
-std::vector<int> Dbscan(const std::vector<Vec3>& points, double radius, int min_points) {
-  const PointGrid grid(points, radius);
-  const int n = static_cast<int>(points.size());
-  std::vector<int> labels(n, kNoise);
-  std::vector<int> neighbours, frontier;
-  const auto find_neighbours = [&](int point) {
-    neighbours.clear();
-    grid.ForEachWithin(points[point], radius, [&](int i, const Vec3&) { neighbours.push_back(i); });
-    return static_cast<int>(neighbours.size());
-  };
-  int clusters = 0;
-  for (int seed = 0; seed < n; ++seed) {
-    if (labels[seed] != kNoise) continue;
-    if (find_neighbours(seed) < min_points) continue;
-    labels[seed] = clusters;
-    frontier.assign(1, seed);
-    while (!frontier.empty()) {
-      const int current = frontier.back();
-      frontier.pop_back();
-      if (find_neighbours(current) < min_points) continue;
-      for (const int neighbour : neighbours) {
-        if (labels[neighbour] != kNoise) continue;
-        labels[neighbour] = clusters;
-        frontier.push_back(neighbour);
+namespace {
+
+// Points within the radius of one another lie at most so many cells apart.
+constexpr int kReach = 2;
+
+// Points in cells so small that all points of a cell lie within the radius of one another: most
+// are core points, and of one cluster, without a look at any distance (Gunawan 2013).
+class DenseCells {
+ public:
+  DenseCells(const std::vector<Vec3>& points, double radius)
+      : points_(points), squared_radius_(radius * radius) {
+    constexpr double kRounding = 1e-9;
+    const double side = (1 - kRounding) * radius / std::sqrt(3.0);
+    for (const Vec3& p : points) cell_of_point_.push_back(cells_.Number(VoxelOf(p, side)));
+    first_.assign(static_cast<size_t>(cells_.size()) + 1, 0);
+    for (const int cell : cell_of_point_) ++first_[cell + 1];
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    members_.resize(points.size());
+    std::vector<int> next = first_;
+    for (size_t i = 0; i < points.size(); ++i) {
+      members_[next[cell_of_point_[i]]++] = static_cast<int>(i);
+    }
+  }
+
+  int size() const { return cells_.size(); }
+  int CellOf(int point) const { return cell_of_point_[point]; }
+  int Count(int cell) const { return first_[cell + 1] - first_[cell]; }
+
+  // Calls visit(cell) for all cells that may hold points within the radius of those of a cell, it
+  // included, until it returns false.
+  template <class Visit>
+  void VisitCellsAround(int cell, const Visit& visit) const {
+    const VoxelKey& key = cells_.key(cell);
+    for (int x = -kReach; x <= kReach; ++x) {
+      for (int y = -kReach; y <= kReach; ++y) {
+        for (int z = -kReach; z <= kReach; ++z) {
+          const int other = cells_.Find({key.x + x, key.y + y, key.z + z});
+          if (other != VoxelNumbers::kNone && !visit(other)) return;
+        }
       }
     }
-    ++clusters;
+  }
+
+  // Calls visit(point) for the points of a cell within the radius of p, until it returns false.
+  template <class Visit>
+  bool VisitWithin(int cell, const Vec3& p, const Visit& visit) const {
+    for (int i = first_[cell]; i < first_[cell + 1]; ++i) {
+      const int member = members_[i];
+      if ((points_[member] - p).squaredNorm() <= squared_radius_ && !visit(member)) return false;
+    }
+    return true;
+  }
+
+  template <class Visit>
+  void VisitMembers(int cell, const Visit& visit) const {
+    for (int i = first_[cell]; i < first_[cell + 1]; ++i) visit(members_[i]);
+  }
+
+ private:
+  const std::vector<Vec3>& points_;
+  double squared_radius_;
+  VoxelNumbers cells_;
+  std::vector<int> cell_of_point_;
+  std::vector<int> first_;    // of each cell in members_, and the end
+  std::vector<int> members_;  // indices of points
+};
+
+std::vector<char> FindCorePoints(const std::vector<Vec3>& points, const DenseCells& cells,
+                                 int min_points) {
+  std::vector<char> is_core(points.size(), 1);
+  for (size_t i = 0; i < points.size(); ++i) {
+    const int own = cells.CellOf(static_cast<int>(i));
+    if (cells.Count(own) >= min_points) continue;
+    int count = 0;
+    const auto is_too_few = [&](int) { return ++count < min_points; };
+    cells.VisitCellsAround(
+        own, [&](int cell) { return cells.VisitWithin(cell, points[i], is_too_few); });
+    is_core[i] = count >= min_points;
+  }
+  return is_core;
+}
+
+// Whether a core point of one cell lies within the radius of one of another.
+bool AreLinked(const std::vector<Vec3>& points, const DenseCells& cells,
+               const std::vector<char>& is_core, int a, int b) {
+  bool is_linked = false;
+  cells.VisitMembers(a, [&](int i) {
+    if (is_linked || !is_core[i]) return;
+    is_linked = !cells.VisitWithin(b, points[i], [&](int j) { return !is_core[j]; });
+  });
+  return is_linked;
+}
+
+DisjointSets LinkCells(const std::vector<Vec3>& points, const DenseCells& cells,
+                       const std::vector<char>& is_core) {
+  DisjointSets clusters(static_cast<size_t>(cells.size()));
+  for (int cell = 0; cell < cells.size(); ++cell) {
+    cells.VisitCellsAround(cell, [&](int other) {
+      if (other < cell && clusters.Root(other) != clusters.Root(cell) &&
+          AreLinked(points, cells, is_core, cell, other)) {
+        clusters.Unite(cell, other);
+      }
+      return true;
+    });
+  }
+  return clusters;
+}
+
+}  // namespace
+
+std::vector<int> Dbscan(const std::vector<Vec3>& points, double radius, int min_points) {
+  const DenseCells cells(points, radius);
+  const std::vector<char> is_core = FindCorePoints(points, cells, min_points);
+  DisjointSets clusters = LinkCells(points, cells, is_core);
+  std::vector<int> labels(points.size(), kNoise);
+  std::vector<int> label_of_cell(static_cast<size_t>(cells.size()), kNoise);
+  int count = 0;
+  for (size_t i = 0; i < points.size(); ++i) {
+    if (!is_core[i]) continue;
+    int& label = label_of_cell[clusters.Root(cells.CellOf(static_cast<int>(i)))];
+    if (label == kNoise) label = count++;
+    labels[i] = label;
+  }
+  for (size_t i = 0; i < points.size(); ++i) {
+    if (is_core[i]) continue;
+    int first = kNoise;
+    const auto take_first = [&](int j) {
+      if (is_core[j] && (first == kNoise || labels[j] < first)) first = labels[j];
+      return true;
+    };
+    cells.VisitCellsAround(cells.CellOf(static_cast<int>(i)), [&](int cell) {
+      return cells.VisitWithin(cell, points[i], take_first);
+    });
+    labels[i] = first;
   }
   return labels;
 }

@@ -2,11 +2,75 @@
 
 #include <bit>
 
+#include "kernel/parallel.h"
+
 namespace curvefusion {
 
 namespace {
 
 constexpr size_t kFirstSlotCount = 1024;
+// Cells are shared out among so many tables, to be filled at the same time.
+constexpr int kShares = 8;
+constexpr int64_t kPointsPerChunk = 4096;
+
+std::vector<uint8_t> SharesOfPoints(const ObservedPoints& points, double voxel_size) {
+  std::vector<uint8_t> shares(points.size());
+  ParallelFor(0, static_cast<int64_t>(points.size()), kPointsPerChunk, [&](int64_t i) {
+    const size_t hash = VoxelKeyHash()(VoxelOf(points.positions[i], voxel_size));
+    shares[i] = static_cast<uint8_t>(hash % kShares);
+  });
+  return shares;
+}
+
+// The occupied cells of one share.
+struct GridShare {
+  ObservedPoints points;
+  std::vector<size_t> firsts;  // the first point of each cell
+};
+
+GridShare ResampleShare(const ObservedPoints& points, double voxel_size,
+                        const std::vector<uint8_t>& share_of_point, uint8_t share) {
+  VoxelNumbers voxels;
+  GridShare resampled;
+  ObservedPoints& sums = resampled.points;
+  for (size_t i = 0; i < points.size(); ++i) {
+    if (share_of_point[i] != share) continue;
+    const float count = points.counts[i];
+    const auto voxel = static_cast<size_t>(voxels.Number(VoxelOf(points.positions[i], voxel_size)));
+    if (voxel == sums.size()) {
+      sums.Add(Vec3::Zero(), Vec3::Zero(), 0);
+      resampled.firsts.push_back(i);
+    }
+    sums.positions[voxel] += count * points.positions[i];
+    sums.viewing_rays[voxel] += count * points.viewing_rays[i];
+    sums.counts[voxel] += count;
+  }
+  for (size_t i = 0; i < sums.size(); ++i) {
+    sums.positions[i] /= sums.counts[i];
+    const double norm = sums.viewing_rays[i].norm();
+    if (norm > 0) sums.viewing_rays[i] /= norm;
+  }
+  return resampled;
+}
+
+// The cells of all shares in the order of their first points.
+ObservedPoints InOrder(const std::vector<GridShare>& shares,
+                       const std::vector<uint8_t>& share_of_point) {
+  size_t cells = 0;
+  for (const GridShare& share : shares) cells += share.firsts.size();
+  ObservedPoints ordered;
+  ordered.Reserve(cells);
+  std::vector<size_t> next(shares.size(), 0);
+  for (size_t i = 0; i < share_of_point.size(); ++i) {
+    const GridShare& share = shares[share_of_point[i]];
+    size_t& cell = next[share_of_point[i]];
+    if (cell == share.firsts.size() || share.firsts[cell] != i) continue;
+    ordered.Add(share.points.positions[cell], share.points.viewing_rays[cell],
+                share.points.counts[cell]);
+    ++cell;
+  }
+  return ordered;
+}
 
 }  // namespace
 
@@ -40,22 +104,12 @@ int VoxelNumbers::Number(const VoxelKey& key) {
 }
 
 ObservedPoints ResampleOnGrid(const ObservedPoints& points, double voxel_size) {
-  VoxelNumbers voxels;
-  ObservedPoints resampled;
-  for (size_t i = 0; i < points.size(); ++i) {
-    const float count = points.counts[i];
-    const auto voxel = static_cast<size_t>(voxels.Number(VoxelOf(points.positions[i], voxel_size)));
-    if (voxel == resampled.size()) resampled.Add(Vec3::Zero(), Vec3::Zero(), 0);
-    resampled.positions[voxel] += count * points.positions[i];
-    resampled.viewing_rays[voxel] += count * points.viewing_rays[i];
-    resampled.counts[voxel] += count;
-  }
-  for (size_t i = 0; i < resampled.size(); ++i) {
-    resampled.positions[i] /= resampled.counts[i];
-    const double norm = resampled.viewing_rays[i].norm();
-    if (norm > 0) resampled.viewing_rays[i] /= norm;
-  }
-  return resampled;
+  const std::vector<uint8_t> share_of_point = SharesOfPoints(points, voxel_size);
+  std::vector<GridShare> shares(kShares);
+  ParallelFor(0, kShares, 1, [&](int64_t share) {
+    shares[share] = ResampleShare(points, voxel_size, share_of_point, static_cast<uint8_t>(share));
+  });
+  return InOrder(shares, share_of_point);
 }
 
 }  // namespace curvefusion

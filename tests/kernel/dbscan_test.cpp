@@ -43,5 +43,53 @@ TEST(Dbscan, CorePointsAgreeWithBruteForce) {
   }
 }
 
+// As it is defined: cluster by cluster, whatever a core point reaches.
+std::vector<int> BruteForce(const std::vector<Vec3>& points, double radius, int min_points) {
+  const int n = static_cast<int>(points.size());
+  std::vector<int> labels(n, kNoise);
+  const auto neighbours = [&](int i) {
+    std::vector<int> found;
+    for (int j = 0; j < n; ++j) {
+      if ((points[i] - points[j]).squaredNorm() <= radius * radius) found.push_back(j);
+    }
+    return found;
+  };
+  int clusters = 0;
+  for (int seed = 0; seed < n; ++seed) {
+    if (labels[seed] != kNoise || static_cast<int>(neighbours(seed).size()) < min_points) continue;
+    std::vector<int> frontier{seed};
+    labels[seed] = clusters;
+    while (!frontier.empty()) {
+      const std::vector<int> around = neighbours(frontier.back());
+      frontier.pop_back();
+      if (static_cast<int>(around.size()) < min_points) continue;
+      for (const int i : around) {
+        if (labels[i] != kNoise) continue;
+        labels[i] = clusters;
+        frontier.push_back(i);
+      }
+    }
+    ++clusters;
+  }
+  return labels;
+}
+
+TEST(Dbscan, LabelsAreThoseOfTheDefinition) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> coordinate(-1, 1);
+  // From single points to one cluster, with border points between clusters.
+  for (const double radius : {0.02, 0.12, 0.2, 0.3, 0.6}) {
+    for (const int min_points : {1, 2, 4, 9}) {
+      std::vector<Vec3> points(300);
+      for (Vec3& p : points) {
+        p = {coordinate(random), coordinate(random), 0.2 * coordinate(random)};
+      }
+      points[200] = points[100];
+      EXPECT_EQ(Dbscan(points, radius, min_points), BruteForce(points, radius, min_points))
+          << radius << " " << min_points;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace curvefusion

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <random>
+
 namespace curvefusion {
 namespace {
 
@@ -30,6 +33,29 @@ TEST(VoxelNumbers, NumbersByFirstOccurrenceWhateverTheCells) {
   }
   EXPECT_EQ(numbers.size(), kCount);
   EXPECT_EQ(numbers.Find({100, 0, 0}), VoxelNumbers::kNone);
+}
+
+TEST(VoxelGrid, CellsComeInTheOrderOfTheirFirstPoints) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> coordinate(-0.1, 0.1);
+  constexpr double kVoxel = 0.02;
+  ObservedPoints points;
+  for (int i = 0; i < 20000; ++i) {  // several chunks, and all cells many times
+    points.Add({coordinate(random), coordinate(random), coordinate(random)}, Vec3::UnitX(), 1);
+  }
+  std::vector<VoxelKey> order;
+  for (const Vec3& p : points.positions) {
+    const VoxelKey key = VoxelOf(p, kVoxel);
+    if (std::find(order.begin(), order.end(), key) == order.end()) order.push_back(key);
+  }
+  const ObservedPoints resampled = ResampleOnGrid(points, kVoxel);
+  ASSERT_EQ(resampled.size(), order.size());
+  float count = 0;
+  for (size_t i = 0; i < order.size(); ++i) {
+    EXPECT_EQ(VoxelOf(resampled.positions[i], kVoxel), order[i]);
+    count += resampled.counts[i];
+  }
+  EXPECT_EQ(count, 20000);
 }
 
 TEST(VoxelGrid, EmptyStaysEmpty) { EXPECT_TRUE(ResampleOnGrid({}, 0.01).empty()); }
