@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <ctime>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "kernel/error.h"
@@ -16,8 +17,7 @@
 #include "meshing/surface_mesh.h"
 #include "meshing/tube_volume.h"
 #include "meshing/tubes.h"
-#include "tests/meshing/tube_graphs.h"
-#include "tests/meshing/tube_truth.h"
+#include "tests/meshing/grazing_contacts.h"
 #include "tests/temporary_path.h"
 
 namespace curvefusion {
@@ -39,11 +39,6 @@ struct Kind {
   // Bends tighter than the tube are cut into pieces with rounded ends.
   double volume_tolerance = name == "tight_bends" ? 0.05 : 0.02;
   double mean_volume_tolerance = name == "tight_bends" ? 0.02 : 0.005;
-  bool straight = name == "close_parallel";
-
-  Topology Truth(const SkeletonGraph& graph, double scale = 1) const {
-    return straight ? TopologyOfStraightTubes(graph, scale) : TopologyOfTubes(graph, scale);
-  }
 };
 
 // What became of the networks of a kind.
@@ -54,7 +49,7 @@ struct Tally {
   int fallbacks = 0;     // networks with at least one
   int last_resorts = 0;  // networks with at least one
   int wrong_topology = 0;
-  int grazing = 0;  // different, but explained by contacts within 2 %
+  int grazing = 0;  // networks with contacts within kGrazing
   double volume_error = 0;
   double worst_volume_error = 0;
   double seconds = 0;  // CPU
@@ -66,30 +61,6 @@ struct Tally {
                1000 * seconds / std::max(1, networks));
   }
 };
-
-// Two wires of radius 3 mm that cross at right angles, their axes so many diameters apart.
-SkeletonGraph CrossingWires(double diameters) {
-  SkeletonGraph graph;
-  const double radius = 0.003;
-  const double height = 2 * radius * diameters;
-  AddCurve(graph, {Vec3(-0.03, 0, 0), Vec3(0.03, 0, 0)}, radius);
-  AddCurve(graph, {Vec3(0, -0.03, height), Vec3(0, 0.03, height)}, radius);
-  return graph;
-}
-
-TEST(TubeTruth, OnlyContactsWithinTheToleranceMayComeOutEitherWay) {
-  const EulerRange apart = EulerOfTubesWithin(CrossingWires(1.03), kGrazing);
-  EXPECT_EQ(apart.low, 2);
-  EXPECT_EQ(apart.high, 2);
-  const EulerRange joined = EulerOfTubesWithin(CrossingWires(0.97), kGrazing);
-  EXPECT_EQ(joined.low, 1);
-  EXPECT_EQ(joined.high, 1);
-  for (const double diameters : {0.99, 1.01}) {
-    const EulerRange grazing = EulerOfTubesWithin(CrossingWires(diameters), kGrazing);
-    EXPECT_EQ(grazing.low, 1);
-    EXPECT_EQ(grazing.high, 2);
-  }
-}
 
 // Writes the tubes in every format the promise is made for; WriteMesh reads them back and refuses
 // what is not watertight.
@@ -110,30 +81,19 @@ bool SurvivesFiles(const TubeMesh& tubes) {
   return sound;
 }
 
-// Whether contacts within kGrazing explain what the tubes are.
-bool Grazes(const SkeletonGraph& graph, const WatertightReport& report, const Kind& kind) {
-  const Topology thin = kind.Truth(graph, 1 - kGrazing);
-  const Topology thick = kind.Truth(graph, 1 + kGrazing);
-  if (report.components < thick.components) return false;
-  // Straight tubes side by side touch along lines: one contact of the truth, many of polygons, that
-  // come and go one after the other.
-  if (kind.straight) return thin != thick;
-  return EulerOfTubesWithin(graph, kGrazing).Contains(report.components - report.genus);
-}
-
-void CompareTopology(const SkeletonGraph& graph, const WatertightReport& report, const Kind& kind,
-                     Tally& tally) {
-  const Topology truth = kind.Truth(graph);
-  // A surface of a component more may be that of a cavity.
-  if (report.components - report.genus == truth.euler && report.components >= truth.components) {
+void CompareTopology(const SkeletonGraph& graph, const SurfaceMesh& surface, Tally& tally) {
+  const std::optional<FilledTubes> truth = FillGrazingContacts(graph, kGrazing);
+  const std::optional<Topology> mesh =
+      truth ? TopologyOfFilled(ToTriangleMesh(surface), truth->fillings) : std::nullopt;
+  tally.grazing += truth && !truth->fillings.empty();
+  if (mesh && *mesh == truth->topology) return;
+  ++tally.wrong_topology;
+  if (!mesh) {
+    ADD_FAILURE() << "no end of grazing contacts, or no union with their fillings";
     return;
   }
-  const bool grazes = Grazes(graph, report, kind);
-  ++(grazes ? tally.grazing : tally.wrong_topology);
-  if (!grazes) {
-    ADD_FAILURE() << fmt::format("components {}, genus {}; truly {} components, Euler {}",
-                                 report.components, report.genus, truth.components, truth.euler);
-  }
+  ADD_FAILURE() << fmt::format("{} components, Euler {}; truly {}, {}", mesh->components,
+                               mesh->euler, truth->topology.components, truth->topology.euler);
 }
 
 void CompareVolume(const SkeletonGraph& graph, const WatertightReport& report, const Kind& kind,
@@ -164,7 +124,7 @@ void Examine(const SkeletonGraph& graph, const Kind& kind, Tally& tally) {
   tally.fallbacks += !tubes.fallbacks.empty();
   tally.last_resorts += std::any_of(tubes.fallbacks.begin(), tubes.fallbacks.end(),
                                     [](const TubeFallback& f) { return f.last_resort; });
-  CompareTopology(graph, tubes.report, kind, tally);
+  CompareTopology(graph, tubes.surface, tally);
   CompareVolume(graph, tubes.report, kind, tally);
 }
 
