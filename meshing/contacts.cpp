@@ -9,6 +9,7 @@
 
 #include "kernel/box_pairs.h"
 #include "kernel/disjoint_sets.h"
+#include "meshing/closest_approach.h"
 
 namespace curvefusion {
 
@@ -24,7 +25,7 @@ constexpr double kTurnOfReturn = 2.0 * std::numbers::pi / 3;
 
 struct Segment {
   int path, index;
-  Vec3 a, b;
+  LineSegment line;
   double radius_a, radius_b;
   double radius() const { return std::max(radius_a, radius_b); }
 };
@@ -35,42 +36,26 @@ std::vector<Segment> SegmentsOf(const std::vector<TubePath>& paths) {
     const TubeAxis& axis = paths[p].axis;
     for (int i = 0; i < paths[p].segment_count(); ++i) {
       const size_t j = (i + 1) % axis.points.size();
-      segments.push_back({p, i, axis.points[i], axis.points[j], axis.radii[i], axis.radii[j]});
+      segments.push_back({p, i, {axis.points[i], axis.points[j]}, axis.radii[i], axis.radii[j]});
     }
   }
   return segments;
-}
-
-double PointSegmentDistance(const Vec3& p, const Segment& s) {
-  return (s.a + ClosestParameter(s.a, s.b, p) * (s.b - s.a) - p).norm();
-}
-
-// Distance of two segments: either an end is nearest, or the inner points of a common
-// perpendicular.
-double SegmentDistance(const Segment& s, const Segment& t) {
-  double distance = std::min({PointSegmentDistance(s.a, t), PointSegmentDistance(s.b, t),
-                              PointSegmentDistance(t.a, s), PointSegmentDistance(t.b, s)});
-  const Vec3 u = s.b - s.a;
-  const Vec3 v = t.b - t.a;
-  const Vec3 w = t.a - s.a;
-  const Vec3 normal = u.cross(v);
-  const double square = normal.squaredNorm();
-  if (square <= 1e-20 * u.squaredNorm() * v.squaredNorm()) return distance;
-  const double along_s = w.cross(v).dot(normal) / square;
-  const double along_t = w.cross(u).dot(normal) / square;
-  if (along_s < 0 || along_s > 1 || along_t < 0 || along_t > 1) return distance;
-  return std::min(distance, std::abs(w.dot(normal)) / std::sqrt(square));
 }
 
 double ClearDistance(double radius, double other_radius) {
   return kReach * (radius + other_radius) + kClearance * std::min(radius, other_radius);
 }
 
+bool ComeNear(const Segment& s, const Segment& t) {
+  return FindClosestApproach(s.line, t.line).distance < ClearDistance(s.radius(), t.radius());
+}
+
 std::vector<std::pair<int, int>> NearPairs(const std::vector<Segment>& segments) {
   std::vector<Eigen::AlignedBox3d> boxes;
   for (const Segment& s : segments) {
     const Vec3 reach = Vec3::Constant((kReach + kClearance) * s.radius());
-    Eigen::AlignedBox3d box(Vec3(s.a.cwiseMin(s.b) - reach), Vec3(s.a.cwiseMax(s.b) + reach));
+    Eigen::AlignedBox3d box(Vec3(s.line.a.cwiseMin(s.line.b) - reach),
+                            Vec3(s.line.a.cwiseMax(s.line.b) + reach));
     boxes.push_back(box);
   }
   return OverlappingBoxes(boxes);
@@ -137,10 +122,10 @@ std::vector<TubePath> CutOpenPath(TubePath path, const std::vector<int>& cuts) {
 void MarkCrowdedRings(const std::vector<TubePath>& paths, const Segment& s, const Segment& t,
                       std::vector<std::vector<char>>& crowded) {
   const size_t next = (s.index + 1) % paths[s.path].axis.points.size();
-  if (PointSegmentDistance(s.a, t) < ClearDistance(s.radius_a, t.radius())) {
+  if (DistanceFrom(t.line, s.line.a) < ClearDistance(s.radius_a, t.radius())) {
     crowded[s.path][s.index] = 1;
   }
-  if (PointSegmentDistance(s.b, t) < ClearDistance(s.radius_b, t.radius())) {
+  if (DistanceFrom(t.line, s.line.b) < ClearDistance(s.radius_b, t.radius())) {
     crowded[s.path][next] = 1;
   }
 }
@@ -156,7 +141,7 @@ std::vector<int> GroupOfSegments(const std::vector<TubePath>& paths,
     const Segment& s = segments[i];
     const Segment& t = segments[j];
     if (FollowEachOther(paths, turn_sums, s, t)) continue;
-    if (SegmentDistance(s, t) < ClearDistance(s.radius(), t.radius())) groups.Unite(i, j);
+    if (ComeNear(s, t)) groups.Unite(i, j);
     MarkCrowdedRings(paths, s, t, crowded);
     MarkCrowdedRings(paths, t, s, crowded);
   }
@@ -200,7 +185,7 @@ std::vector<std::vector<std::pair<int, int>>> SelfContacts(const std::vector<Tub
     const Segment& s = segments[i];
     const Segment& t = segments[j];
     if (s.path != t.path || FollowEachOther(paths, turn_sums, s, t)) continue;
-    if (SegmentDistance(s, t) < ClearDistance(s.radius(), t.radius())) {
+    if (ComeNear(s, t)) {
       contacts[s.path].emplace_back(s.index, t.index);
     }
   }

@@ -205,14 +205,25 @@ TubeAxis FittedAxis(const TubeAxis& axis, const std::vector<size_t>& kept) {
   return fitted;
 }
 
+// Appends what follows a point that both have.
+void AppendStretch(const TubeAxis& stretch, TubeAxis& axis) {
+  for (size_t i = 0; i < stretch.points.size(); ++i) {
+    if (!axis.points.empty() && axis.points.back() == stretch.points[i]) continue;
+    axis.points.push_back(stretch.points[i]);
+    axis.radii.push_back(stretch.radii[i]);
+  }
+}
+
 TubeAxis WithoutRepeatedPoints(const TubeAxis& axis) {
   TubeAxis distinct;
-  for (size_t i = 0; i < axis.points.size(); ++i) {
-    if (!distinct.points.empty() && distinct.points.back() == axis.points[i]) continue;
-    distinct.points.push_back(axis.points[i]);
-    distinct.radii.push_back(axis.radii[i]);
-  }
+  AppendStretch(axis, distinct);
   return distinct;
+}
+
+TubeAxis SimplifyStretch(const TubeAxis& axis, const AxisOptions& options) {
+  std::vector<size_t> kept = PointsWithinTolerance(axis, options.tolerance);
+  kept = SmoothKinks(axis, ThinOut(axis, kept, options.min_spacing), options);
+  return FittedAxis(axis, kept);
 }
 
 }  // namespace
@@ -225,11 +236,23 @@ double ChordDeviation(const TubeAxis& axis, size_t a, size_t k, size_t b) {
   return std::max(offset, std::abs(axis.radii[k] - radius_on_chord)) / axis.radii[k];
 }
 
-TubeAxis SimplifyAxis(const TubeAxis& axis, const AxisOptions& options) {
-  const TubeAxis distinct = FitToEnvelope(WithoutRepeatedPoints(axis));
-  std::vector<size_t> kept = PointsWithinTolerance(distinct, options.tolerance);
-  kept = SmoothKinks(distinct, ThinOut(distinct, kept, options.min_spacing), options);
-  return FittedAxis(distinct, kept);
+TubeAxis SmoothAxis(const TubeAxis& axis) { return FitToEnvelope(WithoutRepeatedPoints(axis)); }
+
+TubeAxis SimplifyAxis(const TubeAxis& axis, const std::vector<char>& grazing,
+                      const AxisOptions& options) {
+  AxisOptions faithful = options;
+  faithful.tolerance = std::min(options.tolerance, options.grazing_tolerance);
+  faithful.kink_tolerance = std::min(options.kink_tolerance, options.grazing_tolerance);
+  TubeAxis simple;
+  for (size_t first = 0; first < grazing.size();) {
+    size_t last = first + 1;
+    while (last < grazing.size() && grazing[last] == grazing[first]) ++last;
+    AppendStretch(SimplifyStretch(Slice(axis, static_cast<int>(first), static_cast<int>(last)),
+                                  grazing[first] ? faithful : options),
+                  simple);
+    first = last;
+  }
+  return simple;
 }
 
 double TurnAngle(const Vec3& before, const Vec3& after) {

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "kernel/error.h"
+#include "meshing/grazing_segments.h"
 
 namespace curvefusion {
 
@@ -206,6 +207,15 @@ void DissolveDegree2Nodes(TubeNetwork& network) {
   RemoveMarked(gone, network);
 }
 
+void SimplifyBranches(const AxisOptions& options, TubeNetwork& network) {
+  std::vector<TubeAxis> axes;
+  for (const TubeBranch& branch : network.branches) axes.push_back(SmoothAxis(branch.axis));
+  const std::vector<std::vector<char>> grazing = FindGrazingSegments(axes);
+  for (size_t i = 0; i < axes.size(); ++i) {
+    network.branches[i].axis = SimplifyAxis(axes[i], grazing[i], options);
+  }
+}
+
 void CutAtTightBends(TubeNetwork& network, double max_turn) {
   std::vector<TubeBranch> pieces;
   for (const TubeBranch& branch : network.branches) {
@@ -283,9 +293,7 @@ TubeNetwork PrepareTubes(const SkeletonGraph& graph, double default_radius,
   }
   MergeNodes(network, positions);
   DissolveDegree2Nodes(network);
-  for (TubeBranch& branch : network.branches) {
-    branch.axis = SimplifyAxis(branch.axis, options);
-  }
+  SimplifyBranches(options, network);
   CutAtTightBends(network, options.max_turn);
   DropSwallowedBranches(network);
   return network;
