@@ -238,18 +238,18 @@ double ChordDeviation(const TubeAxis& axis, size_t a, size_t k, size_t b) {
 
 TubeAxis SmoothAxis(const TubeAxis& axis) { return FitToEnvelope(WithoutRepeatedPoints(axis)); }
 
-TubeAxis SimplifyAxis(const TubeAxis& axis, const std::vector<char>& grazing,
+TubeAxis SimplifyAxis(const TubeAxis& axis, const std::vector<Vec3>& grazing_ways,
                       const AxisOptions& options) {
-  AxisOptions faithful = options;
-  faithful.tolerance = std::min(options.tolerance, options.grazing_tolerance);
-  faithful.kink_tolerance = std::min(options.kink_tolerance, options.grazing_tolerance);
+  AxisOptions close = options;
+  close.tolerance = std::min(options.tolerance, options.grazing_tolerance);
+  close.kink_tolerance = std::min(options.kink_tolerance, options.grazing_tolerance);
+  const auto grazes = [&](size_t segment) { return !grazing_ways[segment].isZero(); };
   TubeAxis simple;
-  for (size_t first = 0; first < grazing.size();) {
+  for (size_t first = 0; first < grazing_ways.size();) {
     size_t last = first + 1;
-    while (last < grazing.size() && grazing[last] == grazing[first]) ++last;
-    AppendStretch(SimplifyStretch(Slice(axis, static_cast<int>(first), static_cast<int>(last)),
-                                  grazing[first] ? faithful : options),
-                  simple);
+    while (last < grazing_ways.size() && grazes(last) == grazes(first)) ++last;
+    const TubeAxis stretch = Slice(axis, static_cast<int>(first), static_cast<int>(last));
+    AppendStretch(SimplifyStretch(stretch, grazes(first) ? close : options), simple);
     first = last;
   }
   return simple;

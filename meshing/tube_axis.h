@@ -33,10 +33,10 @@ TubeAxis SmoothAxis(const TubeAxis& axis);
 /// The fewest points that follow `axis` (position and radius) within the tolerance
 /// (Douglas-Peucker), thinned to the least spacing and, within the wider tolerance, until no tube
 /// along them has to be cut for a kink; then moved half way to where they fit it best, so that
-/// bends do not get shorter. Both ends are kept bit for bit, and those of stretches of grazing
-/// segments (one flag per segment, see FindGrazingSegments). No two consecutive points may be
-/// equal.
-TubeAxis SimplifyAxis(const TubeAxis& axis, const std::vector<char>& grazing,
+/// bends do not get shorter. Segments that graze another tube (those of which FindGrazingWays gives
+/// a way) are followed more closely. Both ends are kept bit for bit, and those of stretches of such
+/// segments. No two consecutive points may be equal.
+TubeAxis SimplifyAxis(const TubeAxis& axis, const std::vector<Vec3>& grazing_ways,
                       const AxisOptions& options);
 
 /// The angle in radians by which a curve turns between two directions (any length > 0).

@@ -21,6 +21,12 @@ constexpr double kLeastTurning = 0.15;
 // A curve that turns by more on the whole is a bend and not noise.
 constexpr double kGreatestBend = 0.7;
 constexpr int kRays = 16;
+// An axis is moved by that much at most to reach as far as it should, ...
+constexpr double kGreatestMove = 0.1;
+// ... as measured so far to either side: half the distance of cross-sections.
+constexpr double kReachWindow = 0.2;
+// Of the sum of two directions: less is no common direction across the tube.
+constexpr double kLeastAgreement = 0.5;
 
 // Balls along an axis, with their positions along it.
 struct BallRow {
@@ -165,11 +171,42 @@ bool IsRough(const TubeAxis& axis) {
   return turning >= kLeastTurning;
 }
 
+// How far the balls beside `from` reach in a direction perpendicular to the tangent.
+double ReachOf(const BallRow& row, const Vec3& from, double radius, const Vec3& tangent,
+               const Vec3& way) {
+  double reach = 0;
+  for (size_t k = 0; k < row.size(); ++k) {
+    const Vec3 offset = row.axis.points[k] - from;
+    if (offset.norm() > radius || std::abs(offset.dot(tangent)) > kReachWindow * radius) continue;
+    reach = std::max(reach, offset.dot(way) + row.axis.radii[k]);
+  }
+  return reach;
+}
+
 }  // namespace
 
 TubeAxis FitToEnvelope(const TubeAxis& axis) {
   if (!IsRough(axis)) return axis;
   return Smoothed(FitCrossSections(BallRow(axis)));
+}
+
+TubeAxis ReachAsFar(const TubeAxis& axis, TubeAxis fitted, const std::vector<Vec3>& ways) {
+  const auto is_zero = [](const Vec3& way) { return way.isZero(); };
+  if (!IsRough(axis) || std::all_of(ways.begin(), ways.end(), is_zero)) return fitted;
+  const BallRow row(axis);
+  const Polyline points = fitted.points;
+  for (size_t i = 1; i + 1 < points.size(); ++i) {
+    const Vec3 tangent = (points[i + 1] - points[i - 1]).normalized();
+    Vec3 way = ways[i - 1] + ways[i];
+    way -= way.dot(tangent) * tangent;
+    if (way.norm() < kLeastAgreement) continue;
+    way.normalize();
+    const double radius = fitted.radii[i];
+    const double most = kGreatestMove * radius;
+    const double excess = ReachOf(row, points[i], radius, tangent, way) - radius;
+    fitted.points[i] += std::clamp(excess, -most, most) * way;
+  }
+  return fitted;
 }
 
 }  // namespace curvefusion

@@ -11,7 +11,8 @@
 #include <utility>
 
 #include "kernel/error.h"
-#include "meshing/grazing_segments.h"
+#include "meshing/grazing_ways.h"
+#include "meshing/tube_envelope.h"
 
 namespace curvefusion {
 
@@ -208,11 +209,12 @@ void DissolveDegree2Nodes(TubeNetwork& network) {
 }
 
 void SimplifyBranches(const AxisOptions& options, TubeNetwork& network) {
-  std::vector<TubeAxis> axes;
-  for (const TubeBranch& branch : network.branches) axes.push_back(SmoothAxis(branch.axis));
-  const std::vector<std::vector<char>> grazing = FindGrazingSegments(axes);
-  for (size_t i = 0; i < axes.size(); ++i) {
-    network.branches[i].axis = SimplifyAxis(axes[i], grazing[i], options);
+  std::vector<TubeAxis> smooth;
+  for (const TubeBranch& branch : network.branches) smooth.push_back(SmoothAxis(branch.axis));
+  const std::vector<std::vector<Vec3>> ways = FindGrazingWays(smooth);
+  for (size_t i = 0; i < smooth.size(); ++i) {
+    TubeAxis& axis = network.branches[i].axis;
+    axis = SimplifyAxis(ReachAsFar(axis, std::move(smooth[i]), ways[i]), ways[i], options);
   }
 }
 

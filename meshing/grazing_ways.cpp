@@ -1,8 +1,8 @@
-#include "meshing/grazing_segments.h"
+#include "meshing/grazing_ways.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
+#include <optional>
 
 #include "kernel/box_pairs.h"
 #include "meshing/closest_approach.h"
@@ -51,19 +51,28 @@ std::vector<Segment> SegmentsOf(const std::vector<TubeAxis>& axes) {
   return segments;
 }
 
-bool Graze(const Segment& s, const Segment& t) {
+// How two segments pass each other: by how much of the sum of the radii they miss touching, and
+// the unit vector from the first to the second. Nothing where they do not graze.
+struct Passing {
+  double miss;
+  Vec3 way;
+};
+
+std::optional<Passing> PassingOf(const Segment& s, const Segment& t) {
   const double touch = s.radius + t.radius;
-  if (s.axis == t.axis && std::abs(s.middle - t.middle) < kReturn * touch / 2) return false;
+  if (s.axis == t.axis && std::abs(s.middle - t.middle) < kReturn * touch / 2) return std::nullopt;
   const ClosestApproach closest = FindClosestApproach(s.line, t.line);
-  if (std::abs(closest.distance - touch) > kBand * touch) return false;
+  const double miss = std::abs(closest.distance - touch) / touch;
+  if (miss > kBand) return std::nullopt;
   const Vec3 way = (closest.on_second - closest.on_first) / closest.distance;
-  return std::abs(way.dot(s.tangent)) <= kGreatestSlant &&
-         std::abs(way.dot(t.tangent)) <= kGreatestSlant;
+  const double slant = std::max(std::abs(way.dot(s.tangent)), std::abs(way.dot(t.tangent)));
+  if (slant > kGreatestSlant) return std::nullopt;
+  return Passing{miss, way};
 }
 
 }  // namespace
 
-std::vector<std::vector<char>> FindGrazingSegments(const std::vector<TubeAxis>& axes) {
+std::vector<std::vector<Vec3>> FindGrazingWays(const std::vector<TubeAxis>& axes) {
   const std::vector<Segment> segments = SegmentsOf(axes);
   std::vector<Eigen::AlignedBox3d> boxes;
   for (const Segment& s : segments) {
@@ -73,13 +82,19 @@ std::vector<std::vector<char>> FindGrazingSegments(const std::vector<TubeAxis>& 
     boxes.push_back(box);
   }
   const BoxTree::Pairs pairs = BoxTree(boxes).OverlappingPairs(
-      [&](int i, int j) { return Graze(segments[i], segments[j]); });
-  std::vector<std::vector<char>> grazing;
-  for (const TubeAxis& axis : axes) grazing.emplace_back(axis.points.size() - 1, 0);
+      [&](int i, int j) { return PassingOf(segments[i], segments[j]).has_value(); });
+  std::vector<std::vector<Vec3>> ways;
+  for (const TubeAxis& axis : axes) ways.emplace_back(axis.points.size() - 1, Vec3::Zero());
+  std::vector<double> least_miss(segments.size(), kBand);
   for (const auto& [i, j] : pairs) {
-    for (const int k : {i, j}) grazing[segments[k].axis][segments[k].index] = 1;
+    const Passing passing = *PassingOf(segments[i], segments[j]);
+    for (const int k : {i, j}) {
+      if (passing.miss > least_miss[k]) continue;
+      least_miss[k] = passing.miss;
+      ways[segments[k].axis][segments[k].index] = k == i ? passing.way : Vec3(-passing.way);
+    }
   }
-  return grazing;
+  return ways;
 }
 
 }  // namespace curvefusion
