@@ -18,6 +18,8 @@ constexpr double kLeastReach = 0.7;    // ... at least, next to an end
 // Radians along which the direction is measured. A tube of less turning differs from its envelope
 // by less than .01.
 constexpr double kLeastTurning = 0.15;
+// An arc turns by 2.7 times the bend measured between its halves; noise turns by more than that.
+constexpr double kTurningOfBend = 4;
 // A curve that turns by more on the whole is a bend and not noise.
 constexpr double kGreatestBend = 0.7;
 constexpr int kRays = 16;
@@ -53,6 +55,13 @@ struct BallRow {
     return std::min(static_cast<size_t>(found - along.begin()), size() - 1);
   }
 
+  double GreatestTurn(size_t first, size_t last) const {
+    double greatest = 0;
+    for (size_t i = first; i < last; ++i)
+      greatest = std::max(greatest, turning[i + 1] - turning[i]);
+    return greatest;
+  }
+
   Vec3 MeanOf(size_t first, size_t last) const {
     Vec3 sum = Vec3::Zero();
     for (size_t i = first; i <= last; ++i) sum += axis.points[i];
@@ -63,6 +72,7 @@ struct BallRow {
 // Where the envelope is wanted: rough, away from the ends, straight on the whole.
 struct Station {
   bool is_rough = false;
+  bool is_noisy = false;  // rough by more than a bend and a corner
   Vec3 tangent = Vec3::Zero();
 };
 
@@ -74,13 +84,16 @@ Station ExamineStation(const BallRow& row, size_t i) {
   if (std::min(back, ahead) < kLeastReach * radius) return {};
   const size_t first = row.At(place - back);
   const size_t last = row.At(place + ahead);
-  if (row.turning[last] - row.turning[first] < kLeastTurning) return {};
+  const double turning = row.turning[last] - row.turning[first];
+  if (turning < kLeastTurning) return {};
   const double core = std::min(back, ahead) / 3;
   const Vec3 middle = row.MeanOf(row.At(place - core), row.At(place + core));
   const Vec3 before = middle - row.MeanOf(first, row.At(place - back / 2));
   const Vec3 after = row.MeanOf(row.At(place + ahead / 2), last) - middle;
-  if (TurnAngle(before, after) > kGreatestBend) return {};
-  return {true, (before + after).normalized()};
+  const double bend = TurnAngle(before, after);
+  if (bend > kGreatestBend) return {};
+  const double noise = turning - row.GreatestTurn(first, last) - kTurningOfBend * bend;
+  return {true, noise > kLeastTurning, (before + after).normalized()};
 }
 
 // How far a ray from `from` runs within the balls first..last.
@@ -171,7 +184,8 @@ bool IsRough(const TubeAxis& axis) {
   return turning >= kLeastTurning;
 }
 
-// How far the balls beside `from` reach in a direction perpendicular to the tangent.
+// How far the balls beside a point of the fitted axis reach in a direction perpendicular to the
+// tangent.
 double ReachOf(const BallRow& row, const Vec3& from, double radius, const Vec3& tangent,
                const Vec3& way) {
   double reach = 0;
@@ -190,9 +204,16 @@ TubeAxis FitToEnvelope(const TubeAxis& axis) {
   return Smoothed(FitCrossSections(BallRow(axis)));
 }
 
+bool IsNoisy(const TubeAxis& axis) {
+  if (!IsRough(axis)) return false;
+  const BallRow row(axis);
+  for (size_t i = 0; i < row.size(); ++i) {
+    if (ExamineStation(row, i).is_noisy) return true;
+  }
+  return false;
+}
+
 TubeAxis ReachAsFar(const TubeAxis& axis, TubeAxis fitted, const std::vector<Vec3>& ways) {
-  const auto is_zero = [](const Vec3& way) { return way.isZero(); };
-  if (!IsRough(axis) || std::all_of(ways.begin(), ways.end(), is_zero)) return fitted;
   const BallRow row(axis);
   const Polyline points = fitted.points;
   for (size_t i = 1; i + 1 < points.size(); ++i) {

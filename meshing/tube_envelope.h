@@ -13,6 +13,9 @@ namespace curvefusion {
 /// length over radius.
 TubeAxis FitToEnvelope(const TubeAxis& axis);
 
+/// Whether FitToEnvelope finds noise anywhere along the axis.
+bool IsNoisy(const TubeAxis& axis);
+
 /// `fitted`, made of `axis` by FitToEnvelope, with points moved so that its tube reaches as far as
 /// the rough one in certain directions: circles of the same area stand out by some hundredths of a
 /// radius in one direction and back in another. `ways` holds a unit vector or zero for each segment

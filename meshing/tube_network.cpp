@@ -208,13 +208,20 @@ void DissolveDegree2Nodes(TubeNetwork& network) {
   RemoveMarked(gone, network);
 }
 
+// Only what is fitted to noise errs so much that it matters where tubes graze.
 void SimplifyBranches(const AxisOptions& options, TubeNetwork& network) {
   std::vector<TubeAxis> smooth;
   for (const TubeBranch& branch : network.branches) smooth.push_back(SmoothAxis(branch.axis));
   const std::vector<std::vector<Vec3>> ways = FindGrazingWays(smooth);
   for (size_t i = 0; i < smooth.size(); ++i) {
     TubeAxis& axis = network.branches[i].axis;
-    axis = SimplifyAxis(ReachAsFar(axis, std::move(smooth[i]), ways[i]), ways[i], options);
+    const bool grazes =
+        std::any_of(ways[i].begin(), ways[i].end(), [](const Vec3& way) { return !way.isZero(); });
+    if (grazes && IsNoisy(axis)) {
+      axis = SimplifyAxis(ReachAsFar(axis, std::move(smooth[i]), ways[i]), ways[i], options);
+    } else {
+      axis = SimplifyAxis(smooth[i], std::vector<Vec3>(ways[i].size(), Vec3::Zero()), options);
+    }
   }
 }
 
