@@ -156,10 +156,12 @@ SkeletonGraph Contract(const ObservedPoints& points, const std::string& name, Ru
   return skeleton;
 }
 
-// Registration takes few points, so its ridges need not be as dense as those contraction links.
+// Registration takes few points, so its ridges need not be as dense as those contraction links;
+// but where points are noise for the most part, all are needed.
 RidgeProjectionOptions RegistrationRidges(const RunContext& run) {
   RidgeProjectionOptions ridges = run.options.ridge.projection;
-  ridges.spacing = std::max(ridges.spacing, run.options.registration_spacing);
+  if (run.ray_noise_ratio == 1)
+    ridges.spacing = std::max(ridges.spacing, run.options.registration_spacing);
   return ForCloseWires(ridges, run.magnification);
 }
 

@@ -81,8 +81,11 @@ std::vector<std::vector<Vec3>> FindGrazingWays(const std::vector<TubeAxis>& axes
                             Vec3(s.line.a.cwiseMax(s.line.b) + reach));
     boxes.push_back(box);
   }
-  const BoxTree::Pairs pairs = BoxTree(boxes).OverlappingPairs(
-      [&](int i, int j) { return PassingOf(segments[i], segments[j]).has_value(); });
+  const BoxTree::Pairs pairs = BoxTree(boxes).OverlappingPairs([&](BoxTree::Pairs& near) {
+    std::erase_if(near, [&](const auto& pair) {
+      return !PassingOf(segments[pair.first], segments[pair.second]).has_value();
+    });
+  });
   std::vector<std::vector<Vec3>> ways;
   for (const TubeAxis& axis : axes) ways.emplace_back(axis.points.size() - 1, Vec3::Zero());
   std::vector<double> least_miss(segments.size(), kBand);
