@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "capture/frame_stream.h"
-#include "fusion/axis_correction.h"
-#include "fusion/close_wires.h"
-#include "fusion/ray_noise.h"
+#include "fusion/registration/axis_correction.h"
+#include "fusion/registration/close_wires.h"
+#include "fusion/registration/ray_noise.h"
 #include "kernel/parallel.h"
 
 namespace curvefusion {

@@ -2,7 +2,7 @@
 #include <benchmark/benchmark.h>
 
 #include "benchmarks/fusion/synthetic_room.h"
-#include "fusion/depth_opening.h"
+#include "fusion/segmentation/depth_opening.h"
 
 namespace curvefusion {
 namespace {

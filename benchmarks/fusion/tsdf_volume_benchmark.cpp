@@ -2,7 +2,7 @@
 #include <benchmark/benchmark.h>
 
 #include "benchmarks/fusion/synthetic_room.h"
-#include "fusion/tsdf_volume.h"
+#include "fusion/volume/tsdf_volume.h"
 #include "kernel/parallel.h"
 
 namespace curvefusion {

@@ -1,6 +1,6 @@
 #include "experiments/metrics/evaluation.h"
 
-#include "fusion/alignment.h"
+#include "fusion/registration/alignment.h"
 
 namespace curvefusion {
 namespace {

@@ -10,7 +10,7 @@
 #include "experiments/metrics/evaluation_files.h"
 #include "experiments/metrics/truth.h"
 #include "experiments/simulation/object_truth.h"
-#include "fusion/alignment.h"
+#include "fusion/registration/alignment.h"
 #include "graph/graph_io.h"
 #include "kernel/error.h"
 #include "kernel/parallel.h"

@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "fusion/voxel_blocks.h"
+#include "fusion/volume/voxel_blocks.h"
 #include "kernel/geometry.h"
 
 namespace curvefusion {

@@ -1,0 +1,241 @@
+#include "fusion/adjustment/colour_adjustment.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "fusion/adjustment/colour_frames.h"
+#include "fusion/adjustment/curve_pose_solver.h"
+#include "fusion/adjustment/curve_vertices.h"
+#include "fusion/adjustment/depth_gauge.h"
+#include "fusion/registration/pose_correction.h"
+#include "fusion/registration/trajectory_anchor.h"
+#include "kernel/quantile.h"
+
+namespace curvefusion {
+
+namespace {
+
+// How far strips are looked for, and beyond which distance they count less: the start is a few
+// pixels off.
+struct AdjustmentRound {
+  double search_px;
+  double huber_px;
+  bool learns_colours;
+  bool measures_depth;
+};
+constexpr std::array<AdjustmentRound, 6> kRounds = {{{14, 4, true, true},
+                                                     {10, 2, true, false},
+                                                     {7, 1, false, false},
+                                                     {5, 0.4, false, true},
+                                                     {4, 0.4, false, false},
+                                                     {4, 0.4, false, false}}};
+constexpr double kCornerAngle = 1.0;             // the same as for smoothing
+constexpr double kVideoStep = 20 * kMillimetre;  // cameras in hands move less from frame to frame
+constexpr int kMinStrips = 300;
+constexpr double kMinAcceptedShare = 0.1;
+// Curves that fit come to .1; more is a wire taken for the next.
+constexpr double kMaxResidualPx = 0.4;
+constexpr double kMinGain = 0.8;  // of the residual
+// How far a colour image lies beside its depth image for itself: shutters are not in step.
+constexpr double kColorJitterPx = 0.5;
+
+// Whether three quarters of the frames are as near to the next as those of a video.
+bool IsVideo(const std::vector<RigidTransform>& poses) {
+  std::vector<double> steps;
+  for (size_t i = 1; i < poses.size(); ++i) {
+    steps.push_back((poses[i].translation() - poses[i - 1].translation()).norm());
+  }
+  if (steps.empty()) return false;
+  return Quantile(std::move(steps), 0.75) < kVideoStep;
+}
+
+std::vector<int> ChooseFrames(int frame_count, int stride) {
+  std::vector<int> indices;
+  for (int i = 0; i < frame_count; i += stride) indices.push_back(i);
+  return indices;
+}
+
+CurvePoseProblem MakeProblem(const Sequence& sequence, const CurveVertices& curves,
+                             const std::vector<int>& indices,
+                             const std::vector<RigidTransform>& T_world_given, bool is_video) {
+  CurvePoseProblem problem;
+  problem.color_camera = sequence.color_camera;
+  problem.T_color_depth = sequence.T_color_depth;
+  problem.start.positions = curves.positions;
+  problem.rows = curves.rows;
+  for (size_t i = 0; i < indices.size(); ++i) {
+    problem.T_world_given.push_back(T_world_given[indices[i]]);
+    problem.start.T_camera_world.push_back(sequence.frames[indices[i]].T_world_camera.inverse());
+    if (is_video && i > 0) problem.gaps.push_back(indices[i] - indices[i - 1]);
+  }
+  return problem;
+}
+
+std::vector<StripObservation> Observations(const std::vector<FrameStrips>& strips) {
+  std::vector<StripObservation> observations;
+  for (size_t f = 0; f < strips.size(); ++f) {
+    for (const SeenStrip& seen : strips[f]) {
+      if (!seen.strip.accepted) continue;
+      observations.push_back({static_cast<int>(f), seen.vertex,
+                              seen.sample.pixel + seen.strip.offset_px * seen.sample.normal,
+                              seen.sample.normal});
+    }
+  }
+  return observations;
+}
+
+double MedianResidual(const CurvePoseProblem& problem, const CurvePoseState& state) {
+  std::vector<double> residuals;
+  for (const StripObservation& strip : problem.strips) {
+    const double residual = StripResidual(problem, state, strip);
+    if (!std::isnan(residual)) residuals.push_back(std::abs(residual));
+  }
+  return residuals.empty() ? 0 : Median(std::move(residuals));
+}
+
+double AcceptedShare(const std::vector<FrameStrips>& strips) {
+  size_t all = 0, accepted = 0;
+  for (const FrameStrips& frame : strips) {
+    all += frame.size();
+    accepted += std::count_if(frame.begin(), frame.end(),
+                              [](const SeenStrip& seen) { return seen.strip.accepted; });
+  }
+  return all > 0 ? static_cast<double>(accepted) / static_cast<double>(all) : 0;
+}
+
+// Takes what the depth images say of the strips into the problem.
+void UseDepth(const Sequence& sequence, const ColourFrames& frames, const CurveVertices& curves,
+              const CurvePoseState& state, const std::vector<FrameStrips>& strips,
+              double axis_depth, CurvePoseProblem& problem, ColourAdjustment& result) {
+  DepthGauge gauge = MeasureDepthGauge(sequence, frames.indices, curves, state, strips, axis_depth);
+  problem.depths = std::move(gauge.depths);
+  problem.color_camera.cx += gauge.color_shift_px.x();
+  problem.color_camera.cy += gauge.color_shift_px.y();
+  result.color_shift_px += gauge.color_shift_px;
+  result.depths = static_cast<int>(problem.depths.size());
+}
+
+// Runs all rounds; the state they end in.
+CurvePoseState RunRounds(const Sequence& sequence, const CurveVertices& curves,
+                         ColourFrames& frames, double axis_depth, CurvePoseProblem& problem,
+                         ColourAdjustment& result) {
+  CurvePoseState state = problem.start;
+  LearnColours(ExpectStrips(curves, problem, state), frames);
+  for (const AdjustmentRound& round : kRounds) {
+    const std::vector<FrameStrips> strips =
+        TrackCurves(curves, problem, state, frames, round.search_px);
+    problem.strips = Observations(strips);
+    if (&round == &kRounds.front()) result.start_residual_px = MedianResidual(problem, state);
+    if (round.measures_depth) {
+      UseDepth(sequence, frames, curves, state, strips, axis_depth, problem, result);
+    }
+    state = ImproveCurvesAndPoses(problem, state, round.huber_px);
+    if (round.learns_colours) LearnColours(strips, frames);
+    result.strips = static_cast<int>(problem.strips.size());
+    result.accepted_share = AcceptedShare(strips);
+    if (result.strips < kMinStrips) break;
+  }
+  result.residual_px = MedianResidual(problem, state);
+  return state;
+}
+
+// The adjustment fits all frames to one another; where the world lies, the first of a video say.
+// Colour images that lie beside their depth images look like cameras that are turned.
+RigidTransform Anchor(const std::vector<RigidTransform>& T_world_given,
+                      const std::vector<int>& indices, const std::vector<RigidTransform>& poses,
+                      const PinholeCamera& color_camera) {
+  PoseErrors errors;
+  errors.rotation_jitter.x() =
+      std::hypot(errors.rotation_jitter.x(), kColorJitterPx / color_camera.fy);
+  errors.rotation_jitter.y() =
+      std::hypot(errors.rotation_jitter.y(), kColorJitterPx / color_camera.fx);
+  return AnchorToGivenPoses(T_world_given, indices, poses, errors);
+}
+
+// Why an adjustment is not to be believed; empty where it is.
+std::string ReasonToSkip(const ColourAdjustment& result) {
+  if (result.strips < kMinStrips || result.accepted_share < kMinAcceptedShare) {
+    return fmt::format(
+        "the wires' colour tells them from the background in {} places only ({:.0f} % of those "
+        "looked at)",
+        result.strips, 100 * result.accepted_share);
+  }
+  if (result.residual_px > kMaxResidualPx ||
+      result.residual_px > kMinGain * result.start_residual_px) {
+    return fmt::format("curves did not come nearer to their strips: {:.2f} px before, {:.2f} after",
+                       result.start_residual_px, result.residual_px);
+  }
+  return {};
+}
+
+}  // namespace
+
+void VisitOptions(ColourAdjustmentOptions& options, OptionVisitor& visitor) {
+  visitor.Visit({"enabled", "", 0, 1,
+                 "Deviation: curves and camera poses are adjusted together to the wires' strips in "
+                 "the colour images, which show them to a tenth of a pixel; the paper ends with "
+                 "curves as good as depth."},
+                options.enabled);
+  visitor.Visit({"vertex_step", "m", 0.001, 0.02,
+                 "Deviation: distance of the vertices that are moved. Prototype of this stage."},
+                options.vertex_step);
+  visitor.Visit({"frame_stride", "frames", 1, 30,
+                 "Deviation: only every so many-th frame of a video is used, of other views all; "
+                 "poses between are interpolated."},
+                options.frame_stride);
+  visitor.Visit({"depth_before_axis", "radii", 0, 1.5,
+                 "Deviation: depth is measured so far before the axis, on the near side. Prototype "
+                 "of this stage: .83 to 1."},
+                options.axis_depth);
+}
+
+ColourAdjustment AdjustToColours(const SkeletonGraph& skeleton, const Sequence& sequence,
+                                 const std::vector<RigidTransform>& T_world_given,
+                                 const ColourAdjustmentOptions& options) {
+  ColourAdjustment result;
+  result.skeleton = skeleton;
+  for (const SequenceFrame& frame : sequence.frames) {
+    result.T_world_camera.push_back(frame.T_world_camera);
+  }
+  const CurveVertices curves = SampleVertices(skeleton, options.vertex_step, kCornerAngle);
+  const bool has_radii = std::all_of(curves.radii.begin(), curves.radii.end(),
+                                     [](double radius) { return radius > 0; });
+  if (curves.positions.empty() || !has_radii) {
+    result.skipped = "there are no curves of known radius";
+    return result;
+  }
+  const bool is_video = IsVideo(T_world_given);
+  ColourFrames frames = LoadColourFrames(
+      sequence, ChooseFrames(sequence.frame_count(), is_video ? options.frame_stride : 1));
+  CurvePoseProblem problem = MakeProblem(sequence, curves, frames.indices, T_world_given, is_video);
+  const CurvePoseState state =
+      RunRounds(sequence, curves, frames, options.axis_depth, problem, result);
+  result.frames = std::move(frames.indices);
+  result.posteriors = std::move(frames.posteriors);
+  result.skipped = ReasonToSkip(result);
+  if (!result.skipped.empty()) {
+    result.color_shift_px.setZero();
+    return result;
+  }
+  std::vector<RigidTransform> poses;
+  for (const RigidTransform& T_camera_world : state.T_camera_world) {
+    poses.push_back(T_camera_world.inverse());
+  }
+  CurveVertices moved = curves;
+  moved.positions = state.positions;
+  if (is_video) {
+    const RigidTransform T_anchored_world =
+        Anchor(T_world_given, result.frames, poses, sequence.color_camera);
+    for (RigidTransform& pose : poses) pose = T_anchored_world * pose;
+    for (Vec3& position : moved.positions) position = T_anchored_world * position;
+  }
+  result.skeleton = WithVertices(skeleton, moved, options.vertex_step);
+  result.T_world_camera = InterpolateCorrections(T_world_given, result.frames, poses);
+  return result;
+}
+
+}  // namespace curvefusion

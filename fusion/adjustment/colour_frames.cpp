@@ -1,0 +1,134 @@
+#include "fusion/adjustment/colour_frames.h"
+
+#include <cmath>
+
+#include "capture/frame_stream.h"
+#include "kernel/parallel.h"
+#include "kernel/polyline.h"
+
+namespace curvefusion {
+
+namespace {
+
+constexpr double kBorderPx = 6;
+constexpr double kMaxClearancePx = 40;
+constexpr double kCoreShare = 0.35;  // of the width to either side: wire for certain
+constexpr double kBlurredPx = 2;     // beside the strip: neither
+constexpr double kSidePx = 8;        // of background beyond
+
+// The vertices along all edges as curve samples; nodes once for every edge that ends there.
+struct VertexSamples {
+  std::vector<CurveSample> samples;
+  std::vector<int> vertices;
+};
+
+VertexSamples SampleState(const CurveVertices& curves, const CurvePoseState& state) {
+  VertexSamples all;
+  for (size_t e = 0; e < curves.edges.size(); ++e) {
+    Polyline points;
+    for (const int vertex : curves.edges[e]) points.push_back(state.positions[vertex]);
+    const std::vector<double> arc_lengths = CumulativeLength(points);
+    const std::vector<Vec3> tangents = Tangents(points);
+    for (size_t i = 0; i < points.size(); ++i) {
+      if (tangents[i].isZero()) continue;
+      all.samples.push_back({static_cast<EdgeId>(e), arc_lengths[i], points[i], tangents[i]});
+      all.vertices.push_back(curves.edges[e][i]);
+    }
+  }
+  return all;
+}
+
+// Calls visit(frame, projected samples) for all frames, in parallel.
+template <class Visit>
+void ProjectIntoFrames(const VertexSamples& all, const CurvePoseProblem& problem,
+                       const CurvePoseState& state, const Visit& visit) {
+  ParallelFor(0, static_cast<int64_t>(state.T_camera_world.size()), 1, [&](int64_t f) {
+    visit(f, ProjectSamples(all.samples, all.samples, problem.color_camera,
+                            problem.T_color_depth * state.T_camera_world[f], kBorderPx,
+                            kMaxClearancePx));
+  });
+}
+
+int BinAt(const ColourBins& bins, const Vec2& pixel) {
+  const int u = static_cast<int>(std::lround(pixel.x()));
+  const int v = static_cast<int>(std::lround(pixel.y()));
+  return bins.Contains(u, v) ? bins(u, v) : -1;
+}
+
+void LearnFromStrip(const ColourBins& bins, const ProjectedSample& sample,
+                    const TrackedStrip& strip, WireColourModel& model) {
+  const Vec2 centre = sample.pixel + strip.offset_px * sample.normal;
+  const int core = static_cast<int>(kCoreShare * strip.width_px);
+  for (int i = -core; i <= core; ++i) {
+    const int bin = BinAt(bins, centre + i * sample.normal);
+    if (bin >= 0) model.AddWire(static_cast<uint16_t>(bin));
+  }
+  const double edge_px = 0.5 * strip.width_px + kBlurredPx;
+  if (sample.clearance_px < 2 * edge_px + kSidePx) return;
+  for (double offset = edge_px; offset <= edge_px + kSidePx; offset += 1) {
+    for (const int side : {-1, 1}) {
+      const int bin = BinAt(bins, centre + side * offset * sample.normal);
+      if (bin >= 0) model.AddBackground(static_cast<uint16_t>(bin));
+    }
+  }
+}
+
+}  // namespace
+
+ColourFrames LoadColourFrames(const Sequence& sequence, const std::vector<int>& indices) {
+  ColourFrames frames;
+  frames.indices = indices;
+  ForEachFrame(sequence, indices, {.depth = false, .color = true},
+               [&](const DecodedFrame& frame) { frames.bins.push_back(BinColours(frame.color)); });
+  frames.posteriors.resize(indices.size());
+  return frames;
+}
+
+std::vector<FrameStrips> ExpectStrips(const CurveVertices& curves, const CurvePoseProblem& problem,
+                                      const CurvePoseState& state) {
+  const VertexSamples all = SampleState(curves, state);
+  std::vector<FrameStrips> seen(state.T_camera_world.size());
+  ProjectIntoFrames(all, problem, state, [&](int64_t f, std::vector<ProjectedSample> projected) {
+    for (const ProjectedSample& sample : projected) {
+      const int vertex = all.vertices[sample.index];
+      TrackedStrip strip;
+      strip.width_px = 2 * curves.radii[vertex] / sample.metres_per_px;
+      strip.accepted = sample.clearance_px > 2 * strip.width_px + kSidePx;
+      seen[f].push_back({vertex, sample, strip});
+    }
+  });
+  return seen;
+}
+
+std::vector<FrameStrips> TrackCurves(const CurveVertices& curves, const CurvePoseProblem& problem,
+                                     const CurvePoseState& state, const ColourFrames& frames,
+                                     double search_px) {
+  const VertexSamples all = SampleState(curves, state);
+  std::vector<FrameStrips> seen(frames.size());
+  ProjectIntoFrames(all, problem, state, [&](int64_t f, std::vector<ProjectedSample> projected) {
+    std::vector<double> radii;
+    for (const ProjectedSample& sample : projected) {
+      radii.push_back(curves.radii[all.vertices[sample.index]]);
+    }
+    for (const TrackedStrip& strip :
+         TrackStrips(frames.posteriors[f], projected, radii, search_px)) {
+      const ProjectedSample& sample = projected[strip.sample];
+      seen[f].push_back({all.vertices[sample.index], sample, strip});
+    }
+  });
+  return seen;
+}
+
+void LearnColours(const std::vector<FrameStrips>& strips, ColourFrames& frames) {
+  WireColourModel model;
+  for (size_t f = 0; f < frames.size(); ++f) {
+    for (const SeenStrip& seen : strips[f]) {
+      if (seen.strip.accepted) LearnFromStrip(frames.bins[f], seen.sample, seen.strip, model);
+    }
+  }
+  const std::vector<uint8_t> posterior = model.Posterior();
+  ParallelFor(0, static_cast<int64_t>(frames.size()), 1,
+              [&](int64_t f) { frames.posteriors[f] = ApplyPosterior(frames.bins[f], posterior); });
+}
+
+}  // namespace curvefusion

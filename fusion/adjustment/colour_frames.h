@@ -1,0 +1,49 @@
+#pragma once
+
+#include <vector>
+
+#include "capture/sequence.h"
+#include "fusion/adjustment/curve_pose_solver.h"
+#include "fusion/adjustment/curve_vertices.h"
+#include "fusion/strips/strip_tracking.h"
+#include "fusion/strips/wire_posterior.h"
+
+namespace curvefusion {
+
+/// The colour images that curves are adjusted to, and what is known of the wires' colour.
+struct ColourFrames {
+  std::vector<int> indices;  ///< in sequence.frames, ascending
+  std::vector<ColourBins> bins;
+  std::vector<PosteriorImage> posteriors;
+
+  size_t size() const { return indices.size(); }
+};
+
+/// Decodes the colour images of `indices`. Throws Error(kBadInput) where one cannot be read.
+ColourFrames LoadColourFrames(const Sequence& sequence, const std::vector<int>& indices);
+
+/// One strip of a vertex in one frame.
+struct SeenStrip {
+  int vertex = 0;
+  ProjectedSample sample;
+  TrackedStrip strip;
+};
+
+/// What one frame shows of the curves.
+using FrameStrips = std::vector<SeenStrip>;
+
+/// The places where the curves project to in each frame, with offset 0 and the expected width: what
+/// the colour model is first learned from.
+std::vector<FrameStrips> ExpectStrips(const CurveVertices& curves, const CurvePoseProblem& problem,
+                                      const CurvePoseState& state);
+
+/// Follows the strips of all curves through all frames. Parallel over frames.
+std::vector<FrameStrips> TrackCurves(const CurveVertices& curves, const CurvePoseProblem& problem,
+                                     const CurvePoseState& state, const ColourFrames& frames,
+                                     double search_px);
+
+/// Learns the colours of wire and background around the accepted strips of all frames and looks
+/// them up in every image.
+void LearnColours(const std::vector<FrameStrips>& strips, ColourFrames& frames);
+
+}  // namespace curvefusion

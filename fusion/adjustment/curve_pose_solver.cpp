@@ -1,0 +1,264 @@
+#include "fusion/adjustment/curve_pose_solver.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/SparseCholesky>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+#include "fusion/registration/pose_correction.h"
+#include "fusion/strips/strip_samples.h"
+#include "kernel/parallel.h"
+
+namespace curvefusion {
+
+namespace {
+
+using Row6 = Eigen::Matrix<double, 1, 6>;
+using Row3 = Eigen::RowVector3d;
+
+constexpr double kDegree = M_PI / 180;
+constexpr double kStripSigmaPx = 0.5;
+constexpr double kBendSigma = 0.3 * kMillimetre;  // of a second difference, steps of 3 mm
+constexpr double kVertexSigma = 12 * kMillimetre;
+constexpr double kMinDepth = 0.05;
+
+// Standard deviations of translation and rotation.
+struct PoseSigma {
+  double translation;
+  double rotation;
+
+  SmallMotion Weights(double variance_factor) const {
+    SmallMotion weights;
+    weights << Vec3::Constant(1 / (translation * translation * variance_factor)),
+        Vec3::Constant(1 / (rotation * rotation * variance_factor));
+    return weights;
+  }
+};
+
+constexpr PoseSigma kPoseSigma = {5 * kMillimetre, 0.3 * kDegree};
+constexpr PoseSigma kLinkSigma = {0.8 * kMillimetre, 0.04 * kDegree};
+constexpr PoseSigma kFirstSigma = {0.2 * kMillimetre, 0.01 * kDegree};
+
+Mat3 CrossMatrix(const Vec3& v) {
+  Mat3 matrix;
+  matrix << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return matrix;
+}
+
+// The normal equations of all terms: blocks of single vertices, what couples rows of vertices,
+// poses, and what couples vertices with poses.
+class NormalEquations {
+ public:
+  NormalEquations(int vertices, int frames)
+      : vertex_blocks_(vertices, Mat3::Zero()),
+        vertex_rhs_(Eigen::VectorXd::Zero(3 * vertices)),
+        pose_matrix_(Eigen::MatrixXd::Zero(6 * frames, 6 * frames)),
+        pose_rhs_(Eigen::VectorXd::Zero(6 * frames)),
+        coupling_(Eigen::MatrixXd::Zero(3 * vertices, 6 * frames)) {}
+
+  // weight (residual + by_vertex dv + by_pose dp)^2.
+  void AddObservation(int vertex, int frame, const Row3& by_vertex, const Row6& by_pose,
+                      double residual, double weight) {
+    vertex_blocks_[vertex] += weight * by_vertex.transpose() * by_vertex;
+    vertex_rhs_.segment<3>(3 * vertex) -= weight * residual * by_vertex.transpose();
+    pose_matrix_.block<6, 6>(6 * frame, 6 * frame) += weight * by_pose.transpose() * by_pose;
+    pose_rhs_.segment<6>(6 * frame) -= weight * residual * by_pose.transpose();
+    coupling_.block<3, 6>(3 * vertex, 6 * frame) += weight * by_vertex.transpose() * by_pose;
+  }
+
+  // weight |residual + dv|^2.
+  void AddVertexPrior(int vertex, const Vec3& residual, double weight) {
+    vertex_blocks_[vertex] += weight * Mat3::Identity();
+    vertex_rhs_.segment<3>(3 * vertex) -= weight * residual;
+  }
+
+  // weight |residual + da - 2 db + dc|^2.
+  void AddRow(const std::array<int, 3>& row, const Vec3& residual, double weight) {
+    constexpr std::array<double, 3> kStencil = {1, -2, 1};
+    for (size_t i = 0; i < 3; ++i) {
+      vertex_rhs_.segment<3>(3 * row[i]) -= weight * kStencil[i] * residual;
+      for (size_t j = 0; j < 3; ++j) {
+        if (row[j] > row[i]) continue;
+        for (int k = 0; k < 3; ++k) {
+          row_entries_.emplace_back(3 * row[i] + k, 3 * row[j] + k,
+                                    weight * kStencil[i] * kStencil[j]);
+        }
+      }
+    }
+  }
+
+  // sum of weights times (residual + dp)^2.
+  void AddPosePrior(int frame, const SmallMotion& residual, const SmallMotion& weights) {
+    pose_matrix_.diagonal().segment<6>(6 * frame) += weights;
+    pose_rhs_.segment<6>(6 * frame) -= weights.cwiseProduct(residual);
+  }
+
+  // sum of weights times (residual + dq - dp)^2 for a frame p and the next, q.
+  void AddLink(int frame, const SmallMotion& residual, const SmallMotion& weights) {
+    AddPosePrior(frame, -residual, weights);
+    AddPosePrior(frame + 1, residual, weights);
+    pose_matrix_.block<6, 6>(6 * frame, 6 * frame + 6).diagonal() -= weights;
+    pose_matrix_.block<6, 6>(6 * frame + 6, 6 * frame).diagonal() -= weights;
+  }
+
+  // Solves for all changes: vertices, then poses.
+  std::pair<Eigen::VectorXd, Eigen::VectorXd> Solve() {
+    const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> vertex_factor(VertexMatrix());
+    assert(vertex_factor.info() == Eigen::Success);  // every vertex has a prior
+    const auto& permutation = vertex_factor.permutationP();
+    const Eigen::VectorXd reduced_rhs =
+        vertex_factor.matrixL().solve(Eigen::VectorXd(permutation * vertex_rhs_));
+    const Eigen::MatrixXd reduced = ReduceCoupling(vertex_factor);
+    SubtractGram(reduced);
+    const Eigen::VectorXd poses = pose_matrix_.selfadjointView<Eigen::Lower>().llt().solve(
+        Eigen::VectorXd(pose_rhs_ - reduced.transpose() * reduced_rhs));
+    const Eigen::VectorXd vertices =
+        vertex_factor.solve(Eigen::VectorXd(vertex_rhs_ - coupling_ * poses));
+    return {vertices, poses};
+  }
+
+ private:
+  using Factor = Eigen::SimplicialLLT<Eigen::SparseMatrix<double>>;
+
+  Eigen::SparseMatrix<double> VertexMatrix() const {
+    std::vector<Eigen::Triplet<double>> lower = row_entries_;
+    for (size_t v = 0; v < vertex_blocks_.size(); ++v) {
+      const int first = 3 * static_cast<int>(v);
+      for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j <= i; ++j)
+          lower.emplace_back(first + i, first + j, vertex_blocks_[v](i, j));
+      }
+    }
+    const auto n = static_cast<Eigen::Index>(3 * vertex_blocks_.size());
+    Eigen::SparseMatrix<double> matrix(n, n);
+    matrix.setFromTriplets(lower.begin(), lower.end());
+    return matrix;
+  }
+
+  // The columns of inverse(L) P coupling.
+  Eigen::MatrixXd ReduceCoupling(const Factor& factor) const {
+    Eigen::MatrixXd reduced(coupling_.rows(), coupling_.cols());
+    ParallelFor(0, coupling_.cols() / 6, 1, [&](int64_t frame) {
+      reduced.middleCols<6>(6 * frame) = factor.matrixL().solve(
+          Eigen::MatrixXd(factor.permutationP() * coupling_.middleCols<6>(6 * frame)));
+    });
+    return reduced;
+  }
+
+  // Makes the lower triangle of the pose matrix its Schur complement.
+  void SubtractGram(const Eigen::MatrixXd& reduced) {
+    constexpr int64_t kColumns = 48;
+    const int64_t n = reduced.cols();
+    ParallelFor(0, (n + kColumns - 1) / kColumns, 1, [&](int64_t block) {
+      const int64_t first = block * kColumns;
+      const int64_t count = std::min(kColumns, n - first);
+      pose_matrix_.block(first, first, n - first, count).noalias() -=
+          reduced.rightCols(n - first).transpose() * reduced.middleCols(first, count);
+    });
+  }
+
+  std::vector<Mat3> vertex_blocks_;
+  Eigen::VectorXd vertex_rhs_;
+  std::vector<Eigen::Triplet<double>> row_entries_;  // lower triangle
+  Eigen::MatrixXd pose_matrix_;
+  Eigen::VectorXd pose_rhs_;
+  Eigen::MatrixXd coupling_;
+};
+
+void AddStrips(const CurvePoseProblem& problem, const CurvePoseState& state, double huber_px,
+               NormalEquations& equations) {
+  for (const StripObservation& strip : problem.strips) {
+    const double residual = StripResidual(problem, state, strip);
+    if (std::isnan(residual)) continue;
+    const RigidTransform& T_camera_world = state.T_camera_world[strip.frame];
+    const Vec3 p_camera = T_camera_world * state.positions[strip.vertex];
+    const Row3 by_point =
+        -strip.normal.transpose() *
+        ProjectionJacobian(problem.color_camera, problem.T_color_depth * p_camera) *
+        problem.T_color_depth.linear();
+    Row6 by_pose;
+    by_pose << by_point, -by_point * CrossMatrix(p_camera);
+    const double robust = std::min(1.0, huber_px / std::max(1e-12, std::abs(residual)));
+    equations.AddObservation(strip.vertex, strip.frame, by_point * T_camera_world.linear(), by_pose,
+                             residual, robust / (kStripSigmaPx * kStripSigmaPx));
+  }
+}
+
+void AddDepths(const CurvePoseProblem& problem, const CurvePoseState& state,
+               NormalEquations& equations) {
+  for (const AxisDepthObservation& seen : problem.depths) {
+    const RigidTransform& T_camera_world = state.T_camera_world[seen.frame];
+    const Vec3 p_camera = T_camera_world * state.positions[seen.vertex];
+    const double residual = p_camera.z() - seen.depth;
+    const Row3 by_point = Row3::UnitZ();
+    Row6 by_pose;
+    by_pose << by_point, -by_point * CrossMatrix(p_camera);
+    const double robust = std::min(1.0, 2 * seen.sigma / std::max(1e-12, std::abs(residual)));
+    equations.AddObservation(seen.vertex, seen.frame, by_point * T_camera_world.linear(), by_pose,
+                             residual, robust / (seen.sigma * seen.sigma));
+  }
+}
+
+void AddCurvePriors(const CurvePoseProblem& problem, const CurvePoseState& state,
+                    NormalEquations& equations) {
+  for (size_t v = 0; v < state.positions.size(); ++v) {
+    equations.AddVertexPrior(static_cast<int>(v), state.positions[v] - problem.start.positions[v],
+                             1 / (kVertexSigma * kVertexSigma));
+  }
+  for (const auto& [a, b, c] : problem.rows) {
+    equations.AddRow({a, b, c}, state.positions[a] - 2 * state.positions[b] + state.positions[c],
+                     1 / (kBendSigma * kBendSigma));
+  }
+}
+
+void AddPosePriors(const CurvePoseProblem& problem, const CurvePoseState& state,
+                   NormalEquations& equations) {
+  const size_t frames = state.T_camera_world.size();
+  std::vector<SmallMotion> corrections;
+  for (size_t f = 0; f < frames; ++f) {
+    corrections.push_back(SmallMotionOf(state.T_camera_world[f] * problem.T_world_given[f]));
+    const SmallMotion start =
+        SmallMotionOf(problem.start.T_camera_world[f] * problem.T_world_given[f]);
+    const PoseSigma& sigma = f == 0 && !problem.gaps.empty() ? kFirstSigma : kPoseSigma;
+    equations.AddPosePrior(static_cast<int>(f), corrections[f] - start, sigma.Weights(1));
+  }
+  for (size_t f = 0; f < problem.gaps.size(); ++f) {
+    equations.AddLink(static_cast<int>(f), corrections[f + 1] - corrections[f],
+                      kLinkSigma.Weights(problem.gaps[f]));
+  }
+}
+
+}  // namespace
+
+double StripResidual(const CurvePoseProblem& problem, const CurvePoseState& state,
+                     const StripObservation& strip) {
+  const Vec3 p_color =
+      problem.T_color_depth * (state.T_camera_world[strip.frame] * state.positions[strip.vertex]);
+  if (p_color.z() < kMinDepth) return std::numeric_limits<double>::quiet_NaN();
+  return strip.normal.dot(strip.pixel - problem.color_camera.Project(p_color));
+}
+
+CurvePoseState ImproveCurvesAndPoses(const CurvePoseProblem& problem, const CurvePoseState& state,
+                                     double huber_px) {
+  assert(problem.gaps.empty() || problem.gaps.size() + 1 == state.T_camera_world.size());
+  NormalEquations equations(static_cast<int>(state.positions.size()),
+                            static_cast<int>(state.T_camera_world.size()));
+  AddStrips(problem, state, huber_px, equations);
+  AddDepths(problem, state, equations);
+  AddCurvePriors(problem, state, equations);
+  AddPosePriors(problem, state, equations);
+  const auto [vertices, poses] = equations.Solve();
+  CurvePoseState improved = state;
+  for (size_t v = 0; v < improved.positions.size(); ++v) {
+    improved.positions[v] += vertices.segment<3>(3 * static_cast<Eigen::Index>(v));
+  }
+  for (size_t f = 0; f < improved.T_camera_world.size(); ++f) {
+    RigidTransform& T_camera_world = improved.T_camera_world[f];
+    T_camera_world =
+        RigidTransformOf(poses.segment<6>(6 * static_cast<Eigen::Index>(f))) * T_camera_world;
+  }
+  return improved;
+}
+
+}  // namespace curvefusion

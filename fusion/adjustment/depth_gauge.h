@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+#include "capture/sequence.h"
+#include "fusion/adjustment/colour_frames.h"
+
+namespace curvefusion {
+
+/// What the depth images say of curves that are adjusted to colour images: how far away they are,
+/// and how the colour images lie against the depth images.
+struct DepthGauge {
+  std::vector<AxisDepthObservation> depths;
+  double sigma = 0;                    ///< of a single one against the curves, metres
+  Vec2 color_shift_px = Vec2::Zero();  ///< to be added to the colour camera's principal point
+  int outlines = 0;                    ///< strips that the shift was measured at
+};
+
+/// Looks up the depth at the accepted strips of the frames `indices`. Depth is measured on the near
+/// side of wires, `axis_depth` radii before the axis. Depths off by more than three standard
+/// deviations (at least 8 mm, at most 60 mm) are not those of the wire. Throws Error(kBadInput) for
+/// an image that cannot be decoded.
+DepthGauge MeasureDepthGauge(const Sequence& sequence, const std::vector<int>& indices,
+                             const CurveVertices& curves, const CurvePoseState& state,
+                             const std::vector<FrameStrips>& strips, double axis_depth);
+
+}  // namespace curvefusion

@@ -1,0 +1,134 @@
+#include "fusion/segmentation/ghost_removal.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "kernel/dbscan.h"
+#include "kernel/point_grid.h"
+
+namespace curvefusion {
+
+namespace {
+
+using Cluster = std::vector<int>;  // indices of points
+// What is searched first for a neighbour, metres.
+constexpr double kSearchRadius = 0.02;
+
+// Clusters of at least min_cluster_points, largest first.
+std::vector<Cluster> LargeClusters(const std::vector<Vec3>& points,
+                                   const GhostRemovalOptions& options) {
+  const std::vector<int> labels = Dbscan(points, options.cluster_radius, options.core_points);
+  std::vector<Cluster> clusters;
+  for (size_t i = 0; i < labels.size(); ++i) {
+    if (labels[i] == kNoise) continue;
+    clusters.resize(std::max(clusters.size(), static_cast<size_t>(labels[i]) + 1));
+    clusters[labels[i]].push_back(static_cast<int>(i));
+  }
+  const auto too_small = [&](const Cluster& cluster) {
+    return static_cast<int>(cluster.size()) < options.min_cluster_points;
+  };
+  clusters.erase(std::remove_if(clusters.begin(), clusters.end(), too_small), clusters.end());
+  std::stable_sort(clusters.begin(), clusters.end(),
+                   [](const Cluster& a, const Cluster& b) { return a.size() > b.size(); });
+  return clusters;
+}
+
+// The share of a cluster's points that received a colour edge sample.
+double VerifiedShare(const BundlePoints& bundle, const Cluster& cluster) {
+  int verified = 0;
+  for (const int i : cluster) verified += bundle.evidence[i].edge_pixels > 0;
+  return static_cast<double>(verified) / static_cast<double>(cluster.size());
+}
+
+// The share of a cluster's outline pixels, over all frames, that lie on colour edges.
+double VerifiedOutline(const BundlePoints& bundle, const Cluster& cluster) {
+  double outline = 0, on_edge = 0;
+  for (const int i : cluster) {
+    outline += bundle.evidence[i].outline_pixels;
+    on_edge += bundle.evidence[i].outline_edge_pixels;
+  }
+  return outline > 0 ? on_edge / outline : 0;
+}
+
+bool IsVerified(const BundlePoints& bundle, const Cluster& cluster,
+                const GhostRemovalOptions& options) {
+  return VerifiedShare(bundle, cluster) >= options.verified_share &&
+         VerifiedOutline(bundle, cluster) >= options.verified_outline;
+}
+
+std::vector<Vec3> PointsOf(const std::vector<Vec3>& points, const Cluster& cluster) {
+  std::vector<Vec3> of_cluster;
+  for (const int i : cluster) of_cluster.push_back(points[i]);
+  return of_cluster;
+}
+
+bool IsNear(const std::vector<Vec3>& points, const PointGrid& others, double distance) {
+  return std::any_of(points.begin(), points.end(),
+                     [&](const Vec3& p) { return others.Nearest(p, distance) >= 0; });
+}
+
+// Clusters within isolation_distance of a larger cluster that stays; the largest always stays.
+std::vector<Cluster> WithoutIsolated(const std::vector<Vec3>& points, std::vector<Cluster> clusters,
+                                     const GhostRemovalOptions& options) {
+  std::vector<Cluster> kept;
+  std::vector<PointGrid> kept_points;
+  for (Cluster& cluster : clusters) {
+    const std::vector<Vec3> of_cluster = PointsOf(points, cluster);
+    const auto is_near = [&](const PointGrid& larger) {
+      return IsNear(of_cluster, larger, options.isolation_distance);
+    };
+    if (!kept.empty() && std::none_of(kept_points.begin(), kept_points.end(), is_near)) continue;
+    kept_points.emplace_back(of_cluster, kSearchRadius);
+    kept.push_back(std::move(cluster));
+  }
+  return kept;
+}
+
+}  // namespace
+
+void VisitOptions(GhostRemovalOptions& options, OptionVisitor& visitor) {
+  visitor.Visit({"cluster_radius", "m", 0.001, 0.1,
+                 "DBSCAN radius. CurveFusion 3.1 uses DBSCAN, the value is ours."},
+                options.cluster_radius);
+  visitor.Visit({"core_points", "points", 1, 100,
+                 "DBSCAN density. CurveFusion 3.1 uses DBSCAN, the value is ours."},
+                options.core_points);
+  visitor.Visit(
+      {"min_cluster_points", "points", 1, 100000, "Smaller clusters are ghosts. CurveFusion 3.1."},
+      options.min_cluster_points);
+  visitor.Visit({"isolation_distance", "m", 0, 10,
+                 "Clusters farther than this from every larger one are ghosts. CurveFusion 3.1, "
+                 "read as said in ghost_removal.h."},
+                options.isolation_distance);
+  visitor.Visit(
+      {"verified_share", "", 0, 1,
+       "Clusters with a smaller share of points on colour edges are ghosts. CurveFusion 3.1."},
+      options.verified_share);
+  visitor.Visit({"verified_outline", "", 0, 1,
+                 "Deviation: clusters with a smaller share of their outline on colour edges are "
+                 "ghosts; chance hits inside a blob do not verify it."},
+                options.verified_outline);
+}
+
+BundlePoints RemoveGhosts(const BundlePoints& bundle, const GhostRemovalOptions& options) {
+  const std::vector<Vec3>& positions = bundle.points.positions;
+  std::vector<Cluster> clusters = LargeClusters(positions, options);
+  const auto unverified = [&](const Cluster& cluster) {
+    return !IsVerified(bundle, cluster, options);
+  };
+  clusters.erase(std::remove_if(clusters.begin(), clusters.end(), unverified), clusters.end());
+  std::vector<int> kept;
+  for (const Cluster& cluster : WithoutIsolated(positions, std::move(clusters), options)) {
+    kept.insert(kept.end(), cluster.begin(), cluster.end());
+  }
+  std::sort(kept.begin(), kept.end());
+  BundlePoints remaining;
+  for (const int i : kept) {
+    remaining.points.Add(positions[i], bundle.points.viewing_rays[i], bundle.points.counts[i]);
+    remaining.evidence.push_back(bundle.evidence[i]);
+    remaining.voxels.push_back(bundle.voxels[i]);
+  }
+  return remaining;
+}
+
+}  // namespace curvefusion

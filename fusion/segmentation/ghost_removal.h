@@ -1,0 +1,27 @@
+#pragma once
+
+#include "fusion/segmentation/bundle.h"
+#include "kernel/options.h"
+
+namespace curvefusion {
+
+/// Which clusters of a bundle difference set are no physical thing, CurveFusion 3.1 "Removing
+/// 'ghost' points".
+struct GhostRemovalOptions {
+  double cluster_radius = 0.01;
+  int core_points = 4;
+  int min_cluster_points = 10;
+  double isolation_distance = 0.1;
+  double verified_share = 0.2;
+  double verified_outline = 0;
+};
+void VisitOptions(GhostRemovalOptions& options, OptionVisitor& visitor);
+
+/// The points of clusters that are large enough, not isolated, and verified by colour edges.
+///
+/// The paper drops clusters "more than 10 cm away from any other cluster". Read literally that
+/// deletes an object that is alone because the segmentation was clean, so isolation is measured to
+/// larger clusters only: the largest one always stays.
+BundlePoints RemoveGhosts(const BundlePoints& bundle, const GhostRemovalOptions& options);
+
+}  // namespace curvefusion

@@ -1,0 +1,125 @@
+#include "fusion/segmentation/openness.h"
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "capture/frame_stream.h"
+#include "fusion/segmentation/difference_set.h"
+#include "fusion/segmentation/rendered_points.h"
+#include "kernel/parallel.h"
+
+namespace curvefusion {
+
+namespace {
+
+// The rendering for counting needs no more detail than a cell.
+constexpr int kRenderDivisor = 4;
+// Pixels of the rendering from a silhouette within which nothing is counted: 12 pixels of the depth
+// image, more than block matching fattens and poses drift.
+constexpr int kMargin = 3;
+// Over this distance a surface seen at 80 degrees from its normal rises by so many pixels; more is
+// a silhouette.
+constexpr double kSteepestSlope = 5.7;
+// Fewer pixels tell no share: they are the fringes of what a few frames saw at grazing angles. A
+// frame has about so many in a cell and its neighbours at 0.7 m.
+constexpr int kMinPixels = 2000;
+
+// The farthest rendered depth around a pixel; infinite where nothing is rendered.
+float FarthestAround(const DepthImage& rendering, int u, int v) {
+  float farthest = 0;
+  for (int y = v - kMargin; y <= v + kMargin; ++y) {
+    for (int x = u - kMargin; x <= u + kMargin; ++x) {
+      if (!(rendering(x, y) > 0)) return std::numeric_limits<float>::infinity();
+      farthest = std::max(farthest, rendering(x, y));
+    }
+  }
+  return farthest;
+}
+
+}  // namespace
+
+void VisitOptions(OpennessOptions& options, OptionVisitor& visitor) {
+  visitor.Visit({"openness_stride", "frames", 0, 1000,
+                 "Deviation: every so many-th frame is asked whether its depth passes through "
+                 "what the volume holds for a surface; 0 = not asked."},
+                options.stride);
+  visitor.Visit(
+      {"openness_cell", "m", 0.002, 0.2, "Deviation: cells in which passing pixels are counted."},
+      options.cell_size);
+  visitor.Visit({"passing_depth", "m", 0, 0.2,
+                 "Deviation: a pixel so far behind a surface passed through it."},
+                options.passing_depth);
+  visitor.Visit({"max_openness", "", 0, 1,
+                 "Deviation: where a larger share of the pixels passed through there is no large "
+                 "surface but a grille."},
+                options.max_share);
+}
+
+void OpennessGrid::AddFrame(const DepthImage& depth, const DepthImage& rendering,
+                            const PinholeCamera& camera, const RigidTransform& T_world_camera) {
+  const int factor = depth.width() / rendering.width();
+  const double slope = kMargin * kSteepestSlope / camera.fx;
+  for (int v = kMargin; v + kMargin < rendering.height(); ++v) {
+    for (int u = kMargin; u + kMargin < rendering.width(); ++u) {
+      const float surface = rendering(u, v);
+      const float farthest = FarthestAround(rendering, u, v);
+      if (!(surface > 0) || farthest > surface * (1 + slope)) continue;
+      const float limit = farthest + static_cast<float>(std::max(options_.passing_depth,
+                                                                 3 * DepthNoise(farthest, {})));
+      Counts seen;
+      for (int y = v * factor; y < (v + 1) * factor; ++y) {
+        for (int x = u * factor; x < (u + 1) * factor; ++x) {
+          seen.passed += depth(x, y) > limit;
+          seen.ended += depth(x, y) > 0 && depth(x, y) <= limit;
+        }
+      }
+      Counts& cell =
+          counts_[VoxelOf(T_world_camera * camera.Unproject(u, v, surface), options_.cell_size)];
+      cell.passed += seen.passed;
+      cell.ended += seen.ended;
+    }
+  }
+}
+
+void OpennessGrid::Pool() {
+  shares_.clear();
+  for (const auto& entry : counts_) {
+    const VoxelKey& key = entry.first;
+    const Counts sum = SumAround(counts_, key);
+    const int all = sum.passed + sum.ended;
+    if (all >= kMinPixels) shares_[key] = static_cast<float>(sum.passed) / static_cast<float>(all);
+  }
+}
+
+double OpennessGrid::Share(const Vec3& p_world) const {
+  const auto it = shares_.find(VoxelOf(p_world, options_.cell_size));
+  return it == shares_.end() ? 0.0 : it->second;
+}
+
+MaskImage OpennessGrid::Grilles(const DepthImage& rendering, const PinholeCamera& camera,
+                                const RigidTransform& T_world_camera) const {
+  MaskImage grilles(rendering.width(), rendering.height(), 0);
+  if (shares_.empty()) return grilles;
+  ForEachRenderedPoint(rendering, camera, T_world_camera, [&](int u, int v, const Vec3& p_world) {
+    grilles(u, v) = Share(p_world) > options_.max_share;
+  });
+  return grilles;
+}
+
+OpennessGrid MeasureOpenness(const Sequence& sequence, const TsdfVolume& volume,
+                             const OpennessOptions& options) {
+  OpennessGrid grid(options);
+  if (options.stride == 0) return grid;
+  std::vector<int> frames;
+  for (int i = 0; i < sequence.frame_count(); i += options.stride) frames.push_back(i);
+  const PinholeCamera camera = sequence.depth_camera.Scaled(1.0 / kRenderDivisor);
+  ForEachFrame(sequence, frames, {.depth = true, .color = false}, [&](const DecodedFrame& frame) {
+    const RigidTransform& T_world_camera = sequence.frames[frame.index].T_world_camera;
+    grid.AddFrame(frame.depth, volume.Raycast(camera, T_world_camera), camera, T_world_camera);
+  });
+  grid.Pool();
+  return grid;
+}
+
+}  // namespace curvefusion

@@ -1,0 +1,201 @@
+#include "fusion/segmentation/segmentation.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "fusion/segmentation/sheet_stripes.h"
+#include "kernel/parallel.h"
+
+namespace curvefusion {
+
+namespace {
+
+// Frames segmented at the same time: enough to keep the cores busy, few enough to bound memory.
+constexpr int kFramesAtOnce = 8;
+// Of floating sheets: rows of wires have stripes on more of their area.
+constexpr double kMinStripedShare = 0.7;
+// Pixels of the rendering: the outermost wires of a close row, and what block matching fattens them
+// by, lie so far beyond what the volume shows of it.
+constexpr int kCloseRowMargin = 8;
+
+struct SegmentedFrame {
+  WireCandidates candidates;
+  MaskImage on_edge;
+};
+
+// Grilles are seen through.
+void MarkOpen(const MaskImage& grilles, DepthImage& solidity) {
+  if (solidity.empty()) solidity = DepthImage(grilles.width(), grilles.height(), 1);
+  for (size_t i = 0; i < grilles.size(); ++i) {
+    if (grilles.data()[i]) solidity.data()[i] = 0;
+  }
+}
+
+void AddRows(const MaskImage& more, MaskImage& rows) {
+  for (size_t i = 0; i < rows.size(); ++i) rows.data()[i] |= more.data()[i];
+}
+
+// Depth pixels that the volume does not explain, CurveFusion 3.1 "Removing large surfaces".
+WireCandidates FindCandidates(const Sequence& sequence, int frame, const TsdfVolume& volume,
+                              const SegmentationModel& model, const SegmentationOptions& options) {
+  WireCandidates found;
+  found.depth = LoadDepth(sequence, frame);
+  found.color = LoadColor(sequence, frame);
+  const PinholeCamera small = sequence.depth_camera.Scaled(1.0 / options.render_divisor);
+  const RigidTransform& T_world_camera = sequence.frames[frame].T_world_camera;
+  const DepthImage rendering = volume.Raycast(small, T_world_camera);
+  const double solid_depth = options.opening.solid_depth;
+  DepthImage solidity = solid_depth > 0
+                            ? volume.SolidityBehind(rendering, small, T_world_camera, solid_depth)
+                            : DepthImage();
+  found.rows = model.openness.Grilles(rendering, small, T_world_camera);
+  AddRows(model.sheets.Mask(rendering, small, T_world_camera), found.rows);
+  if (model.row_spacing > 0) found.row_margin = kCloseRowMargin;
+  if (options.openness.stride > 0) MarkOpen(found.rows, solidity);
+  const DepthImage kept = OpenDepth(rendering, small, solidity, options.opening);
+  found.mask = ImageDifferenceSet(found.depth, rendering, kept, options.difference);
+  return found;
+}
+
+SegmentedFrame SegmentFrame(const Sequence& sequence, int frame, const TsdfVolume& volume,
+                            const SegmentationModel& model, const SegmentationOptions& options) {
+  SegmentedFrame segmented;
+  segmented.candidates = FindCandidates(sequence, frame, volume, model, options);
+  WireCandidates& candidates = segmented.candidates;
+  if (options.gate.frames > 0) GateByColour(model.colours, sequence, options.gate, candidates);
+  const MaskImage edges = ColourEdges(candidates.color, options.edges);
+  segmented.on_edge =
+      MaskPixelsOnEdges(candidates.mask, candidates.depth, edges, sequence.depth_camera,
+                        sequence.color_camera, sequence.T_color_depth, options.edges);
+  if (model.row_spacing > 0) ThinToCrests(model.colours, sequence, candidates);
+  return segmented;
+}
+
+std::vector<int> FramesToLearnFrom(const Sequence& sequence, int count) {
+  count = std::min(count, sequence.frame_count());
+  std::vector<int> frames(count);
+  for (int i = 0; i < count; ++i) {
+    frames[i] = static_cast<int>(static_cast<int64_t>(i) * sequence.frame_count() / count);
+  }
+  return frames;
+}
+
+std::vector<WireCandidates> CandidatesOf(const Sequence& sequence, const std::vector<int>& frames,
+                                         const TsdfVolume& volume, const SegmentationModel& model,
+                                         const SegmentationOptions& options) {
+  std::vector<WireCandidates> candidates(frames.size());
+  ParallelFor(0, static_cast<int64_t>(frames.size()), 1, [&](int64_t i) {
+    candidates[i] = FindCandidates(sequence, frames[i], volume, model, options);
+  });
+  return candidates;
+}
+
+// Large surfaces that float in space.
+SheetGrid FindSheets(const Sequence& sequence, const std::vector<int>& frames,
+                     const TsdfVolume& volume, const SegmentationOptions& options) {
+  const PinholeCamera small = sequence.depth_camera.Scaled(1.0 / options.render_divisor);
+  SheetGrid sheets;
+  for (const int frame : frames) {
+    const RigidTransform& T_world_camera = sequence.frames[frame].T_world_camera;
+    const DepthImage rendering = volume.Raycast(small, T_world_camera);
+    const DepthImage kept = OpenDepth(rendering, small, {}, options.opening);
+    sheets.AddFrame(FloatingSheets(kept, rendering), rendering, small, T_world_camera);
+  }
+  sheets.Pool();
+  return sheets;
+}
+
+void SetRowMargin(int margin, std::vector<WireCandidates>& candidates) {
+  for (WireCandidates& frame : candidates) frame.row_margin = margin;
+}
+
+// Learns the colours of close rows; false where the colours show no stripes in rows.
+bool LearnCloseRows(const Sequence& sequence, const SegmentationOptions& options,
+                    std::vector<WireCandidates>& candidates, SegmentationModel& model) {
+  const auto has_rows = [](const WireCandidates& frame) { return AnySet(frame.rows); };
+  if (std::none_of(candidates.begin(), candidates.end(), has_rows)) return false;
+  SetRowMargin(kCloseRowMargin, candidates);
+  WireColours colours = LearnWireColours(candidates, sequence, options.gate);
+  SharpenColours(candidates, sequence, colours);
+  const SheetStripes stripes =
+      MeasureStripes(candidates, colours, sequence, options.max_row_spacing);
+  if (stripes.share < kMinStripedShare) return false;
+  model.row_spacing = stripes.spacing;
+  model.row_diameter = stripes.width;
+  model.colours = std::move(colours);
+  return true;
+}
+
+}  // namespace
+
+void VisitOptions(SegmentationOptions& options, OptionVisitor& visitor) {
+  visitor.BeginSection("segmentation");
+  visitor.Visit(
+      {"render_divisor", "", 1, 8,
+       "Deviation: the volume is rendered with so many times fewer rows and columns; it only "
+       "holds large surfaces."},
+      options.render_divisor);
+  VisitOptions(options.opening, visitor);
+  VisitOptions(options.openness, visitor);
+  VisitOptions(options.difference, visitor);
+  VisitOptions(options.gate, visitor);
+  visitor.Visit({"max_row_spacing", "m", 0, 0.1,
+                 "Deviation: surfaces that float in space and have straight stripes of wire colour "
+                 "no farther apart than this are rows of wires; 0 = not asked."},
+                options.max_row_spacing);
+  visitor.BeginSection("bundle");
+  VisitOptions(options.bundle, visitor);
+  visitor.BeginSection("ghosts");
+  VisitOptions(options.edges, visitor);
+  VisitOptions(options.ghosts, visitor);
+}
+
+SegmentationModel LearnSegmentation(const Sequence& sequence, const TsdfVolume& volume,
+                                    const SegmentationOptions& options) {
+  SegmentationModel model;
+  model.openness = MeasureOpenness(sequence, volume, options.openness);
+  if (options.gate.frames == 0) return model;
+  const std::vector<int> frames = FramesToLearnFrom(sequence, options.gate.frames);
+  if (options.max_row_spacing > 0) model.sheets = FindSheets(sequence, frames, volume, options);
+  std::vector<WireCandidates> candidates = CandidatesOf(sequence, frames, volume, model, options);
+  if (options.max_row_spacing > 0) {
+    if (LearnCloseRows(sequence, options, candidates, model)) return model;
+    SetRowMargin(WireCandidates().row_margin, candidates);
+  }
+  if (!model.sheets.empty()) {
+    model.sheets = {};
+    candidates = CandidatesOf(sequence, frames, volume, model, options);
+  }
+  model.colours = LearnWireColours(candidates, sequence, options.gate);
+  return model;
+}
+
+SegmentedBundle SegmentBundle(const Sequence& sequence, int first, int last,
+                              const TsdfVolume& volume, const SegmentationModel& model,
+                              const SegmentationOptions& options) {
+  SegmentedBundle segmented;
+  segmented.T_world_bundle = sequence.frames[first].T_world_camera;
+  BundleDifferenceSet difference_set(options.bundle);
+  std::vector<SegmentedFrame> window(kFramesAtOnce);
+  for (int start = first; start < last; start += kFramesAtOnce) {
+    const int end = std::min(start + kFramesAtOnce, last);
+    ParallelFor(start, end, 1, [&](int64_t frame) {
+      window[frame - start] =
+          SegmentFrame(sequence, static_cast<int>(frame), volume, model, options);
+    });
+    for (int frame = start; frame < end; ++frame) {
+      const SegmentedFrame& current = window[frame - start];
+      difference_set.AddFrame(
+          current.candidates.mask, current.on_edge, current.candidates.depth, sequence.depth_camera,
+          segmented.T_world_bundle.inverse() * sequence.frames[frame].T_world_camera);
+    }
+  }
+  BundlePoints candidates = difference_set.Points();
+  BundlePoints remaining = RemoveGhosts(candidates, options.ghosts);
+  segmented.frames = difference_set.FramePoints(remaining.voxels);
+  segmented.difference_set = std::move(candidates.points);
+  segmented.points = std::move(remaining.points);
+  return segmented;
+}
+
+}  // namespace curvefusion

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <utility>
+
+#include "capture/sequence.h"
+#include "fusion/segmentation/bundle.h"
+#include "fusion/segmentation/colour_gate.h"
+#include "fusion/segmentation/colour_verification.h"
+#include "fusion/segmentation/depth_opening.h"
+#include "fusion/segmentation/difference_set.h"
+#include "fusion/segmentation/floating_sheets.h"
+#include "fusion/segmentation/ghost_removal.h"
+#include "fusion/segmentation/openness.h"
+#include "fusion/volume/tsdf_volume.h"
+#include "kernel/observed_points.h"
+
+namespace curvefusion {
+
+/// Everything that decides which points are thin, CurveFusion 3.1.
+struct SegmentationOptions {
+  int render_divisor = 1;
+  OpennessOptions openness;
+  DepthOpeningOptions opening;
+  DifferenceSetOptions difference;
+  ColourGateOptions gate;
+  double max_row_spacing = 0;
+  ColourEdgeOptions edges;
+  BundleOptions bundle;
+  GhostRemovalOptions ghosts;
+};
+void VisitOptions(SegmentationOptions& options, OptionVisitor& visitor);
+
+/// What has to be known of a whole sequence before its bundles are segmented.
+struct SegmentationModel {
+  OpennessGrid openness{OpennessOptions{}};
+  SheetGrid sheets;         ///< rows of wires that depth shows as surfaces
+  double row_spacing = 0;   ///< of their wires, metres; 0 where there are none
+  double row_diameter = 0;  ///< of their wires, metres, roughly
+  WireColours colours;
+};
+
+/// Learns it from frames spread over the sequence, against the volume of all frames.
+/// Throws Error(kBadInput) for an image that cannot be read.
+SegmentationModel LearnSegmentation(const Sequence& sequence, const TsdfVolume& volume,
+                                    const SegmentationOptions& options);
+
+/// What was found in one bundle.
+struct SegmentedBundle {
+  ObservedPoints difference_set;  ///< before ghosts were removed, in the frame of the first camera
+  ObservedPoints points;          ///< after, likewise
+  std::vector<ObservedPoints> frames;  ///< what each frame saw of `points`, likewise
+  RigidTransform T_world_bundle;       ///< pose of the first camera
+};
+
+/// Segments frames [first, last) of a sequence against the volume of all frames.
+/// Throws Error(kBadInput) for an image that cannot be read.
+SegmentedBundle SegmentBundle(const Sequence& sequence, int first, int last,
+                              const TsdfVolume& volume, const SegmentationModel& model,
+                              const SegmentationOptions& options);
+
+}  // namespace curvefusion

@@ -1,0 +1,76 @@
+#include "fusion/silhouettes/silhouette_topology.h"
+
+#include <utility>
+#include <vector>
+
+#include "fusion/silhouettes/silhouette_pruning.h"
+#include "fusion/silhouettes/silhouette_rungs.h"
+#include "fusion/silhouettes/silhouette_seeds.h"
+#include "graph/corners.h"
+#include "kernel/quantile.h"
+
+namespace curvefusion {
+
+namespace {
+
+constexpr double kTrustedShare = 0.9;
+constexpr double kCorner = 0.64;  // radians; contraction rounds where wires meet at right angles
+
+// Wires that no depth image shows are believed where they join others at both ends, or go on from
+// one that is no shorter: between dense wires there are places that no image looks through.
+void DropLoosePieces(const std::vector<FoundPiece>& pieces, SkeletonGraph& skeleton) {
+  for (const FoundPiece& piece : pieces) {
+    for (const NodeId end : piece.ends) {
+      if (!skeleton.HasNode(end) || skeleton.Degree(end) != 1) continue;
+      const EdgeId edge = skeleton.IncidentEdges(end)[0];
+      if (Length(skeleton.edge(edge).points) < 2 * piece.length) skeleton.RemoveEdge(edge);
+    }
+  }
+  skeleton.RemoveIsolatedNodes();
+  skeleton.DissolveDegree2Nodes();
+}
+
+}  // namespace
+
+void VisitOptions(SilhouetteOptions& options, OptionVisitor& visitor) {
+  visitor.Visit({"max_frames", "frames", 0, 1000000,
+                 "Deviation: images in whose silhouettes curves are looked for; more are thinned "
+                 "evenly, 0 = none."},
+                options.max_frames);
+  visitor.Visit({"min_share", "", 0, 1,
+                 "Deviation: parts that a smaller share of the images shows as wire are false."},
+                options.min_share);
+  visitor.Visit({"max_bridge", "m", 0, 1,
+                 "Deviation: how far ends that face each other may be joined through silhouettes."},
+                options.bridges.max_length);
+  visitor.Visit({"min_bridge_share", "", 0, 1,
+                 "Deviation: the least share of images that must show every place of a bridge."},
+                options.bridges.min_share);
+}
+
+bool TellWires(const WireSilhouettes& silhouettes, const SkeletonGraph& skeleton) {
+  std::vector<double> shares;
+  for (const EdgeId id : skeleton.Edges()) {
+    const std::vector<double> along = silhouettes.SharesAlong(skeleton.edge(id).points);
+    shares.insert(shares.end(), along.begin(), along.end());
+  }
+  return !shares.empty() && Median(std::move(shares)) >= kTrustedShare;
+}
+
+SilhouetteChanges CorrectTopology(const WireSilhouettes& silhouettes,
+                                  const SilhouetteOptions& options, SkeletonGraph& skeleton) {
+  SilhouetteChanges changes;
+  MoveJunctionsIntoWires(silhouettes, options.bridges.min_share, skeleton);
+  RerouteCurves(silhouettes, options.bridges.min_share, skeleton);
+  changes.removed = DropRefutedParts(silhouettes, options.min_share, skeleton);
+  changes.rungs = DropRungsInSheets(silhouettes, options.bridges.min_share, skeleton);
+  const std::vector<FoundPiece> pieces = AddUnexplainedWires(silhouettes, skeleton);
+  changes.found = static_cast<int>(pieces.size());
+  SplitAtCorners(skeleton, kCorner);
+  changes.bridges = BridgeOpenEnds(silhouettes, options.bridges, skeleton);
+  changes.joins = JoinEndsToSides(silhouettes, options.bridges, skeleton);
+  DropLoosePieces(pieces, skeleton);
+  return changes;
+}
+
+}  // namespace curvefusion

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "fusion/silhouettes/silhouette_bridges.h"
+#include "fusion/silhouettes/wire_silhouettes.h"
+#include "graph/skeleton_graph.h"
+#include "kernel/options.h"
+
+namespace curvefusion {
+
+/// What the silhouettes of the wires decide about their curves. Units, ranges and sources stand in
+/// VisitOptions.
+struct SilhouetteOptions {
+  int max_frames = 60;
+  double min_share = 0.7;
+  SilhouetteBridgeOptions bridges;
+};
+void VisitOptions(SilhouetteOptions& options, OptionVisitor& visitor);
+
+/// What has been changed.
+struct SilhouetteChanges {
+  double removed = 0;  ///< metres of curve
+  int rungs = 0;       ///< removed between wires that no image looks through
+  int found = 0;       ///< pieces of wire that no curve accounted for
+  int bridges = 0;     ///< between ends
+  int joins = 0;       ///< of an end to the side of a curve
+};
+
+/// Whether the silhouettes tell the wires: most of the skeleton is seen as wire nearly always.
+bool TellWires(const WireSilhouettes& silhouettes, const SkeletonGraph& skeleton);
+
+/// Makes the curves agree with the images: what the images look past is dropped, what lies beside
+/// its wire led back to it, wires that no curve accounts for are added, and ends joined where
+/// images show wire between them. Needs radii. Deviation: CurveFusion uses colour for ghosts and
+/// radii only, but depth shows wires side by side as one, and none at all that run along the line
+/// of sight.
+SilhouetteChanges CorrectTopology(const WireSilhouettes& silhouettes,
+                                  const SilhouetteOptions& options, SkeletonGraph& skeleton);
+
+}  // namespace curvefusion

@@ -1,0 +1,104 @@
+#include "fusion/silhouettes/view_evidence.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "capture/frame_stream.h"
+#include "kernel/quantile.h"
+
+namespace curvefusion {
+
+namespace {
+
+constexpr double kBesidePx = 1;           // block matching widens outlines
+constexpr double kUnknownRadius = 0.002;  // metres
+
+enum class Sight { kOutside, kHidden, kMissed, kSeen };
+
+// Looks at the pixels around the projection of a point on a wire's axis.
+Sight LookAt(const DepthImage& depth, const PinholeCamera& camera, const Vec3& p_camera,
+             double radius, double tolerance) {
+  if (p_camera.z() <= radius) return Sight::kOutside;
+  const Vec2 pixel = camera.Project(p_camera);
+  if (!camera.Contains(pixel)) return Sight::kOutside;
+  const double near_side = p_camera.z() - radius;
+  const double reach = camera.fx * radius / p_camera.z() + kBesidePx;
+  const int u0 = std::max(0, static_cast<int>(std::ceil(pixel.x() - reach)));
+  const int u1 = std::min(depth.width() - 1, static_cast<int>(std::floor(pixel.x() + reach)));
+  const int v0 = std::max(0, static_cast<int>(std::ceil(pixel.y() - reach)));
+  const int v1 = std::min(depth.height() - 1, static_cast<int>(std::floor(pixel.y() + reach)));
+  double farthest = 0;
+  for (int v = v0; v <= v1; ++v) {
+    for (int u = u0; u <= u1; ++u) {
+      const double measured = depth(u, v);
+      if (!(measured > 0)) continue;
+      if (std::abs(measured - near_side) <= tolerance) return Sight::kSeen;
+      farthest = std::max(farthest, measured);
+    }
+  }
+  return farthest > 0 && farthest < near_side ? Sight::kHidden : Sight::kMissed;
+}
+
+void LookThroughFrame(const DecodedFrame& frame, const Sequence& sequence,
+                      const SkeletonGraph& skeleton, double tolerance, ViewEvidence& evidence) {
+  const RigidTransform T_camera_world = sequence.frames[frame.index].T_world_camera.inverse();
+  for (EdgeViews& views : evidence.edges) {
+    const SkeletonEdge& edge = skeleton.edge(views.edge);
+    for (size_t i = 0; i < edge.points.size(); ++i) {
+      const double radius = edge.radii.empty() ? kUnknownRadius : edge.radii[i];
+      const Sight sight = LookAt(frame.depth, sequence.depth_camera,
+                                 T_camera_world * edge.points[i], radius, tolerance);
+      views.points[i].looked += sight == Sight::kSeen || sight == Sight::kMissed;
+      views.points[i].seen += sight == Sight::kSeen;
+    }
+  }
+}
+
+}  // namespace
+
+ViewEvidence CountViews(const SkeletonGraph& skeleton, const Sequence& sequence,
+                        const ViewEvidenceOptions& options) {
+  ViewEvidence evidence;
+  for (const EdgeId id : skeleton.Edges()) {
+    evidence.edges.push_back({id, std::vector<ViewCount>(skeleton.edge(id).points.size())});
+  }
+  if (evidence.edges.empty()) return evidence;
+  const std::vector<int> frames = EvenlyThinned(AllFrames(sequence), options.max_frames);
+  evidence.frames = static_cast<int>(frames.size());
+  ForEachFrame(sequence, frames, {.depth = true, .color = false}, [&](const DecodedFrame& frame) {
+    LookThroughFrame(frame, sequence, skeleton, options.tolerance, evidence);
+  });
+  return evidence;
+}
+
+ViewCount TypicalViews(const std::vector<ViewCount>& points) {
+  std::vector<double> looked, seen;
+  for (const ViewCount& point : points) {
+    looked.push_back(point.looked);
+    seen.push_back(point.seen);
+  }
+  if (points.empty()) return {};
+  return {static_cast<int>(Median(std::move(looked))), static_cast<int>(Median(std::move(seen)))};
+}
+
+void AssignObservations(const ViewEvidence& evidence, SkeletonGraph& skeleton) {
+  for (const EdgeViews& views : evidence.edges) {
+    const SkeletonEdge& edge = skeleton.edge(views.edge);
+    std::vector<double> observations;
+    for (const ViewCount& point : views.points) observations.push_back(point.seen);
+    skeleton.SetCurve(views.edge, edge.points, edge.radii, std::move(observations));
+  }
+}
+
+void VisitOptions(ViewEvidenceOptions& options, OptionVisitor& visitor) {
+  visitor.Visit({"max_frames", "frames", 1, 1000000,
+                 "Depth images in which the result is looked for, to say how often each part of it "
+                 "was seen; more are thinned evenly."},
+                options.max_frames);
+  visitor.Visit({"tolerance", "m", 0.001, 0.1,
+                 "A depth this near to the wire is one of it: drift and noise of far wires "
+                 "together."},
+                options.tolerance);
+}
+
+}  // namespace curvefusion

@@ -1,0 +1,90 @@
+#include "fusion/silhouettes/wire_silhouettes.h"
+
+#include <algorithm>
+
+#include "capture/frame_stream.h"
+#include "kernel/parallel.h"
+
+namespace curvefusion {
+
+namespace {
+
+constexpr int kCellPx = 4;
+constexpr float kHidingDistance = 0.03F;  // metres; noise and drift of depth come to less
+constexpr int kMinLooks = 8;
+
+// The greatest depth within the 3 x 3 cells around each cell: thin things in front hide nothing,
+// however much block matching widens them.
+Image<float> FarthestAround(const DepthImage& depth) {
+  Image<float> cells((depth.width() + kCellPx - 1) / kCellPx,
+                     (depth.height() + kCellPx - 1) / kCellPx);
+  for (int v = 0; v < depth.height(); ++v) {
+    for (int u = 0; u < depth.width(); ++u) {
+      float& cell = cells(u / kCellPx, v / kCellPx);
+      cell = std::max(cell, depth(u, v));
+    }
+  }
+  Image<float> around(cells.width(), cells.height());
+  for (int v = 0; v < cells.height(); ++v) {
+    for (int u = 0; u < cells.width(); ++u) {
+      for (int b = std::max(0, v - 1); b <= std::min(cells.height() - 1, v + 1); ++b)
+        for (int a = std::max(0, u - 1); a <= std::min(cells.width() - 1, u + 1); ++a)
+          around(u, v) = std::max(around(u, v), cells(a, b));
+    }
+  }
+  return around;
+}
+
+}  // namespace
+
+WireSilhouettes::WireSilhouettes(const Sequence& sequence, const std::vector<int>& frames,
+                                 const std::vector<PosteriorImage>& posteriors, int max_frames)
+    : depth_camera_(sequence.depth_camera), color_camera_(sequence.color_camera) {
+  const std::vector<int> used = EvenlyThinned(frames, max_frames);
+  ForEachFrame(sequence, used, {.depth = true, .color = false}, [&](const DecodedFrame& frame) {
+    const auto place = std::lower_bound(frames.begin(), frames.end(), frame.index);
+    const RigidTransform T_depth_world = sequence.frames[frame.index].T_world_camera.inverse();
+    views_.push_back({T_depth_world, sequence.T_color_depth * T_depth_world,
+                      &posteriors[place - frames.begin()], FarthestAround(frame.depth)});
+  });
+}
+
+bool WireSilhouettes::IsHidden(const View& view, const Vec3& p_depth) const {
+  if (p_depth.z() <= 0) return false;
+  const Vec2 pixel = depth_camera_.Project(p_depth);
+  if (!depth_camera_.Contains(pixel)) return false;
+  const Eigen::Vector2i at = PinholeCamera::Rounded(pixel);
+  const float farthest = view.farthest(at.x() / kCellPx, at.y() / kCellPx);
+  return farthest > 0 && farthest < static_cast<float>(p_depth.z()) - kHidingDistance;
+}
+
+ViewCount WireSilhouettes::Count(const Vec3& p) const {
+  ViewCount count;
+  for (const View& view : views_) {
+    const Vec3 p_color = view.T_color_world * p;
+    if (p_color.z() <= 0) continue;
+    const Vec2 pixel = color_camera_.Project(p_color);
+    if (!color_camera_.Contains(pixel)) continue;
+    const Eigen::Vector2i at = PinholeCamera::Rounded(pixel);
+    const bool is_wire = IsWire((*view.posterior)(at.x(), at.y()));
+    if (!is_wire && IsHidden(view, view.T_depth_world * p)) continue;
+    ++count.looked;
+    count.seen += is_wire ? 1 : 0;
+  }
+  return count;
+}
+
+double WireSilhouettes::Share(const Vec3& p) const {
+  const ViewCount count = Count(p);
+  return count.looked < kMinLooks ? 1 : static_cast<double>(count.seen) / count.looked;
+}
+
+std::vector<double> WireSilhouettes::SharesAlong(const Polyline& points) const {
+  constexpr int64_t kPointsPerChunk = 16;
+  std::vector<double> shares(points.size());
+  ParallelFor(0, static_cast<int64_t>(points.size()), kPointsPerChunk,
+              [&](int64_t i) { shares[i] = Share(points[i]); });
+  return shares;
+}
+
+}  // namespace curvefusion

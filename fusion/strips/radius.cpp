@@ -1,0 +1,312 @@
+#include "fusion/strips/radius.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <utility>
+
+#include "capture/frame_stream.h"
+#include "fusion/strips/strip_box.h"
+#include "fusion/strips/strip_samples.h"
+#include "fusion/strips/strip_widths.h"
+#include "fusion/strips/wire_chains.h"
+#include "fusion/strips/wire_gauges.h"
+#include "graph/curve_network.h"
+#include "kernel/polyline.h"
+#include "kernel/quantile.h"
+
+namespace curvefusion {
+
+namespace {
+
+constexpr double kNeighbourStep = 0.002;  // metres, between points of strands kept clear of
+constexpr double kMaxClearancePx = 40;    // a strip and its background fit in
+constexpr double kBorderPx = 8;           // samples nearer to the image border are left out
+constexpr double kAgreement = 0.25;       // strips this near to the mode count, relative
+constexpr int kMinOwnStrips = 20;         // to tell that a piece of a wire is thicker or thinner
+constexpr double kAlikeStrips = 3;        // so many strips err together
+constexpr double kCommonError = 0.015;    // relative; of blur and shade, in all strips of a wire
+constexpr double kStretch = 0.03;         // metres, of an edge whose radius may vary
+constexpr size_t kStretchStrips = 20;     // at least, in every stretch
+constexpr double kClearChange = 0.3;      // relative; less may come of other wires near by
+constexpr double kErrorsApart = 4;
+
+template <class T>
+void Append(std::vector<T> more, std::vector<T>& all) {
+  all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+}
+
+// CurveFusion 3.3: boxes around the samples, widths in pixels times depth over focal length.
+std::vector<StripWidth> MeasureBoxes(const ColorImage& image, int frame,
+                                     const std::vector<ProjectedSample>& samples,
+                                     const PinholeCamera& camera, const RadiusOptions& options) {
+  const StripRegions regions = LabelStrips(image, options.box_size_px);
+  std::vector<StripWidth> widths;
+  for (const ProjectedSample& sample : samples) {
+    const double width_px = StripWidthInBox(regions, sample.pixel, options.box_size_px);
+    const double diameter = width_px * sample.depth / camera.fx;
+    if (diameter <= 0 || diameter > options.max_diameter) continue;
+    widths.push_back({sample.edge, sample.arc_length, frame, diameter});
+  }
+  return widths;
+}
+
+struct Agreement {
+  double diameter = 0;
+  double spread = 0;
+  int count = 0;
+};
+
+// Median and spread of the diameters that agree with the most prominent one.
+Agreement Agree(const std::vector<double>& diameters, const RadiusOptions& options) {
+  Agreement agreement;
+  const double mode = MostProminent(diameters, options.histogram_bin);
+  std::vector<double> agreeing;
+  for (const double diameter : diameters) {
+    if (std::abs(diameter - mode) <= kAgreement * mode) agreeing.push_back(diameter);
+  }
+  agreement.count = static_cast<int>(agreeing.size());
+  if (agreeing.empty()) return agreement;
+  agreement.diameter = Median(agreeing);
+  for (double& diameter : agreeing) diameter -= agreement.diameter;
+  agreement.spread = RobustDeviation(std::move(agreeing));
+  return agreement;
+}
+
+// The diameter of an edge: that of its wire, unless the edge's own strips clearly tell another.
+Agreement ChooseAgreement(const Agreement& own, const Agreement& wire) {
+  const bool differs = std::abs(own.diameter - wire.diameter) > kAgreement * wire.diameter;
+  return differs && own.count >= kMinOwnStrips ? own : wire;
+}
+
+// The standard error of a diameter, as calibrated on simulated scans.
+double StandardError(const Agreement& agreement) {
+  const double of_strips = agreement.spread * std::sqrt(kAlikeStrips / agreement.count);
+  return std::hypot(of_strips, kCommonError * agreement.diameter);
+}
+
+std::vector<double> DiametersOf(const std::vector<StripWidth>& strips) {
+  std::vector<double> diameters;
+  for (const StripWidth& strip : strips) diameters.push_back(strip.diameter);
+  return diameters;
+}
+
+std::map<int, Agreement> AgreeByWire(const std::map<int, std::vector<double>>& diameters,
+                                     const RadiusOptions& options) {
+  std::map<int, Agreement> agreements;
+  for (const auto& [wire, of_wire] : diameters) agreements[wire] = Agree(of_wire, options);
+  return agreements;
+}
+
+std::vector<MeasuredDiameter> GaugesOf(const std::map<int, Agreement>& wires,
+                                       const RadiusOptions& options) {
+  std::vector<MeasuredDiameter> measured;
+  for (const auto& [wire, agreed] : wires) {
+    if (agreed.count >= options.min_strips) measured.push_back({agreed.diameter, agreed.count});
+  }
+  return FindGauges(std::move(measured));
+}
+
+// The radii of the stretches of one edge, from its strips.
+std::vector<RadiusAt> RadiiAlong(std::vector<StripWidth> strips, const RadiusOptions& options) {
+  std::sort(strips.begin(), strips.end(),
+            [](const auto& a, const auto& b) { return a.arc_length < b.arc_length; });
+  std::vector<RadiusAt> along;
+  Agreement least, most;
+  for (size_t begin = 0, end = 0; begin < strips.size(); begin = end) {
+    std::vector<double> diameters, places;
+    for (; end < strips.size(); ++end) {
+      const double place = strips[end].arc_length;
+      if (diameters.size() >= kStretchStrips && place > places.front() + kStretch) break;
+      diameters.push_back(strips[end].diameter);
+      places.push_back(place);
+    }
+    const Agreement agreed = Agree(diameters, options);
+    if (agreed.count < static_cast<int>(kStretchStrips)) continue;
+    along.push_back({Median(std::move(places)), 0.5 * agreed.diameter});
+    if (least.count == 0 || agreed.diameter < least.diameter) least = agreed;
+    if (most.count == 0 || agreed.diameter > most.diameter) most = agreed;
+  }
+  const double difference = most.diameter - least.diameter;
+  const bool varies =
+      along.size() > 1 && difference > kClearChange * least.diameter &&
+      difference > kErrorsApart * std::hypot(StandardError(least), StandardError(most));
+  if (!varies) along.clear();
+  return along;
+}
+
+void Summarize(const SkeletonGraph& skeleton, const RadiusOptions& options,
+               RadiusEstimate& estimate) {
+  const std::map<EdgeId, int> wires = WiresOfEdges(skeleton);
+  std::map<EdgeId, std::vector<StripWidth>> by_edge;
+  std::map<int, std::vector<double>> by_wire;
+  for (const StripWidth& strip : estimate.strips) {
+    by_edge[strip.edge].push_back(strip);
+    by_wire[wires.at(strip.edge)].push_back(strip.diameter);
+  }
+  const std::vector<double> all = DiametersOf(estimate.strips);
+  estimate.global_radius = 0.5 * (options.strip_model ? Agree(all, options).diameter
+                                                      : MostProminent(all, options.histogram_bin));
+  std::map<int, Agreement> agreed_by_wire;
+  std::vector<MeasuredDiameter> gauges;
+  if (options.per_wire) {
+    agreed_by_wire = AgreeByWire(by_wire, options);
+    gauges = GaugesOf(agreed_by_wire, options);
+  }
+  estimate.unmeasured_radius =
+      gauges.empty() ? estimate.global_radius : 0.5 * gauges.front().diameter;
+  for (const EdgeId edge : skeleton.Edges()) {
+    Agreement agreed = Agree(DiametersOf(by_edge[edge]), options);
+    if (options.per_wire) agreed = ChooseAgreement(agreed, agreed_by_wire[wires.at(edge)]);
+    if (agreed.count < options.min_strips) {
+      estimate.edges.push_back({edge, 0, 0, agreed.count, {}});
+      continue;
+    }
+    const double diameter =
+        DrawnToGauge({agreed.diameter, agreed.count}, gauges, options.gauge_strips);
+    estimate.edges.push_back({edge, 0.5 * diameter, 0.5 * StandardError(agreed), agreed.count, {}});
+    if (options.along_edge) {
+      estimate.edges.back().along = RadiiAlong(by_edge[edge], options);
+    }
+  }
+}
+
+// Linear between the places, constant beyond them.
+std::vector<double> InterpolatedRadii(const Polyline& points, const std::vector<RadiusAt>& along) {
+  std::vector<double> radii;
+  for (const double place : CumulativeLength(points)) {
+    const auto after = std::find_if(along.begin(), along.end(),
+                                    [&](const RadiusAt& at) { return at.arc_length >= place; });
+    if (after == along.begin() || after == along.end()) {
+      radii.push_back(after == along.end() ? along.back().radius : after->radius);
+      continue;
+    }
+    const RadiusAt& before = *std::prev(after);
+    const double share = (place - before.arc_length) / (after->arc_length - before.arc_length);
+    radii.push_back(before.radius + share * (after->radius - before.radius));
+  }
+  return radii;
+}
+
+}  // namespace
+
+RadiusEstimate EstimateRadius(const SkeletonGraph& skeleton, const Sequence& sequence,
+                              const std::vector<int>& frames, const RadiusOptions& options) {
+  RadiusEstimate estimate;
+  const std::vector<CurveSample> samples = SampleStrips(skeleton, options.sample_step);
+  const std::vector<CurveSample> neighbours = SampleStrips(skeleton, kNeighbourStep);
+  std::vector<FoundStrip> found;
+  ForEachFrame(
+      sequence, EvenlyThinned(frames, options.max_frames), {false, true},
+      [&](const DecodedFrame& frame) {
+        const RigidTransform T_camera_world =
+            sequence.T_color_depth * sequence.frames[frame.index].T_world_camera.inverse();
+        const auto projected = ProjectSamples(samples, neighbours, sequence.color_camera,
+                                              T_camera_world, kBorderPx, kMaxClearancePx);
+        if (options.strip_model) {
+          Append(FindStrips(frame.color, frame.index, projected, options), found);
+        } else {
+          Append(MeasureBoxes(frame.color, frame.index, projected, sequence.color_camera, options),
+                 estimate.strips);
+        }
+      });
+  if (options.strip_model) estimate.strips = SolveStripWidths(std::move(found), options);
+  Summarize(skeleton, options, estimate);
+  return estimate;
+}
+
+void AssignRadii(const RadiusEstimate& estimate, const RadiusOptions& options,
+                 SkeletonGraph& skeleton) {
+  if (estimate.global_radius <= 0) return;
+  for (const EdgeRadius& own : estimate.edges) {
+    if (!skeleton.HasEdge(own.edge)) continue;
+    const SkeletonEdge& edge = skeleton.edge(own.edge);
+    double radius = estimate.global_radius;
+    if (options.per_edge) radius = own.radius > 0 ? own.radius : estimate.unmeasured_radius;
+    std::vector<double> radii(edge.points.size(), radius);
+    if (options.per_edge && !own.along.empty()) radii = InterpolatedRadii(edge.points, own.along);
+    skeleton.SetCurve(own.edge, edge.points, std::move(radii), edge.observations);
+  }
+}
+
+void DropThickParts(const RadiusOptions& options, SkeletonGraph& skeleton) {
+  if (options.max_mean_diameter == 0) return;
+  for (const std::vector<EdgeId>& part : ConnectedEdges(skeleton)) {
+    double length = 0;
+    double diameters = 0;  // times length
+    for (const EdgeId id : part) {
+      const SkeletonEdge& edge = skeleton.edge(id);
+      if (edge.radii.empty()) continue;
+      const double edge_length = Length(edge.points);
+      length += edge_length;
+      diameters += 2 * Median(edge.radii) * edge_length;
+    }
+    if (length > 0 && diameters <= options.max_mean_diameter * length) continue;
+    for (const EdgeId id : part) skeleton.RemoveEdge(id);
+  }
+  skeleton.RemoveIsolatedNodes();
+}
+
+void VisitOptions(RadiusOptions& options, OptionVisitor& visitor) {
+  visitor.Visit(
+      {"sample_step", "m", 0.0005, 0.1,
+       "Distance along the curves of the places where widths are measured. CurveFusion 3.3 "
+       "gives no number."},
+      options.sample_step);
+  visitor.Visit({"histogram_bin", "m", 0.00001, 0.01,
+                 "Bin of the histogram of diameters. CurveFusion 3.3 gives no number."},
+                options.histogram_bin);
+  visitor.Visit({"box_size_px", "px", 4, 128,
+                 "Side of the box that must hold exactly one strip. CurveFusion 3.3."},
+                options.box_size_px);
+  visitor.Visit({"max_frames", "frames", 1, 1000000,
+                 "Colour images used; more are thinned evenly. CurveFusion 3.3 uses all; beyond 30 "
+                 "the result hardly changes."},
+                options.max_frames);
+  visitor.Visit(
+      {"strip_model", "", 0, 1,
+       "Deviation: solve widths from what strips take away from the background instead of "
+       "counting pixels between edges in a box: unbiased by blur and shade."},
+      options.strip_model);
+  visitor.Visit({"per_edge", "", 0, 1,
+                 "Deviation: one radius for each edge; CurveFusion 3.3 has one for all."},
+                options.per_edge);
+  visitor.Visit({"per_wire", "", 0, 1,
+                 "Deviation: edges that go straight on through a junction are pieces of one wire "
+                 "and share their strips: between near junctions too few are free of other wires."},
+                options.per_wire);
+  visitor.Visit({"along_edge", "", 0, 1,
+                 "Deviation: the radius varies along an edge whose thickness clearly changes."},
+                options.along_edge);
+  visitor.Visit({"gauge_strips", "", 0, 100000,
+                 "Deviation: an object is made of few gauges of wire: the diameter of a wire is "
+                 "drawn to that of the wires like it, with the weight of so many strips."},
+                options.gauge_strips);
+  visitor.Visit({"search_px", "px", 0, 40,
+                 "Deviation: how far from its projection a strip is looked for by the strip model, "
+                 "since poses drift."},
+                options.search_px);
+  visitor.Visit({"max_diameter", "m", 0.001, 0.2,
+                 "Wider strips are no wires. CurveFusion 4 shows wires up to 12 mm."},
+                options.max_diameter);
+  visitor.Visit({"max_mean_diameter", "m", 0, 0.2,
+                 "Deviation: parts of the result that are thicker on average are no thin structure "
+                 "and are dropped; 0 = kept. CurveFusion 4 shows wires up to 12 mm."},
+                options.max_mean_diameter);
+  visitor.Visit(
+      {"luma_blur_px", "px", 0.1, 5,
+       "Blur of luma in the strip model, standard deviation. Measured on simulated scans."},
+      options.luma_blur_px);
+  visitor.Visit({"chroma_blur_px", "px", 0.1, 5,
+                 "The same for colour differences, where strips are too alike to calibrate it."},
+                options.chroma_blur_px);
+  visitor.Visit({"min_contrast", "grey levels", 0, 255,
+                 "Colour distance of a strip to both of its sides in the strip model."},
+                options.min_contrast);
+  visitor.Visit(
+      {"min_strips", "", 1, 100000, "An edge with fewer agreeing strips is not measured."},
+      options.min_strips);
+}
+
+}  // namespace curvefusion

@@ -1,0 +1,197 @@
+#include "fusion/strips/strip_samples.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "kernel/polyline.h"
+
+namespace curvefusion {
+
+namespace {
+
+constexpr double kMinDepth = 0.05;  // metres
+
+struct ImagePoint {
+  Vec2 pixel;
+  EdgeId edge = 0;
+  double arc_length = 0;
+  double px_per_metre = 0;
+};
+
+// Projected points in square cells, for queries by distance that end where nothing nearer can come.
+class PointCells {
+ public:
+  // Points beyond the border count too, as far as queries reach.
+  PointCells(const PinholeCamera& camera, double max_distance_px)
+      : border_(static_cast<int>(std::ceil(max_distance_px / kCellPx))),
+        columns_(static_cast<int>(camera.width / kCellPx) + 1 + 2 * border_),
+        rows_(static_cast<int>(camera.height / kCellPx) + 1 + 2 * border_),
+        first_(static_cast<size_t>(columns_) * rows_ + 1, 0) {}
+
+  // Sorts the points into their cells.
+  void Fill(const std::vector<ImagePoint>& points) {
+    std::vector<int> cells;
+    for (const ImagePoint& point : points) {
+      cells.push_back(Number(Cell(point.pixel.x()), Cell(point.pixel.y())));
+      if (cells.back() >= 0) ++first_[cells.back() + 1];
+    }
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    points_.resize(first_.back());
+    std::vector<int> next = first_;
+    for (size_t i = 0; i < points.size(); ++i) {
+      if (cells[i] >= 0) points_[next[cells[i]]++] = points[i];
+    }
+  }
+
+  // Calls visit(point), ring by ring, for the points of all cells around a pixel of the image that
+  // may hold one nearer than `distance_px`, which visit may lessen.
+  template <class Visit>
+  void VisitNearer(const Vec2& pixel, const double& distance_px, const Visit& visit) const {
+    const int column = Cell(pixel.x()), row = Cell(pixel.y());
+    for (int ring = 0; ring <= border_ && (ring - 1) * kCellPx < distance_px; ++ring) {
+      for (int y = row - ring; y <= row + ring; ++y) {
+        const bool is_edge = y == row - ring || y == row + ring;
+        for (int x = column - ring; x <= column + ring; x += is_edge ? 1 : 2 * ring) {
+          VisitCell(Number(x, y), visit);
+        }
+      }
+    }
+  }
+
+ private:
+  int Cell(double coordinate) const {
+    return static_cast<int>(std::floor(coordinate / kCellPx)) + border_;
+  }
+
+  // -1 outside.
+  int Number(int column, int row) const {
+    const bool is_inside = column >= 0 && row >= 0 && column < columns_ && row < rows_;
+    return is_inside ? row * columns_ + column : -1;
+  }
+
+  template <class Visit>
+  void VisitCell(int cell, const Visit& visit) const {
+    if (cell < 0) return;
+    for (int i = first_[cell]; i < first_[cell + 1]; ++i) visit(points_[i]);
+  }
+
+  static constexpr double kCellPx = 8;
+
+  int border_;  // cells on every side of the image
+  int columns_;
+  int rows_;
+  std::vector<int> first_;  // of each cell in points_, and the end
+  std::vector<ImagePoint> points_;
+};
+
+PointCells ProjectNeighbours(const std::vector<CurveSample>& neighbours,
+                             const PinholeCamera& camera, const RigidTransform& T_camera_world,
+                             double max_distance_px) {
+  std::vector<ImagePoint> points;
+  points.reserve(neighbours.size());
+  for (const CurveSample& sample : neighbours) {
+    const Vec3 p = T_camera_world * sample.position;
+    if (p.z() < kMinDepth) continue;
+    points.push_back({camera.Project(p), sample.edge, sample.arc_length, camera.fx / p.z()});
+  }
+  PointCells cells(camera, max_distance_px);
+  cells.Fill(points);
+  return cells;
+}
+
+double Clearance(const ProjectedSample& sample, const PointCells& cells, double max_clearance_px,
+                 double max_along_px) {
+  double clearance = max_clearance_px;
+  cells.VisitNearer(sample.pixel, clearance, [&](const ImagePoint& point) {
+    const Vec2 offset = point.pixel - sample.pixel;
+    if (offset.squaredNorm() >= clearance * clearance) return;
+    if (std::abs(offset.dot(sample.tangent)) > max_along_px) return;
+    const double distance = offset.norm();
+    const double along_px = std::abs(point.arc_length - sample.arc_length) * point.px_per_metre;
+    // Foreshortening below .9 stretches the way along the curve 2.3 times at most.
+    const bool is_same_strand = point.edge == sample.edge && along_px < 3 * distance + 6;
+    if (!is_same_strand) clearance = std::min(clearance, distance);
+  });
+  return clearance;
+}
+
+// Fills what does not depend on other samples; false where the sample cannot be measured.
+bool ProjectSample(const CurveSample& sample, const PinholeCamera& camera,
+                   const RigidTransform& T_camera_world, double border_px,
+                   double max_foreshortening, ProjectedSample& projected) {
+  const Vec3 p = T_camera_world * sample.position;
+  if (p.z() < kMinDepth) return false;
+  const Vec2 pixel = camera.Project(p);
+  if (pixel.x() < border_px || pixel.y() < border_px || pixel.x() > camera.width - 1 - border_px ||
+      pixel.y() > camera.height - 1 - border_px) {
+    return false;
+  }
+  const Vec3 tangent = T_camera_world.linear() * sample.tangent;
+  const Vec3 ray = p.normalized();
+  if (std::abs(ray.dot(tangent)) > max_foreshortening) return false;
+  const auto jacobian = ProjectionJacobian(camera, p);
+  projected.edge = sample.edge;
+  projected.arc_length = sample.arc_length;
+  projected.pixel = pixel;
+  projected.tangent = (jacobian * tangent).normalized();
+  projected.normal = Vec2(-projected.tangent.y(), projected.tangent.x());
+  projected.depth = p.z();
+  // The silhouette's two lines touch the cylinder where its normal is perpendicular to axis and
+  // ray.
+  const Vec3 across = tangent.cross(ray).normalized();
+  projected.metres_per_px = 1 / std::abs(projected.normal.dot(jacobian * across));
+  return true;
+}
+
+}  // namespace
+
+std::vector<CurveSample> SampleStrips(const SkeletonGraph& skeleton, double step) {
+  std::vector<CurveSample> samples;
+  for (const EdgeId edge : skeleton.Edges()) {
+    const Polyline& points = skeleton.edge(edge).points;
+    const std::vector<double> cumulative = CumulativeLength(points);
+    const double length = cumulative.back();
+    const int count = std::max(1, static_cast<int>(std::lround(length / step)));
+    const double half_step = 0.5 * length / count;
+    for (int i = 0; i < count; ++i) {
+      const double arc_length = (2 * i + 1) * half_step;
+      const Vec3 chord = PointAt(points, cumulative, arc_length + half_step) -
+                         PointAt(points, cumulative, arc_length - half_step);
+      if (chord.norm() <= 0) continue;
+      samples.push_back(
+          {edge, arc_length, PointAt(points, cumulative, arc_length), chord.normalized()});
+    }
+  }
+  return samples;
+}
+
+Eigen::Matrix<double, 2, 3> ProjectionJacobian(const PinholeCamera& camera, const Vec3& p_camera) {
+  const double x = p_camera.x() / p_camera.z();
+  const double y = p_camera.y() / p_camera.z();
+  Eigen::Matrix<double, 2, 3> jacobian;
+  jacobian << camera.fx, 0, -camera.fx * x, 0, camera.fy, -camera.fy * y;
+  return jacobian / p_camera.z();
+}
+
+std::vector<ProjectedSample> ProjectSamples(const std::vector<CurveSample>& samples,
+                                            const std::vector<CurveSample>& neighbours,
+                                            const PinholeCamera& camera,
+                                            const RigidTransform& T_camera_world, double border_px,
+                                            double max_clearance_px, const StripSight& sight) {
+  const PointCells cells = ProjectNeighbours(neighbours, camera, T_camera_world, max_clearance_px);
+  std::vector<ProjectedSample> visible;
+  for (size_t i = 0; i < samples.size(); ++i) {
+    ProjectedSample projected;
+    if (!ProjectSample(samples[i], camera, T_camera_world, border_px, sight.max_foreshortening,
+                       projected)) {
+      continue;
+    }
+    projected.index = static_cast<int>(i);
+    projected.clearance_px = Clearance(projected, cells, max_clearance_px, sight.max_along_px);
+    visible.push_back(projected);
+  }
+  return visible;
+}
+
+}  // namespace curvefusion

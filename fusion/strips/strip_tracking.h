@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include "fusion/strips/strip_samples.h"
+#include "fusion/strips/wire_posterior.h"
+
+namespace curvefusion {
+
+/// Where the strip of a curve sample was found.
+struct TrackedStrip {
+  int sample = 0;         ///< in the samples given
+  double offset_px = 0;   ///< of its centre from the projected curve along the sample's normal
+  double width_px = 0;    ///< the best of those tried
+  double score = 0;       ///< posterior inside minus that of the less different side, -1 to 1
+  bool accepted = false;  ///< clear enough to be a measurement
+};
+
+/// Follows the strips of curves through one image: per sample, how well strips of several widths
+/// around `2 radius / metres_per_px` and of every centre within +-search_px (steps of half a pixel)
+/// stand out from both sides; then per run of samples along one edge the best sequence of centres
+/// that do not jump (Viterbi). What lies nearer to another strand than to this one is left to that:
+/// wires of a row look all the same. `samples` must be in order along their edges, `radii` holds
+/// one value per sample. Not accepted are strips that stand out too little, those with a second
+/// centre nearly as good, and those with another strand within .85 widths + 2 px.
+std::vector<TrackedStrip> TrackStrips(const PosteriorImage& posterior,
+                                      const std::vector<ProjectedSample>& samples,
+                                      const std::vector<double>& radii, double search_px);
+
+}  // namespace curvefusion

@@ -1,0 +1,173 @@
+#include "fusion/adjustment/colour_adjustment.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "fusion/registration/pose_correction.h"
+#include "kernel/parallel.h"
+#include "tests/fusion/wire_images.h"
+
+namespace curvefusion {
+namespace {
+
+constexpr int kFrames = 6;
+
+std::vector<RenderedWire> Wires(const Rgb& color) {
+  return {{{-0.10, -0.06, 0.50}, {0.10, -0.05, 0.56}, 0.005, color},
+          {{-0.09, 0.05, 0.58}, {0.11, 0.07, 0.52}, 0.005, color},
+          {{-0.05, -0.09, 0.60}, {-0.04, 0.09, 0.60}, 0.006, color},
+          {{0.06, -0.09, 0.50}, {0.03, 0.09, 0.55}, 0.006, color}};
+}
+
+RigidTransform TruePose(int frame) {
+  const double angle = 0.08 * (frame - kFrames / 2);
+  RigidTransform T = RigidTransform::Identity();
+  T.linear() = Eigen::AngleAxisd(angle, Vec3(0.5, 1, 0).normalized()).toRotationMatrix();
+  T.translation() = Vec3(0, 0, 0.55) - T.linear() * Vec3(0, 0, 0.55);
+  return T;
+}
+
+// Rendered images of four wires as JPEG, without depth (all zero).
+class ColourAdjustmentTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = std::filesystem::temp_directory_path() /
+              fmt::format("curvefusion_colour_adjustment_{}", getpid());
+    std::filesystem::create_directories(folder_);
+    cv::imwrite((folder_ / "depth.png").string(), cv::Mat(240, 320, CV_16UC1, cv::Scalar(0)));
+    for (int i = 0; i < kFrames; ++i) {
+      WriteFrame(i, Wires({60, 160, 70}), "green");
+      WriteFrame(i, Wires({144, 138, 156}), "grey");  // .83 of it is the background's colour
+    }
+  }
+  static void TearDownTestSuite() { std::filesystem::remove_all(folder_); }
+
+  static PinholeCamera Camera() { return {320, 240, 480, 480, 159.5, 119.5}; }
+
+  static void WriteFrame(int i, const std::vector<RenderedWire>& wires, const std::string& name) {
+    ColorImage image = RenderWires(wires, Camera(), TruePose(i), 0.8);
+    cv::Mat bgr;
+    cv::cvtColor(cv::Mat(image.height(), image.width(), CV_8UC3, image.data()), bgr,
+                 cv::COLOR_RGB2BGR);
+    cv::imwrite((folder_ / fmt::format("{}{}.jpg", name, i)).string(), bgr);
+  }
+
+  // Poses zig-zag by 2 mm and 2 mrad (2 px together) around the true ones.
+  static Sequence DriftedSequence(const std::string& name) {
+    Sequence sequence;
+    sequence.depth_camera = sequence.color_camera = Camera();
+    sequence.depth_scale = 1000;
+    for (int i = 0; i < kFrames; ++i) {
+      const double sign = i % 2 == 0 ? 1 : -1;
+      SmallMotion error;
+      error << sign * 0.002, sign * (i % 3 - 1) * 0.002, 0, (i % 3 - 1) * 0.002, sign * 0.002, 0;
+      SequenceFrame frame;
+      frame.timestamp = i;
+      frame.T_world_camera = TruePose(i) * RigidTransformOf(error);
+      frame.color_path = folder_ / fmt::format("{}{}.jpg", name, i);
+      frame.depth_path = folder_ / "depth.png";
+      sequence.frames.push_back(frame);
+    }
+    return sequence;
+  }
+
+  static std::vector<RigidTransform> Given(const Sequence& sequence) {
+    std::vector<RigidTransform> given;
+    for (const SequenceFrame& frame : sequence.frames) given.push_back(frame.T_world_camera);
+    return given;
+  }
+
+  // The wires' axes, bent by up to 2 mm.
+  static SkeletonGraph WrongSkeleton() {
+    SkeletonGraph skeleton;
+    for (const RenderedWire& wire : Wires({})) {
+      Polyline points;
+      for (int i = 0; i <= 20; ++i) {
+        const Vec3 error = 0.002 * Vec3(std::sin(0.3 * i), std::cos(0.4 * i), 0);
+        points.push_back(wire.front + i / 20.0 * (wire.back - wire.front) + error);
+      }
+      const EdgeId edge = skeleton.AddPolyline(points);
+      skeleton.SetCurve(edge, points, std::vector<double>(points.size(), 0.5 * wire.diameter));
+    }
+    return skeleton;
+  }
+
+  // Mean distance from the wires' axes after the mean offset, which poses may share, is taken off.
+  static double MeanDistance(const SkeletonGraph& skeleton) {
+    Vec3 mean = Vec3::Zero();
+    std::vector<Vec3> offsets;
+    const std::vector<RenderedWire> wires = Wires({});
+    const std::vector<EdgeId> edges = skeleton.Edges();
+    for (size_t e = 0; e < edges.size(); ++e) {
+      const Vec3 axis = (wires[e].back - wires[e].front).normalized();
+      for (const Vec3& p : skeleton.edge(edges[e]).points) {
+        const Vec3 from_front = p - wires[e].front;
+        offsets.push_back(from_front - axis * axis.dot(from_front));
+        mean += offsets.back();
+      }
+    }
+    mean /= static_cast<double>(offsets.size());
+    double sum = 0;
+    for (const Vec3& offset : offsets) sum += (offset - mean).norm();
+    return sum / static_cast<double>(offsets.size());
+  }
+
+  static std::filesystem::path folder_;
+};
+std::filesystem::path ColourAdjustmentTest::folder_;
+
+TEST_F(ColourAdjustmentTest, CurvesAndPosesFitTheImages) {
+  const Sequence sequence = DriftedSequence("green");
+  const ColourAdjustment adjusted =
+      AdjustToColours(WrongSkeleton(), sequence, Given(sequence), {.frame_stride = 1});
+  EXPECT_EQ(adjusted.skipped, "");
+  EXPECT_GT(adjusted.start_residual_px, 1);
+  EXPECT_LT(adjusted.residual_px, 0.15);  // what the real cable is asked for
+  EXPECT_GT(adjusted.accepted_share, 0.4);
+  EXPECT_EQ(adjusted.depths, 0);
+  ASSERT_GT(MeanDistance(WrongSkeleton()), 0.001);
+  EXPECT_LT(MeanDistance(adjusted.skeleton), 0.0007);  // half a millimetre by the prototype
+}
+
+TEST_F(ColourAdjustmentTest, WithoutContrastNothingChanges) {
+  const Sequence sequence = DriftedSequence("grey");
+  const ColourAdjustment adjusted =
+      AdjustToColours(WrongSkeleton(), sequence, Given(sequence), {.frame_stride = 1});
+  EXPECT_NE(adjusted.skipped, "");
+  for (int i = 0; i < kFrames; ++i) {
+    EXPECT_EQ(adjusted.T_world_camera[i].matrix(), sequence.frames[i].T_world_camera.matrix());
+  }
+  const EdgeId first = WrongSkeleton().Edges()[0];
+  EXPECT_EQ(adjusted.skeleton.edge(first).points, WrongSkeleton().edge(first).points);
+}
+
+TEST_F(ColourAdjustmentTest, NoCurvesNoRadiiNoAdjustment) {
+  const Sequence sequence = DriftedSequence("green");
+  EXPECT_NE(AdjustToColours({}, sequence, Given(sequence), {}).skipped, "");
+  SkeletonGraph without_radii;
+  without_radii.AddPolyline({{0, 0, 0.5}, {0.1, 0, 0.5}});
+  EXPECT_NE(AdjustToColours(without_radii, sequence, Given(sequence), {}).skipped, "");
+}
+
+TEST_F(ColourAdjustmentTest, TheSameForAnyNumberOfThreads) {
+  const Sequence sequence = DriftedSequence("green");
+  const auto run = [&](int threads) {
+    const ThreadLimit limit(threads);
+    return AdjustToColours(WrongSkeleton(), sequence, Given(sequence), {});
+  };
+  const ColourAdjustment one = run(1);
+  const ColourAdjustment two = run(2);
+  for (const EdgeId edge : one.skeleton.Edges()) {
+    EXPECT_EQ(one.skeleton.edge(edge).points, two.skeleton.edge(edge).points);
+  }
+  for (int i = 0; i < kFrames; ++i) {
+    EXPECT_EQ(one.T_world_camera[i].matrix(), two.T_world_camera[i].matrix());
+  }
+}
+
+}  // namespace
+}  // namespace curvefusion

@@ -1,0 +1,55 @@
+#include "fusion/segmentation/ghost_removal.h"
+
+#include <gtest/gtest.h>
+
+namespace curvefusion {
+namespace {
+
+// A line of n points 2 mm apart along x from `start`; every verified_every-th lies on a colour
+// edge.
+void AddLine(BundlePoints& bundle, const Vec3& start, int n, int verified_every) {
+  for (int i = 0; i < n; ++i) {
+    bundle.points.Add(start + Vec3(0.002 * i, 0, 0), Vec3::UnitZ(), 1);
+    const int on_edge = verified_every > 0 && i % verified_every == 0;
+    bundle.evidence.push_back({on_edge, 1, on_edge});
+    bundle.voxels.push_back(static_cast<int>(bundle.voxels.size()));
+  }
+}
+
+TEST(RemoveGhosts, KeepsAnObjectThatIsAlone) {
+  BundlePoints bundle;
+  AddLine(bundle, {0, 0, 1}, 100, 2);
+  EXPECT_EQ(RemoveGhosts(bundle, {}).points.size(), 100u);
+}
+
+TEST(RemoveGhosts, DropsSmallClusters) {
+  BundlePoints bundle;
+  AddLine(bundle, {0, 0, 1}, 100, 1);
+  AddLine(bundle, {0, 0.05, 1}, 9, 1);
+  EXPECT_EQ(RemoveGhosts(bundle, {}).points.size(), 100u);
+}
+
+TEST(RemoveGhosts, DropsIsolatedClustersButNotTheLargest) {
+  BundlePoints bundle;
+  AddLine(bundle, {0, 0, 1}, 20, 1);
+  AddLine(bundle, {0, 0.5, 1}, 100, 1);
+  AddLine(bundle, {0, 0.59, 1}, 20, 1);  // 9 cm from the large one: stays
+  const ObservedPoints points = RemoveGhosts(bundle, {}).points;
+  EXPECT_EQ(points.size(), 120u);
+  for (const Vec3& p : points.positions) EXPECT_GE(p.y(), 0.5);
+}
+
+TEST(RemoveGhosts, DropsWhatColourDoesNotVerify) {
+  BundlePoints bundle;
+  AddLine(bundle, {0, 0, 1}, 100, 4);      // 25 % on edges
+  AddLine(bundle, {0, 0.05, 1}, 100, 10);  // 10 %
+  EXPECT_EQ(RemoveGhosts(bundle, {}).points.size(), 100u);
+  GhostRemovalOptions strict;
+  strict.verified_outline = 0.5;
+  EXPECT_TRUE(RemoveGhosts(bundle, strict).points.empty());
+}
+
+TEST(RemoveGhosts, EmptyStaysEmpty) { EXPECT_TRUE(RemoveGhosts({}, {}).points.empty()); }
+
+}  // namespace
+}  // namespace curvefusion

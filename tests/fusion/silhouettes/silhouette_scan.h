@@ -1,0 +1,42 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "fusion/silhouettes/wire_silhouettes.h"
+#include "graph/skeleton_graph.h"
+#include "kernel/polyline.h"
+
+namespace curvefusion {
+
+/// A wire of 5 mm for tests.
+inline constexpr double kTestRadius = 0.0025;
+
+/// Silhouettes of wires of 5 mm around the origin, seen by 24 cameras .6 m away, spread over 80
+/// degrees and 40 degrees. A plate is wire-coloured all over. Depth images show nothing, or
+/// something `depth` metres away everywhere.
+class SilhouetteScan {
+ public:
+  explicit SilhouetteScan(const std::vector<Polyline>& wires,
+                          const std::vector<std::vector<Vec3>>& plates = {}, double depth = 0);
+  ~SilhouetteScan();
+  SilhouetteScan(const SilhouetteScan&) = delete;
+  SilhouetteScan& operator=(const SilhouetteScan&) = delete;
+
+  WireSilhouettes Silhouettes() const;
+
+ private:
+  std::filesystem::path depth_path_;
+  Sequence sequence_;
+  std::vector<int> frames_;
+  std::vector<PosteriorImage> posteriors_;
+};
+
+/// Points every 2 mm from a to b.
+Polyline TestLine(const Vec3& a, const Vec3& b);
+
+/// Adds an edge with the radius of the test wires.
+EdgeId AddTestEdge(SkeletonGraph& graph, NodeId a, NodeId b, Polyline points);
+EdgeId AddTestEdge(SkeletonGraph& graph, Polyline points);
+
+}  // namespace curvefusion

@@ -1,0 +1,325 @@
+#include "fusion/silhouettes/silhouette_topology.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "fusion/silhouettes/silhouette_path.h"
+#include "fusion/silhouettes/silhouette_pruning.h"
+#include "fusion/silhouettes/silhouette_rungs.h"
+#include "fusion/silhouettes/silhouette_seeds.h"
+#include "graph/validate.h"
+#include "tests/fusion/silhouettes/silhouette_scan.h"
+
+namespace curvefusion {
+namespace {
+
+constexpr double kSpacing = 0.012;  // of parallel wires
+// Half a grid step of the ways through silhouettes, and what pixels of 1.25 mm add to it.
+constexpr double kTolerance = 0.0015;
+
+const Polyline kUpper = TestLine({-0.06, 0, 0}, {0.06, 0, 0});
+const Polyline kLower = TestLine({-0.06, kSpacing, 0}, {0.06, kSpacing, 0});
+const Polyline kRung = TestLine({0, 0, 0}, {0, kSpacing, 0});
+
+double FarthestFrom(const Polyline& truth, const Polyline& points) {
+  double farthest = 0;
+  for (const Vec3& p : points) farthest = std::max(farthest, Project(truth, p).distance);
+  return farthest;
+}
+
+// Two parallel wires with a rung between them.
+SkeletonGraph Rows() {
+  SkeletonGraph graph;
+  const NodeId upper = graph.AddNode(kRung.front());
+  const NodeId lower = graph.AddNode(kRung.back());
+  for (const auto& [middle, y] : {std::pair{upper, 0.0}, std::pair{lower, kSpacing}}) {
+    const Vec3 at(0, y, 0);
+    AddTestEdge(graph, graph.AddNode({-0.06, y, 0}), middle, TestLine({-0.06, y, 0}, at));
+    AddTestEdge(graph, middle, graph.AddNode({0.06, y, 0}), TestLine(at, {0.06, y, 0}));
+  }
+  AddTestEdge(graph, upper, lower, kRung);
+  return graph;
+}
+
+// A wire across two bars, of which the stretch between them is missing.
+SkeletonGraph BarsWithGap(bool with_far_stub) {
+  SkeletonGraph graph;
+  const NodeId near = graph.AddNode({0, -0.025, 0});
+  const NodeId far = graph.AddNode({0, 0.025, 0});
+  for (const auto& [node, y] : {std::pair{near, -0.025}, std::pair{far, 0.025}}) {
+    AddTestEdge(graph, graph.AddNode({-0.06, y, 0}), node, TestLine({-0.06, y, 0}, {0, y, 0}));
+    AddTestEdge(graph, node, graph.AddNode({0.06, y, 0}), TestLine({0, y, 0}, {0.06, y, 0}));
+  }
+  AddTestEdge(graph, graph.AddNode({0, -0.06, 0}), near, TestLine({0, -0.06, 0}, {0, -0.025, 0}));
+  if (with_far_stub)
+    AddTestEdge(graph, far, graph.AddNode({0, 0.06, 0}), TestLine({0, 0.025, 0}, {0, 0.06, 0}));
+  return graph;
+}
+
+const std::vector<Polyline> kBars = {TestLine({-0.06, -0.025, 0}, {0.06, -0.025, 0}),
+                                     TestLine({-0.06, 0.025, 0}, {0.06, 0.025, 0})};
+const Polyline kAcross = TestLine({0, -0.06, 0}, {0, 0.06, 0});
+const Polyline kBetween = TestLine({0, -0.025, 0}, {0, 0.025, 0});
+
+std::vector<Polyline> With(std::vector<Polyline> wires, const Polyline& wire) {
+  wires.push_back(wire);
+  return wires;
+}
+
+TEST(SilhouettePath, FollowsAWireBesideItsGuide) {
+  const SilhouetteScan scan({kUpper});
+  Polyline guide;
+  for (const Vec3& p : TestLine({-0.03, 0, 0}, {0.03, 0, 0}))
+    guide.emplace_back(p.x(), 0.004 * std::cos(p.x() / 0.03 * std::numbers::pi / 2), 0);
+  const auto path = PathThroughSilhouettes(scan.Silhouettes(), guide, 0.95);
+  ASSERT_TRUE(path.has_value());
+  EXPECT_EQ(path->front(), guide.front());
+  EXPECT_EQ(path->back(), guide.back());
+  ASSERT_GT(FarthestFrom(kUpper, guide), 0.0035);
+  EXPECT_LT(FarthestFrom(kUpper, *path), kTolerance);
+}
+
+TEST(SilhouettePath, DoesNotLeaveTheWire) {
+  const SilhouetteScan scan(
+      {TestLine({-0.06, 0, 0}, {-0.01, 0, 0}), TestLine({0.01, 0, 0}, {0.06, 0, 0})});
+  EXPECT_FALSE(PathThroughSilhouettes(scan.Silhouettes(), kUpper, 0.95).has_value());
+}
+
+TEST(SilhouettePruning, DropsARungThatImagesLookPast) {
+  const SilhouetteScan scan({kUpper, kLower});
+  SkeletonGraph graph = Rows();
+  const double removed = DropRefutedParts(scan.Silhouettes(), 0.7, graph);
+  EXPECT_NEAR(removed, kSpacing, 1e-9);
+  EXPECT_EQ(graph.edge_count(), 2);
+  EXPECT_EQ(graph.ComponentCount(), 2);
+  EXPECT_TRUE(Faults(graph).empty());
+}
+
+TEST(SilhouettePruning, KeepsARungThatIsThere) {
+  const SilhouetteScan scan({kUpper, kLower, kRung});
+  SkeletonGraph graph = Rows();
+  EXPECT_EQ(DropRefutedParts(scan.Silhouettes(), 0.7, graph), 0);
+  EXPECT_EQ(graph.edge_count(), 5);
+}
+
+TEST(SilhouettePruning, CutsTheEndBeyondAWire) {
+  const SilhouetteScan scan({TestLine({-0.06, 0, 0}, {0.02, 0, 0})});
+  SkeletonGraph graph;
+  AddTestEdge(graph, kUpper);
+  DropRefutedParts(scan.Silhouettes(), 0.7, graph);
+  ASSERT_EQ(graph.edge_count(), 1);
+  // The wire's end is a ball of its radius here; points lie every 2 mm.
+  EXPECT_NEAR(graph.TotalLength(), 0.08 + kTestRadius, 0.002 + kTolerance);
+}
+
+TEST(SilhouettePruning, LeadsAStretchBackToItsWire) {
+  const SilhouetteScan scan({kUpper});
+  SkeletonGraph graph;
+  Polyline bent = kUpper;
+  for (Vec3& p : bent) p.y() = std::abs(p.x()) < 0.02 ? 0.004 : 0;
+  AddTestEdge(graph, bent);
+  RerouteCurves(scan.Silhouettes(), 0.9, graph);
+  ASSERT_EQ(graph.edge_count(), 1);
+  EXPECT_LT(FarthestFrom(kUpper, graph.edge(graph.Edges()[0]).points), kTolerance);
+  EXPECT_TRUE(Faults(graph).empty());
+}
+
+// Depth has drawn the place where a stem meets a bar 6 mm past the bar.
+TEST(SilhouettePruning, MovesAJunctionBackIntoItsWires) {
+  const SilhouetteScan scan({kUpper, TestLine({0, -0.05, 0}, {0, 0, 0})});
+  SkeletonGraph graph;
+  const Vec3 beside(0, 0.006, 0);
+  const NodeId junction = graph.AddNode(beside);
+  for (const Vec3& tip : {Vec3(-0.06, 0, 0), Vec3(0.06, 0, 0), Vec3(0, -0.05, 0)})
+    AddTestEdge(graph, graph.AddNode(tip), junction, TestLine(tip, beside));
+  MoveJunctionsIntoWires(scan.Silhouettes(), 0.9, graph);
+  EXPECT_LT((graph.position(junction) - Vec3(0, 0, 0)).norm(), kTolerance);
+  RerouteCurves(scan.Silhouettes(), 0.9, graph);
+  EXPECT_EQ(DropRefutedParts(scan.Silhouettes(), 0.7, graph), 0);
+  EXPECT_EQ(graph.Degree(junction), 3);
+  EXPECT_TRUE(Faults(graph).empty());
+}
+
+TEST(SilhouettePruning, LeavesAJunctionFarFromAllWires) {
+  const SilhouetteScan scan({kUpper});
+  SkeletonGraph graph;
+  const Vec3 away(0, 0.02, 0);
+  const NodeId corner = graph.AddNode(away);
+  for (const double x : {-0.06, 0.06})
+    AddTestEdge(graph, graph.AddNode({x, 0, 0}), corner, TestLine({x, 0, 0}, away));
+  MoveJunctionsIntoWires(scan.Silhouettes(), 0.9, graph);
+  EXPECT_EQ(graph.position(corner), away);
+}
+
+// No image looks through between the wires: depth may have joined them anywhere.
+TEST(SilhouetteRungs, AreDroppedFromASheet) {
+  const SilhouetteScan scan(
+      {kUpper, kLower}, {{{-0.03, 0, 0}, {0.03, 0, 0}, {0.03, kSpacing, 0}, {-0.03, kSpacing, 0}}});
+  SkeletonGraph graph = Rows();
+  EXPECT_EQ(DropRungsInSheets(scan.Silhouettes(), 0.9, graph), 1);
+  EXPECT_EQ(graph.edge_count(), 2);
+  EXPECT_TRUE(Faults(graph).empty());
+}
+
+TEST(SilhouetteRungs, StayWhereImagesLookPastThem) {
+  const SilhouetteScan scan({kUpper, kLower, kRung});
+  SkeletonGraph graph = Rows();
+  EXPECT_EQ(DropRungsInSheets(scan.Silhouettes(), 0.9, graph), 0);
+  EXPECT_EQ(graph.edge_count(), 5);
+}
+
+// The end of a ladder: beyond it nothing is seen as wire.
+TEST(SilhouetteRungs, StayAtTheEdgeOfASheet) {
+  const SilhouetteScan scan({kUpper, kLower},
+                            {{{0, 0, 0}, {0.06, 0, 0}, {0.06, kSpacing, 0}, {0, kSpacing, 0}}});
+  SkeletonGraph graph = Rows();
+  EXPECT_EQ(DropRungsInSheets(scan.Silhouettes(), 0.9, graph), 0);
+}
+
+// A wire of a net goes on beyond both.
+TEST(SilhouetteRungs, AreNotPiecesOfAWireThatGoesOn) {
+  const SilhouetteScan scan(
+      {kUpper, kLower}, {{{-0.03, -0.03, 0}, {0.03, -0.03, 0}, {0.03, 0.04, 0}, {-0.03, 0.04, 0}}});
+  SkeletonGraph graph = Rows();
+  NodeId upper = -1;
+  for (const NodeId node : graph.Nodes())
+    if (graph.position(node) == kRung.front()) upper = node;
+  AddTestEdge(graph, graph.AddNode({0, -0.03, 0}), upper, TestLine({0, -0.03, 0}, kRung.front()));
+  EXPECT_EQ(DropRungsInSheets(scan.Silhouettes(), 0.9, graph), 0);
+}
+
+TEST(SilhouetteBridges, JoinEndsThatFaceEachOther) {
+  const SilhouetteScan scan(With(kBars, kAcross));
+  SkeletonGraph graph = BarsWithGap(true);
+  ASSERT_EQ(graph.CycleRank(), 0);
+  EXPECT_EQ(BridgeOpenEnds(scan.Silhouettes(), {}, graph), 1);
+  EXPECT_EQ(graph.ComponentCount(), 1);
+  EXPECT_NEAR(graph.TotalLength(), 0.36, 0.003);  // the way may bend by its grid
+  EXPECT_TRUE(Faults(graph).empty());
+}
+
+TEST(SilhouetteBridges, NeedTheWire) {
+  const SilhouetteScan scan(With(With(kBars, TestLine({0, -0.06, 0}, {0, -0.025, 0})),
+                                 TestLine({0, 0.025, 0}, {0, 0.06, 0})));
+  SkeletonGraph graph = BarsWithGap(true);
+  EXPECT_EQ(BridgeOpenEnds(scan.Silhouettes(), {}, graph), 0);
+  EXPECT_EQ(graph.ComponentCount(), 2);
+}
+
+TEST(SilhouetteBridges, JoinAFreeEndToTheCurveAhead) {
+  const SilhouetteScan scan({kBars[1], kBetween});
+  SkeletonGraph graph;
+  AddTestEdge(graph, kBars[1]);
+  AddTestEdge(graph, TestLine({0, -0.025, 0}, {0, 0.005, 0}));
+  EXPECT_EQ(JoinEndsToSides(scan.Silhouettes(), {}, graph), 1);
+  EXPECT_EQ(graph.ComponentCount(), 1);
+  EXPECT_EQ(graph.edge_count(), 3);
+  EXPECT_TRUE(Faults(graph).empty());
+}
+
+TEST(SilhouetteBridges, JoinAFreeEndToTheCurveItHasJustPassed) {
+  const SilhouetteScan scan({kBars[1], kBetween});
+  SkeletonGraph graph;
+  AddTestEdge(graph, kBars[1]);
+  AddTestEdge(graph, TestLine({0.001, -0.025, 0.001}, {0.001, 0.027, 0.001}));
+  EXPECT_EQ(JoinEndsToSides(scan.Silhouettes(), {}, graph), 1);
+  EXPECT_EQ(graph.ComponentCount(), 1);
+}
+
+TEST(SilhouetteBridges, LeaveAFreeEndThatIsOne) {
+  const SilhouetteScan scan({kBars[1], TestLine({0, -0.025, 0}, {0, 0.005, 0})});
+  SkeletonGraph graph;
+  AddTestEdge(graph, kBars[1]);
+  AddTestEdge(graph, TestLine({0, -0.025, 0}, {0, 0.005, 0}));
+  EXPECT_EQ(JoinEndsToSides(scan.Silhouettes(), {}, graph), 0);
+}
+
+TEST(SilhouetteSeeds, FindAWireThatNoCurveAccountsFor) {
+  const SilhouetteScan scan(With(kBars, kBetween));
+  SkeletonGraph graph;
+  for (const Polyline& bar : kBars) AddTestEdge(graph, bar);
+  ASSERT_EQ(AddUnexplainedWires(scan.Silhouettes(), graph).size(), 1);
+  const Polyline& found = graph.edge(graph.Edges().back()).points;
+  EXPECT_GT(Length(found), 0.03);
+  EXPECT_LT(FarthestFrom(kBetween, found), kTolerance);
+}
+
+TEST(SilhouetteSeeds, FindNothingWhereAllIsAccountedFor) {
+  const SilhouetteScan scan(With(kBars, kAcross));
+  SkeletonGraph graph;
+  for (const Polyline& wire : With(kBars, kAcross)) AddTestEdge(graph, wire);
+  EXPECT_TRUE(AddUnexplainedWires(scan.Silhouettes(), graph).empty());
+}
+
+TEST(SilhouetteSeeds, LeaveACurveThatLiesBesideItsWire) {
+  const SilhouetteScan scan({kUpper});
+  SkeletonGraph graph;
+  Polyline beside = kUpper;
+  for (Vec3& p : beside) p.y() = 0.005;
+  AddTestEdge(graph, beside);
+  EXPECT_TRUE(AddUnexplainedWires(scan.Silhouettes(), graph).empty());
+}
+
+TEST(SilhouetteSeeds, LeaveAPlateAlone) {
+  const SilhouetteScan scan(
+      kBars, {{{-0.02, -0.02, 0}, {0.02, -0.02, 0}, {0.02, 0.02, 0}, {-0.02, 0.02, 0}}});
+  SkeletonGraph graph;
+  for (const Polyline& bar : kBars) AddTestEdge(graph, bar);
+  EXPECT_TRUE(AddUnexplainedWires(scan.Silhouettes(), graph).empty());
+}
+
+TEST(SilhouetteTopology, CompletesAndPrunesAtOnce) {
+  const SilhouetteScan scan(With(kBars, TestLine({0, -0.06, 0}, {0, 0.025, 0})));
+  SkeletonGraph graph = BarsWithGap(false);
+  AddTestEdge(graph, TestLine({0.03, -0.02, 0}, {0.03, 0.02, 0}));  // no wire
+  ASSERT_TRUE(TellWires(scan.Silhouettes(), graph));
+  const SilhouetteChanges changes = CorrectTopology(scan.Silhouettes(), {}, graph);
+  EXPECT_NEAR(changes.removed, 0.04, 0.002);
+  EXPECT_EQ(graph.ComponentCount(), 1);
+  EXPECT_NEAR(graph.TotalLength(), 0.325, 0.003);
+  EXPECT_TRUE(Faults(graph).empty());
+}
+
+// Contraction has lost the bar between two rungs and drawn each rung round a corner into what is
+// left of the bar.
+TEST(SilhouetteTopology, JoinsCornersThatWereJunctions) {
+  const Polyline bar = TestLine({-0.06, 0, 0}, {0.06, 0, 0});
+  std::vector<Polyline> wires{bar};
+  SkeletonGraph graph;
+  for (const double side : {-1.0, 1.0}) {
+    const Vec3 corner(0.010 * side, 0, 0);
+    wires.push_back(TestLine(corner, corner + Vec3(0, 0.05, 0)));
+    Polyline bent = TestLine({0.06 * side, 0, 0}, corner);
+    const Polyline rung = wires.back();
+    bent.insert(bent.end(), rung.begin() + 1, rung.end());
+    AddTestEdge(graph, bent);
+  }
+  const SilhouetteScan scan(wires);
+  CorrectTopology(scan.Silhouettes(), {}, graph);
+  EXPECT_EQ(graph.ComponentCount(), 1);
+  EXPECT_EQ(graph.edge_count(), 5);
+  EXPECT_TRUE(Faults(graph).empty());
+}
+
+TEST(SilhouetteTopology, DropsWhatIsFoundButReachesNothing) {
+  const SilhouetteScan scan(With(kBars, TestLine({0, -0.02, 0.01}, {0, 0.02, -0.01})));
+  SkeletonGraph graph;
+  for (const Polyline& bar : kBars) AddTestEdge(graph, bar);
+  EXPECT_EQ(CorrectTopology(scan.Silhouettes(), {}, graph).found, 1);
+  EXPECT_EQ(graph.edge_count(), 2);
+}
+
+TEST(SilhouetteTopology, DoesNotTrustImagesThatDoNotShowTheCurves) {
+  const SilhouetteScan scan({kUpper});
+  SkeletonGraph graph;
+  AddTestEdge(graph, kUpper);
+  EXPECT_TRUE(TellWires(scan.Silhouettes(), graph));
+  SkeletonGraph other;
+  AddTestEdge(other, kBars[0]);
+  EXPECT_FALSE(TellWires(scan.Silhouettes(), other));
+  EXPECT_FALSE(TellWires(scan.Silhouettes(), {}));
+}
+
+}  // namespace
+}  // namespace curvefusion

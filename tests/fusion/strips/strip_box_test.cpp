@@ -1,0 +1,43 @@
+#include "fusion/strips/strip_box.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/fusion/wire_images.h"
+
+namespace curvefusion {
+namespace {
+
+constexpr Rgb kStrip = {40, 110, 50};
+constexpr Rgb kBackground = {150, 140, 160};
+
+TEST(StripBoxTest, MeasuresOneStripInABox) {
+  for (const int width : {4, 6, 8}) {
+    const ColorImage image = DrawStrip(80, 60, 39.5, 39.5 + width, kStrip, kBackground, 0.7);
+    // Canny puts edges on whole pixels
+    EXPECT_NEAR(StripWidthInBox(LabelStrips(image, 16), {41, 30}, 16), width, 1) << width;
+  }
+}
+
+TEST(StripBoxTest, ABoxWithoutStripIsDiscarded) {
+  const ColorImage image = DrawStrip(80, 60, 39.5, 44.5, kStrip, kBackground, 0.7);
+  const StripRegions regions = LabelStrips(image, 16);
+  EXPECT_EQ(StripWidthInBox(regions, {15, 30}, 16), 0);
+  EXPECT_EQ(StripWidthInBox(regions, {2, 30}, 16), 0);  // reaches over the border
+}
+
+TEST(StripBoxTest, ABoxWithTwoStripsIsDiscarded) {
+  ColorImage image = DrawStrip(80, 60, 35.5, 39.5, kStrip, kBackground, 0.7);
+  const ColorImage other = DrawStrip(80, 60, 43.5, 47.5, kStrip, kBackground, 0.7);
+  for (int v = 0; v < 60; ++v) {
+    for (int u = 42; u < 80; ++u) image(u, v) = other(u, v);
+  }
+  EXPECT_EQ(StripWidthInBox(LabelStrips(image, 16), {41, 30}, 16), 0);
+}
+
+TEST(StripBoxTest, WiderStripsThanTheBoxAreNone) {
+  const ColorImage image = DrawStrip(80, 60, 30, 55, kStrip, kBackground, 0.7);
+  EXPECT_EQ(StripWidthInBox(LabelStrips(image, 16), {42, 30}, 16), 0);
+}
+
+}  // namespace
+}  // namespace curvefusion
