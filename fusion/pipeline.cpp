@@ -156,22 +156,14 @@ SkeletonGraph Contract(const ObservedPoints& points, const std::string& name, Ru
   return skeleton;
 }
 
-// Registration takes few points, so its ridges need not be as dense as those contraction links;
-// but where points are noise for the most part, all are needed.
-RidgeProjectionOptions RegistrationRidges(const RunContext& run) {
-  RidgeProjectionOptions ridges = run.options.ridge.projection;
-  if (run.ray_noise_ratio == 1)
-    ridges.spacing = std::max(ridges.spacing, run.options.registration_spacing);
-  return ForCloseWires(ridges, run.magnification);
-}
-
 // Registers every bundle to the curves of those before it: all points together, and for every frame
 // how its bundle was moved.
 std::pair<ObservedPoints, std::vector<RigidTransform>> RegisterBundles(const SegmentedScan& scan,
                                                                        RunContext& run) {
   const StageLog::Timer timer(run.log, "registration");
   CarriedPoints carried(run.options.carried);
-  const RidgeProjectionOptions ridges = RegistrationRidges(run);
+  const RidgeProjectionOptions ridges =
+      ForCloseWires(run.options.ridge.projection, run.magnification);
   std::vector<RigidTransform> T_registered_bundle;
   for (const ObservedPoints& bundle : scan.bundles) {
     T_registered_bundle.push_back(
@@ -200,7 +192,8 @@ RegisteredFrames RegisterFramesToCurves(const SegmentedScan& scan,
                                   T_registered_frame[i].inverse()));
   }
   RegisteredFrames registered =
-      RegisterFrames(on_axis, T_registered_frame, cameras, RegistrationRidges(run),
+      RegisterFrames(on_axis, T_registered_frame, cameras,
+                     ForCloseWires(run.options.ridge.projection, run.magnification),
                      run.options.registration, run.options.frames);
   run.observer.OnProgress("frame registration", 1, 1);
   run.log.Count("registration", "registered frames", registered.registered);

@@ -36,7 +36,6 @@ struct PipelineOptions {
   bool carry_points = false;
   CarriedPointsOptions carried;
   AlignmentOptions registration;
-  double registration_spacing = 0.004;
   FrameRegistrationOptions frames;
   double axis_depth = 0;
   double min_linearity = 0.3;

@@ -78,10 +78,6 @@ void VisitOptions(PipelineOptions& options, OptionVisitor& visitor) {
   VisitOptions(options.carried, visitor);
   VisitOptions(options.frames, visitor);
   VisitOptions(options.registration, visitor);
-  visitor.Visit({"ridge_spacing", "m", 0, 0.02,
-                 "Deviation: least distance of the ridge points that bundles and frames are "
-                 "registered to; contraction, which links its own, has a spacing for itself."},
-                options.registration_spacing);
   visitor.Visit({"axis_depth", "radii", 0, 1.5,
                  "Deviation: points are moved along their viewing rays by so many radii, from the "
                  "side that was seen to the axis."},

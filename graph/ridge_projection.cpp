@@ -38,9 +38,7 @@ struct RidgeSeed {
   int level = 0;
 };
 
-// The finite points that were seen; where ridge points may be farther apart than the kernel is
-// wide, no more of them than that takes.
-ObservedPoints UsablePoints(const ObservedPoints& points, const RidgeProjectionOptions& options) {
+ObservedPoints UsablePoints(const ObservedPoints& points) {
   ObservedPoints usable;
   usable.Reserve(points.size());
   for (size_t i = 0; i < points.size(); ++i) {
@@ -49,7 +47,7 @@ ObservedPoints UsablePoints(const ObservedPoints& points, const RidgeProjectionO
       usable.Add(points.positions[i], points.viewing_rays[i], points.counts[i]);
     }
   }
-  return options.spacing > options.kernel_sigma ? ResampleOnGrid(usable, options.spacing) : usable;
+  return usable;
 }
 
 // The strength that half of the summed strength lies below: outliers, however many, hardly count.
@@ -101,7 +99,6 @@ std::vector<RidgeSeed> MakeSeeds(const ObservedPoints& points,
   const std::vector<Vec3> starts = ResampleOnGrid(points, cell).positions;
   RidgeScaleOptions scale;
   scale.sigma = options.kernel_sigma;
-  scale.sample_spacing = std::max(scale.sample_spacing, options.spacing);
   std::vector<double> limits;
   for (size_t level = 0; level + 1 < levels.size(); ++level) {
     limits.push_back(levels[level].sigma() / options.sigma_per_thickness);
@@ -277,9 +274,7 @@ void VisitOptions(RidgeProjectionOptions& options, OptionVisitor& visitor) {
                 options.least_relative_count);
   visitor.Visit({"iterations", "", 1, 1000, "Deviation: most mean-shift steps of a point."},
                 options.iterations);
-  visitor.Visit({"spacing", "m", 0.0002, 0.02,
-                 "Deviation: least distance of ridge points; where it is more than the kernel's "
-                 "width the points themselves are resampled on a grid so coarse."},
+  visitor.Visit({"spacing", "m", 0.0002, 0.02, "Deviation: least distance of ridge points."},
                 options.spacing);
   visitor.Visit({"min_relative_strength", "", 0, 1,
                  "Deviation: ridge points weaker than this part of the typical one are outliers."},
@@ -319,7 +314,7 @@ ObservedPoints ShiftAlongRays(const ObservedPoints& points, const std::vector<do
 }
 
 RidgePoints ProjectToRidges(const ObservedPoints& points, const RidgeProjectionOptions& options) {
-  const ObservedPoints observed = UsablePoints(points, options);
+  const ObservedPoints observed = UsablePoints(points);
   ObservedPoints usable = observed;
   EqualizeCounts(usable, options.equalization_radius, options.least_relative_count);
   const std::vector<DensityField> levels = MakeLevels(usable, options);
