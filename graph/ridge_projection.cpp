@@ -8,7 +8,6 @@
 
 #include "graph/density_kernel.h"
 #include "graph/ridge_scale.h"
-#include "kernel/ball_sums.h"
 #include "kernel/parallel.h"
 #include "kernel/point_grid.h"
 #include "kernel/quantile.h"
@@ -66,11 +65,17 @@ double TypicalStrength(std::vector<double> strengths) {
 // often and seldom become equally strong, while their profile across stays.
 void EqualizeCounts(ObservedPoints& points, double radius, double least_relative_count) {
   if (points.empty()) return;
-  const BallSums counts(points.positions, points.counts, radius);
+  const PointGrid grid(points.positions, radius);
   std::vector<double> usual(points.size());
   ParallelFor(0, static_cast<int64_t>(points.size()), kGrain, [&](int64_t i) {
-    const BallSums::Sums around = counts.Around(points.positions[i]);
-    usual[i] = around.squares / around.weights;
+    double sum = 0;
+    double squares = 0;
+    grid.ForEachWithin(points.positions[i], radius, [&](int j, const Vec3&) {
+      const double count = points.counts[j];
+      sum += count;
+      squares += count * count;
+    });
+    usual[i] = squares / sum;
   });
   const double least = least_relative_count * Median(usual);
   for (size_t i = 0; i < points.size(); ++i) {

@@ -2,12 +2,11 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "graph/density_kernel.h"
-#include "kernel/ball_sums.h"
 #include "kernel/parallel.h"
+#include "kernel/point_grid.h"
 #include "kernel/voxel_grid.h"
 
 namespace curvefusion {
@@ -40,41 +39,30 @@ std::vector<double> SpreadsAt(const ObservedPoints& points, const std::vector<Ve
   return spreads;
 }
 
-// The samples whose spreads exceed none, one, two, ... of the limits.
-std::vector<BallSums> SamplesByLimitsExceeded(const std::vector<Vec3>& samples,
-                                              const std::vector<double>& spreads,
-                                              const std::vector<double>& limits, double window) {
-  std::vector<std::vector<Vec3>> exceeding(limits.size() + 1);
-  for (size_t i = 0; i < samples.size(); ++i) {
-    const auto number = std::lower_bound(limits.begin(), limits.end(), spreads[i]) - limits.begin();
-    exceeding[number].push_back(samples[i]);
-  }
-  std::vector<BallSums> sums;
-  for (const std::vector<Vec3>& some : exceeding) {
-    sums.emplace_back(some, std::vector<float>(some.size(), 1), window);
-  }
-  return sums;
-}
-
 }  // namespace
 
 std::vector<int> LimitsExceeded(const ObservedPoints& points, const std::vector<Vec3>& queries,
                                 const std::vector<double>& limits,
                                 const RidgeScaleOptions& options) {
   const std::vector<Vec3> samples = ResampleOnGrid(points, options.sample_spacing).positions;
-  const std::vector<BallSums> samples_exceeding = SamplesByLimitsExceeded(
-      samples, SpreadsAt(points, samples, options.sigma), limits, options.window);
+  std::vector<int> exceeded_by_sample;
+  for (const double spread : SpreadsAt(points, samples, options.sigma)) {
+    exceeded_by_sample.push_back(
+        static_cast<int>(std::lower_bound(limits.begin(), limits.end(), spread) - limits.begin()));
+  }
+  const PointGrid grid(samples, options.window);
   std::vector<int> exceeded(queries.size(), 0);
   ParallelChunks(0, static_cast<int64_t>(queries.size()), kGrain, [&](int64_t first, int64_t last) {
-    std::vector<double> histogram(samples_exceeding.size());
+    std::vector<int> histogram(limits.size() + 1);
     for (int64_t i = first; i < last; ++i) {
-      double count = 0;
-      for (size_t number = 0; number < histogram.size(); ++number) {
-        histogram[number] = samples_exceeding[number].Around(queries[i]).weights;
-        count += histogram[number];
-      }
+      std::fill(histogram.begin(), histogram.end(), 0);
+      int count = 0;
+      grid.ForEachWithin(queries[i], options.window, [&](int sample, const Vec3&) {
+        ++histogram[exceeded_by_sample[sample]];
+        ++count;
+      });
       if (count == 0) continue;
-      double rank = std::floor(options.quantile * (count - 1));
+      int rank = static_cast<int>(options.quantile * (count - 1));
       while (rank >= histogram[exceeded[i]]) rank -= histogram[exceeded[i]++];
     }
   });
