@@ -85,8 +85,7 @@ void VisitOptions(PipelineOptions& options, OptionVisitor& visitor) {
   visitor.Visit(
       {"min_linearity", "", 0, 1,
        "Deviation: where the points of one bundle look less curve-like than this from near, all "
-       "are "
-       "contracted in a space compressed along the viewing rays, along which depth noise is "
+       "are contracted in a space compressed along the viewing rays, along which depth noise is "
        "largest."},
       options.min_linearity);
   visitor.Visit(

@@ -23,23 +23,23 @@ OpenEnd MakeEnd(const SkeletonGraph& graph, EdgeId id, bool at_front, const EndP
   return {node, id, points.front(), -inward.normalized(), graph.Degree(node) == 1};
 }
 
-std::vector<OpenEnd> Branches(const SkeletonGraph& graph, NodeId node, const EndPiece& piece) {
-  std::vector<OpenEnd> branches;
+}  // namespace
+
+std::vector<OpenEnd> EndsAt(const SkeletonGraph& graph, NodeId node, const EndPiece& piece) {
+  std::vector<OpenEnd> ends;
   for (const EdgeId id : graph.IncidentEdges(node)) {
     // A self-loop stands there twice.
-    const bool is_second = std::any_of(branches.begin(), branches.end(),
+    const bool is_second = std::any_of(ends.begin(), ends.end(),
                                        [id](const OpenEnd& other) { return other.edge == id; });
-    branches.push_back(MakeEnd(graph, id, graph.edge(id).nodes[0] == node && !is_second, piece));
+    ends.push_back(MakeEnd(graph, id, graph.edge(id).nodes[0] == node && !is_second, piece));
   }
-  return branches;
+  return ends;
 }
-
-}  // namespace
 
 std::vector<OpenEnd> OpenEnds(const SkeletonGraph& graph, const EndPiece& piece) {
   std::vector<OpenEnd> open;
   for (const NodeId node : graph.Nodes()) {
-    const std::vector<OpenEnd> branches = Branches(graph, node, piece);
+    const std::vector<OpenEnd> branches = EndsAt(graph, node, piece);
     for (const OpenEnd& branch : branches) {
       const bool goes_on = std::any_of(branches.begin(), branches.end(), [&](const OpenEnd& next) {
         return -next.outward.dot(branch.outward) > kOpenCosine;
@@ -51,7 +51,7 @@ std::vector<OpenEnd> OpenEnds(const SkeletonGraph& graph, const EndPiece& piece)
 }
 
 OpenEnd FreeEnd(const SkeletonGraph& graph, NodeId node, const EndPiece& piece) {
-  return Branches(graph, node, piece).front();
+  return EndsAt(graph, node, piece).front();
 }
 
 }  // namespace curvefusion

@@ -6,7 +6,7 @@
 
 namespace curvefusion {
 
-/// An end of an edge that no other edge continues.
+/// An end of an edge; one is open that no other edge continues.
 struct OpenEnd {
   NodeId node = -1;
   EdgeId edge = -1;
@@ -20,6 +20,9 @@ struct EndPiece {
   double skipped = 0;  ///< metres; the very end, which other wires may draw sideways
   double length = 0;   ///< metres
 };
+
+/// The ends of all edges at a node, whether open or not; a self-loop has two.
+std::vector<OpenEnd> EndsAt(const SkeletonGraph& graph, NodeId node, const EndPiece& piece);
 
 /// Free ends, and branches of junctions that nothing leaves on the other side within 45 degrees, by
 /// node.

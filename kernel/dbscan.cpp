@@ -1,8 +1,8 @@
 #include "kernel/dbscan.h"
 
 #include <cmath>
-#include <numeric>
 
+#include "kernel/buckets.h"
 #include "kernel/disjoint_sets.h"
 #include "kernel/voxel_grid.h"
 
@@ -22,19 +22,14 @@ class DenseCells {
     constexpr double kRounding = 1e-9;
     const double side = (1 - kRounding) * radius / std::sqrt(3.0);
     for (const Vec3& p : points) cell_of_point_.push_back(cells_.Number(VoxelOf(p, side)));
-    first_.assign(static_cast<size_t>(cells_.size()) + 1, 0);
-    for (const int cell : cell_of_point_) ++first_[cell + 1];
-    std::partial_sum(first_.begin(), first_.end(), first_.begin());
-    members_.resize(points.size());
-    std::vector<int> next = first_;
-    for (size_t i = 0; i < points.size(); ++i) {
-      members_[next[cell_of_point_[i]]++] = static_cast<int>(i);
-    }
+    points_of_cell_ = SortIntoBuckets(cell_of_point_, cells_.size());
   }
 
   int size() const { return cells_.size(); }
   int CellOf(int point) const { return cell_of_point_[point]; }
-  int Count(int cell) const { return first_[cell + 1] - first_[cell]; }
+  int Count(int cell) const {
+    return points_of_cell_.first[cell + 1] - points_of_cell_.first[cell];
+  }
 
   // Calls visit(cell) for all cells that may hold points within the radius of those of a cell, it
   // included, until it returns false.
@@ -54,8 +49,8 @@ class DenseCells {
   // Calls visit(point) for the points of a cell within the radius of p, until it returns false.
   template <class Visit>
   bool VisitWithin(int cell, const Vec3& p, const Visit& visit) const {
-    for (int i = first_[cell]; i < first_[cell + 1]; ++i) {
-      const int member = members_[i];
+    for (int i = points_of_cell_.first[cell]; i < points_of_cell_.first[cell + 1]; ++i) {
+      const int member = points_of_cell_.members[i];
       if ((points_[member] - p).squaredNorm() <= squared_radius_ && !visit(member)) return false;
     }
     return true;
@@ -63,7 +58,8 @@ class DenseCells {
 
   template <class Visit>
   void VisitMembers(int cell, const Visit& visit) const {
-    for (int i = first_[cell]; i < first_[cell + 1]; ++i) visit(members_[i]);
+    for (int i = points_of_cell_.first[cell]; i < points_of_cell_.first[cell + 1]; ++i)
+      visit(points_of_cell_.members[i]);
   }
 
  private:
@@ -71,8 +67,7 @@ class DenseCells {
   double squared_radius_;
   VoxelNumbers cells_;
   std::vector<int> cell_of_point_;
-  std::vector<int> first_;    // of each cell in members_, and the end
-  std::vector<int> members_;  // indices of points
+  Buckets points_of_cell_;
 };
 
 std::vector<char> FindCorePoints(const std::vector<Vec3>& points, const DenseCells& cells,

@@ -18,24 +18,14 @@ constexpr double kStep = 0.001;      // metres
 constexpr double kMinCovered = 0.8;  // of the rung
 constexpr double kMinAcross = 0.5;   // of the sum of four unit vectors
 
-// The direction from a node along an edge.
-Vec3 DirectionFrom(const SkeletonEdge& edge, NodeId node) {
-  const std::vector<double> arc_length = CumulativeLength(edge.points);
-  const bool at_front = edge.nodes[0] == node;
-  const double place = at_front ? kEndPiece.length : arc_length.back() - kEndPiece.length;
-  const Vec3& tip = at_front ? edge.points.front() : edge.points.back();
-  return (PointAt(edge.points, arc_length, place) - tip).normalized();
-}
-
 // Across a rung, in the plane of the wires at its ends; zero where they do not run across.
 Vec3 AcrossRung(const SkeletonGraph& skeleton, EdgeId rung) {
   const SkeletonEdge& edge = skeleton.edge(rung);
   Vec3 sum = Vec3::Zero();
   for (const NodeId node : edge.nodes) {
-    for (const EdgeId wire : skeleton.IncidentEdges(node)) {
-      if (wire == rung) continue;
-      const Vec3 direction = DirectionFrom(skeleton.edge(wire), node);
-      sum += direction.dot(sum) < 0 ? Vec3(-direction) : direction;
+    for (const OpenEnd& wire : EndsAt(skeleton, node, kEndPiece)) {
+      if (wire.edge == rung) continue;
+      sum += wire.outward.dot(sum) < 0 ? Vec3(-wire.outward) : wire.outward;
     }
   }
   const Vec3 along = (edge.points.back() - edge.points.front()).normalized();

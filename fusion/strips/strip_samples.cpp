@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
+#include "kernel/buckets.h"
 #include "kernel/polyline.h"
 
 namespace curvefusion {
@@ -26,22 +26,16 @@ class PointCells {
   PointCells(const PinholeCamera& camera, double max_distance_px)
       : border_(static_cast<int>(std::ceil(max_distance_px / kCellPx))),
         columns_(static_cast<int>(camera.width / kCellPx) + 1 + 2 * border_),
-        rows_(static_cast<int>(camera.height / kCellPx) + 1 + 2 * border_),
-        first_(static_cast<size_t>(columns_) * rows_ + 1, 0) {}
+        rows_(static_cast<int>(camera.height / kCellPx) + 1 + 2 * border_) {}
 
   // Sorts the points into their cells.
   void Fill(const std::vector<ImagePoint>& points) {
     std::vector<int> cells;
-    for (const ImagePoint& point : points) {
+    for (const ImagePoint& point : points)
       cells.push_back(Number(Cell(point.pixel.x()), Cell(point.pixel.y())));
-      if (cells.back() >= 0) ++first_[cells.back() + 1];
-    }
-    std::partial_sum(first_.begin(), first_.end(), first_.begin());
-    points_.resize(first_.back());
-    std::vector<int> next = first_;
-    for (size_t i = 0; i < points.size(); ++i) {
-      if (cells[i] >= 0) points_[next[cells[i]]++] = points[i];
-    }
+    const Buckets sorted = SortIntoBuckets(cells, columns_ * rows_);
+    first_ = sorted.first;
+    for (const int i : sorted.members) points_.push_back(points[i]);
   }
 
   // Calls visit(point), ring by ring, for the points of all cells around a pixel of the image that

@@ -6,43 +6,23 @@
 #include <vector>
 
 #include "graph/corners.h"
+#include "graph/open_ends.h"
 #include "kernel/disjoint_sets.h"
-#include "kernel/polyline.h"
 
 namespace curvefusion {
 
 namespace {
 
-constexpr double kReach = 10 * kMillimetre;
-constexpr double kMaxTurn = 0.44;
-constexpr double kCorner = 1.05;
+constexpr EndPiece kEndPiece{.length = 10 * kMillimetre};
+constexpr double kMaxTurn = 0.44;  // radians
+constexpr double kCorner = 1.05;   // radians; a rod bent around 10 mm turns by no more
 
-// An end of an edge at a node, and where the edge goes from there.
-struct EdgeEnd {
-  EdgeId edge = 0;
-  Vec3 direction;
-};
-
-Vec3 DirectionFrom(const Polyline& points, bool from_back) {
-  const std::vector<double> arc_lengths = CumulativeLength(points);
-  const double reach = std::min(kReach, arc_lengths.back());
-  const Vec3 inner = PointAt(points, arc_lengths, from_back ? arc_lengths.back() - reach : reach);
-  return (inner - (from_back ? points.back() : points.front())).normalized();
-}
-
-double Turn(const Vec3& before, const Vec3& after) {
-  return std::acos(std::clamp(before.normalized().dot(after.normalized()), -1.0, 1.0));
-}
-
-// The ends of the edges without a corner.
-std::map<NodeId, std::vector<EdgeEnd>> EndsAtNodes(const SkeletonGraph& skeleton) {
-  std::map<NodeId, std::vector<EdgeEnd>> ends;
-  for (const EdgeId id : skeleton.Edges()) {
-    const SkeletonEdge& edge = skeleton.edge(id);
-    if (SharpestCorner(edge.points, kCorner)) continue;
-    ends[edge.nodes[0]].push_back({id, DirectionFrom(edge.points, false)});
-    ends[edge.nodes[1]].push_back({id, DirectionFrom(edge.points, true)});
-  }
+// The ends at a node of the edges without a corner.
+std::vector<OpenEnd> EndsWithoutCorner(const SkeletonGraph& skeleton, NodeId node) {
+  std::vector<OpenEnd> ends = EndsAt(skeleton, node, kEndPiece);
+  std::erase_if(ends, [&skeleton](const OpenEnd& end) {
+    return SharpestCorner(skeleton.edge(end.edge).points, kCorner).has_value();
+  });
   return ends;
 }
 
@@ -51,11 +31,13 @@ std::map<NodeId, std::vector<EdgeEnd>> EndsAtNodes(const SkeletonGraph& skeleton
 std::map<EdgeId, int> WiresOfEdges(const SkeletonGraph& skeleton) {
   const std::vector<EdgeId> edges = skeleton.Edges();
   DisjointSets sets(edges.empty() ? 0 : static_cast<size_t>(edges.back()) + 1);
-  for (const auto& [node, ends] : EndsAtNodes(skeleton)) {
+  for (const NodeId node : skeleton.Nodes()) {
+    const std::vector<OpenEnd> ends = EndsWithoutCorner(skeleton, node);
     std::vector<std::tuple<double, size_t, size_t>> pairs;  // turn, ends
     for (size_t i = 0; i < ends.size(); ++i) {
       for (size_t j = i + 1; j < ends.size(); ++j) {
-        const double turn = Turn(-ends[i].direction, ends[j].direction);
+        const double cosine = -ends[i].outward.dot(ends[j].outward);
+        const double turn = std::acos(std::clamp(cosine, -1.0, 1.0));
         if (turn < kMaxTurn) pairs.emplace_back(turn, i, j);
       }
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -34,6 +35,19 @@ inline Polyline Ring(double radius, int points, const Vec3& center = Vec3::Zero(
   }
   ring.push_back(ring.front());
   return ring;
+}
+
+/// 40 mm along x and then along y, rounded with a radius; a vertex every millimetre.
+inline Polyline RightAngle(double radius) {
+  Polyline angle;
+  for (double x = -0.04; x < -radius - 1e-9; x += 0.001) angle.emplace_back(x, 0, 0);
+  const int steps = std::max(1, static_cast<int>(radius * M_PI / 2 / 0.001));
+  for (int i = 0; i <= steps; ++i) {
+    const double turned = i * M_PI / 2 / steps;
+    angle.emplace_back(radius * (std::sin(turned) - 1), radius * (1 - std::cos(turned)), 0);
+  }
+  for (double y = radius + 0.001; y < 0.04; y += 0.001) angle.emplace_back(0, y, 0);
+  return angle;
 }
 
 /// Adds an edge along `points` between two existing nodes.

@@ -3,8 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <utility>
+
+#include "tests/graph/graph_fixtures.h"
 
 namespace curvefusion {
 namespace {
@@ -49,13 +50,7 @@ TEST(WiresOfEdgesTest, ACornerEndsAWire) {
 // Contraction draws a corner of two wires as one bent edge where nothing else ends there.
 TEST(WiresOfEdgesTest, AnEdgeRoundACornerGoesOnNowhere) {
   for (const auto& [radius, is_one] : {std::pair{0.006, false}, std::pair{0.025, true}}) {
-    Polyline bend;
-    for (double x = -0.04; x < -radius - 1e-9; x += 0.001) bend.emplace_back(x, 0, 0);
-    for (int i = 0; i <= 10; ++i) {
-      const double angle = i * std::numbers::pi / 20;
-      bend.emplace_back(radius * (std::sin(angle) - 1), radius * (1 - std::cos(angle)), 0);
-    }
-    for (double y = radius + 0.001; y < 0.04; y += 0.001) bend.emplace_back(0, y, 0);
+    const Polyline bend = RightAngle(radius);
     SkeletonGraph skeleton;
     const NodeId front = skeleton.AddNode(bend.front());
     const NodeId before = skeleton.AddNode(bend.front() - Vec3(0.04, 0, 0));
