@@ -27,11 +27,12 @@ void Append(const SkeletonEdge& link, SkeletonEdge& chain) {
   AppendValues(link.observations, chain.observations);
 }
 
+// The values `first` to `last`, both included.
 template <class T>
 std::vector<T> Slice(const std::vector<T>& values, size_t first, size_t last) {
   if (values.empty()) return {};
   return {values.begin() + static_cast<std::ptrdiff_t>(first),
-          values.begin() + static_cast<std::ptrdiff_t>(last)};
+          values.begin() + static_cast<std::ptrdiff_t>(last) + 1};
 }
 
 // The numbers of versions above one.
@@ -50,6 +51,12 @@ void Reverse(SkeletonEdge& edge) {
   std::reverse(edge.points.begin(), edge.points.end());
   std::reverse(edge.radii.begin(), edge.radii.end());
   std::reverse(edge.observations.begin(), edge.observations.end());
+}
+
+SkeletonEdge PartOf(const SkeletonEdge& edge, size_t first, size_t last,
+                    const std::array<NodeId, 2>& nodes) {
+  return {nodes, Slice(edge.points, first, last), Slice(edge.radii, first, last),
+          Slice(edge.observations, first, last)};
 }
 
 void SkeletonGraph::Reserve(size_t nodes, size_t edges) {
@@ -149,15 +156,8 @@ NodeId SkeletonGraph::SplitEdge(EdgeId edge, size_t point_index) {
   assert(point_index > 0 && point_index + 1 < this->edge(edge).points.size());
   const NodeId middle = AddNode(this->edge(edge).points[point_index]);
   const SkeletonEdge whole = TakeEdge(edge);
-  const size_t n = whole.points.size();
-  AddEdge({{whole.nodes[0], middle},
-           Slice(whole.points, 0, point_index + 1),
-           Slice(whole.radii, 0, point_index + 1),
-           Slice(whole.observations, 0, point_index + 1)});
-  AddEdge({{middle, whole.nodes[1]},
-           Slice(whole.points, point_index, n),
-           Slice(whole.radii, point_index, n),
-           Slice(whole.observations, point_index, n)});
+  AddEdge(PartOf(whole, 0, point_index, {whole.nodes[0], middle}));
+  AddEdge(PartOf(whole, point_index, whole.points.size() - 1, {middle, whole.nodes[1]}));
   return middle;
 }
 

@@ -27,6 +27,10 @@ struct SkeletonEdge {
 /// Turns the direction of an edge around.
 void Reverse(SkeletonEdge& edge);
 
+/// The points `first` to `last` of an edge, both included, between two nodes that lie there.
+SkeletonEdge PartOf(const SkeletonEdge& edge, size_t first, size_t last,
+                    const std::array<NodeId, 2>& nodes);
+
 /// The curve skeleton: an undirected multigraph whose edges are polylines in space. Parallel edges
 /// and self-loops are allowed; a closed curve without a junction is one edge from a node to itself.
 /// Copyable; a value like any other.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fusion/silhouettes/silhouette_path.h"
+#include "graph/edge_parts.h"
 #include "kernel/quantile.h"
 
 namespace curvefusion {
@@ -18,23 +19,11 @@ constexpr double kClearlyFalse = 0.5;  // share of images
 constexpr double kMinPiece = 0.012;    // metres; the shortest spur
 constexpr size_t kRetreat = 2;         // points; near a place beside the wire others may be too
 
-// A run of points of an edge, both included.
-struct Run {
-  size_t first;
-  size_t last;
-};
-
-double LengthOf(const Polyline& points, const Run& run) {
-  double length = 0;
-  for (size_t i = run.first; i < run.last; ++i) length += (points[i + 1] - points[i]).norm();
-  return length;
-}
-
 // Whether a run of points that few images show as wire is no wire. At its junctions an edge may
 // just miss where they should be, and anywhere its wire by little.
 bool IsFalse(const SkeletonGraph& skeleton, const SkeletonEdge& edge,
-             const std::vector<double>& shares, const Run& run) {
-  const double length = LengthOf(edge.points, run);
+             const std::vector<double>& shares, const EdgePart& run) {
+  const double length = Length(edge.points, run);
   if (length >= kLongRun) return true;
   const bool is_at_junction =
       (run.first == 0 && skeleton.Degree(edge.nodes[0]) > 1) ||
@@ -46,8 +35,8 @@ bool IsFalse(const SkeletonGraph& skeleton, const SkeletonEdge& edge,
 }
 
 // The longest runs of points that fewer than min_share of the images show as wire.
-std::vector<Run> LowRuns(const std::vector<double>& shares, double min_share) {
-  std::vector<Run> runs;
+std::vector<EdgePart> LowRuns(const std::vector<double>& shares, double min_share) {
+  std::vector<EdgePart> runs;
   for (size_t i = 0; i < shares.size(); ++i) {
     if (shares[i] >= min_share) continue;
     if (!runs.empty() && runs.back().last + 1 == i) {
@@ -60,11 +49,11 @@ std::vector<Run> LowRuns(const std::vector<double>& shares, double min_share) {
 }
 
 // What is left of all points without the false runs.
-std::vector<Run> RunsKept(const SkeletonGraph& skeleton, const SkeletonEdge& edge,
-                          const std::vector<double>& shares, double min_share) {
-  std::vector<Run> kept;
+std::vector<EdgePart> RunsKept(const SkeletonGraph& skeleton, const SkeletonEdge& edge,
+                               const std::vector<double>& shares, double min_share) {
+  std::vector<EdgePart> kept;
   size_t first = 0;
-  for (const Run& run : LowRuns(shares, min_share)) {
+  for (const EdgePart& run : LowRuns(shares, min_share)) {
     if (!IsFalse(skeleton, edge, shares, run)) continue;
     if (run.first > first) kept.push_back({first, run.first - 1});
     first = run.last + 1;
@@ -73,32 +62,11 @@ std::vector<Run> RunsKept(const SkeletonGraph& skeleton, const SkeletonEdge& edg
   return kept;
 }
 
-template <class T>
-std::vector<T> Slice(const std::vector<T>& values, const Run& run) {
-  if (values.empty()) return {};
-  return {values.begin() + static_cast<std::ptrdiff_t>(run.first),
-          values.begin() + static_cast<std::ptrdiff_t>(run.last) + 1};
-}
-
-void KeepRuns(EdgeId id, const std::vector<Run>& runs, SkeletonGraph& skeleton) {
-  const SkeletonEdge edge = skeleton.TakeEdge(id);
-  for (const Run& run : runs) {
-    if (LengthOf(edge.points, run) < kMinPiece) continue;
-    const bool at_front = run.first == 0;
-    const bool at_back = run.last + 1 == edge.points.size();
-    skeleton.AddEdge({{at_front ? edge.nodes[0] : skeleton.AddNode(edge.points[run.first]),
-                       at_back ? edge.nodes[1] : skeleton.AddNode(edge.points[run.last])},
-                      Slice(edge.points, run),
-                      Slice(edge.radii, run),
-                      Slice(edge.observations, run)});
-  }
-}
-
 // The points of a curve with low runs replaced by ways through the silhouettes where there are any.
 Polyline Rerouted(const WireSilhouettes& silhouettes, const Polyline& points, double min_share) {
   Polyline rerouted;
   size_t next = 0;
-  for (const Run& run : LowRuns(silhouettes.SharesAlong(points), min_share)) {
+  for (const EdgePart& run : LowRuns(silhouettes.SharesAlong(points), min_share)) {
     const size_t from = run.first < kRetreat ? 0 : run.first - kRetreat;
     const size_t to = std::min(run.last + kRetreat, points.size() - 1);
     if (from < next || from == to) continue;
@@ -131,10 +99,10 @@ double DropRefutedParts(const WireSilhouettes& silhouettes, double min_share,
   const double before = skeleton.TotalLength();
   for (const EdgeId id : skeleton.Edges()) {
     const Polyline& points = skeleton.edge(id).points;
-    const std::vector<Run> runs =
+    const std::vector<EdgePart> runs =
         RunsKept(skeleton, skeleton.edge(id), silhouettes.SharesAlong(points), min_share);
     if (runs.size() == 1 && runs[0].first == 0 && runs[0].last + 1 == points.size()) continue;
-    KeepRuns(id, runs, skeleton);
+    KeepParts(id, runs, kMinPiece, skeleton);
   }
   skeleton.RemoveIsolatedNodes();
   skeleton.DissolveDegree2Nodes();

@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "fusion/silhouettes/narrow_forks.h"
 #include "fusion/silhouettes/silhouette_pruning.h"
 #include "fusion/silhouettes/silhouette_rungs.h"
 #include "fusion/silhouettes/silhouette_seeds.h"
@@ -67,6 +68,7 @@ SilhouetteChanges CorrectTopology(const WireSilhouettes& silhouettes,
   const std::vector<FoundPiece> pieces = AddUnexplainedWires(silhouettes, skeleton);
   changes.found = static_cast<int>(pieces.size());
   SplitAtCorners(skeleton, kCorner);
+  changes.forks = PartNarrowForks(silhouettes, skeleton);
   changes.bridges = BridgeOpenEnds(silhouettes, options.bridges, skeleton);
   changes.joins = JoinEndsToSides(silhouettes, options.bridges, skeleton);
   DropLoosePieces(pieces, skeleton);

@@ -21,6 +21,7 @@ struct SilhouetteChanges {
   double removed = 0;  ///< metres of curve
   int rungs = 0;       ///< removed between wires that no image looks through
   int found = 0;       ///< pieces of wire that no curve accounted for
+  int forks = 0;       ///< parted into the two wires that meet there
   int bridges = 0;     ///< between ends
   int joins = 0;       ///< of an end to the side of a curve
 };

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "graph/skeleton_graph.h"
+
+namespace curvefusion {
+
+/// Consecutive points of an edge, both included.
+struct EdgePart {
+  size_t first = 0;
+  size_t last = 0;
+};
+
+/// Metres along a curve from the first to the last point of a part.
+double Length(const Polyline& points, const EdgePart& part);
+
+/// Leaves of an edge only these parts (ascending, apart), and of them those at least `min_length`
+/// metres long. Parts that begin or end at a node of the edge stay there; free nodes are made at
+/// all other ends. Nodes that lose their last edge stay.
+void KeepParts(EdgeId edge, const std::vector<EdgePart>& parts, double min_length,
+               SkeletonGraph& skeleton);
+
+}  // namespace curvefusion
