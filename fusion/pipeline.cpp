@@ -279,6 +279,7 @@ void CorrectBySilhouettes(const ColourAdjustment& adjusted, RunContext& run,
   TidyRidgeSkeleton(result.skeleton, run.options.ridge);
   run.log.Count(stage, "removed, m", changes.removed);
   run.log.Count(stage, "rungs", changes.rungs);
+  run.log.Count(stage, "continued", changes.continued);
   run.log.Count(stage, "found", changes.found);
   run.log.Count(stage, "forks", changes.forks);
   run.log.Count(stage, "bridges", changes.bridges);

@@ -1,6 +1,7 @@
 #include "graph/branch_continuations.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <set>
 #include <utility>
@@ -21,6 +22,7 @@ constexpr double kFacingCosine = 0.85;
 constexpr double kLeastBranch = 0.012;
 // At the very end of a branch the ridges of other wires draw it sideways.
 constexpr double kBlurred = 0.006;
+constexpr std::array<double, 6> kShifts = {0.003, -0.003, 0.006, -0.006, 0.009, -0.009};
 
 // A point of a curve, with its direction.
 struct CurvePoint {
@@ -202,20 +204,21 @@ std::vector<BranchContinuation> FindContinuations(const SkeletonGraph& graph,
   return found;
 }
 
-std::optional<BranchContinuation> Shifted(const SkeletonGraph& graph,
-                                          const BranchContinuation& continuation, double distance) {
-  if (continuation.to >= 0) return std::nullopt;
-  const std::vector<double> arc_lengths =
-      CumulativeLength(graph.edge(continuation.target.edge).points);
-  BranchContinuation shifted = continuation;
-  shifted.target.arc_length += distance;
-  if (shifted.target.arc_length < 0 || shifted.target.arc_length > arc_lengths.back()) {
-    return std::nullopt;
+std::vector<BranchContinuation> WithShifts(const SkeletonGraph& graph,
+                                           const BranchContinuation& continuation) {
+  std::vector<BranchContinuation> ways{continuation};
+  if (continuation.to >= 0) return ways;
+  const Polyline& points = graph.edge(continuation.target.edge).points;
+  const std::vector<double> arc_lengths = CumulativeLength(points);
+  for (const double shift : kShifts) {
+    BranchContinuation shifted = continuation;
+    shifted.target.arc_length += shift;
+    if (shifted.target.arc_length < 0 || shifted.target.arc_length > arc_lengths.back()) continue;
+    const Vec3 end = PointAt(points, arc_lengths, shifted.target.arc_length);
+    shifted.curve = Resample({continuation.curve.front(), end}, kStep);
+    ways.push_back(std::move(shifted));
   }
-  const Vec3 end =
-      PointAt(graph.edge(shifted.target.edge).points, arc_lengths, shifted.target.arc_length);
-  shifted.curve = Resample({continuation.curve.front(), end}, kStep);
-  return shifted;
+  return ways;
 }
 
 void AddContinuations(SkeletonGraph& graph, const std::vector<BranchContinuation>& continuations,

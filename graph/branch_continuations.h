@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "graph/junctions.h"
@@ -37,10 +36,11 @@ struct BranchContinuation {
 std::vector<BranchContinuation> FindContinuations(const SkeletonGraph& graph,
                                                   const ContinuationOptions& options);
 
-/// A continuation with the place where it meets the other edge moved along that by a distance,
-/// metres of either sign; nothing where it would leave the edge or ends at a node.
-std::optional<BranchContinuation> Shifted(const SkeletonGraph& graph,
-                                          const BranchContinuation& continuation, double distance);
+/// A continuation and, as the directions of ends are not exact, the same with the place where it
+/// meets the other edge moved along that by up to 9 mm to either side, the least first; those that
+/// would leave the edge, or end at a node, are left out.
+std::vector<BranchContinuation> WithShifts(const SkeletonGraph& graph,
+                                           const BranchContinuation& continuation);
 
 /// Adds continuations as edges with the radius of their branch where that has one: their far ends
 /// become nodes of the edges they reach. Handles of split edges become invalid.

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "fusion/silhouettes/narrow_forks.h"
+#include "fusion/silhouettes/silhouette_continuations.h"
 #include "fusion/silhouettes/silhouette_pruning.h"
 #include "fusion/silhouettes/silhouette_rungs.h"
 #include "fusion/silhouettes/silhouette_seeds.h"
@@ -65,6 +66,7 @@ SilhouetteChanges CorrectTopology(const WireSilhouettes& silhouettes,
   RerouteCurves(silhouettes, options.bridges.min_share, skeleton);
   changes.removed = DropRefutedParts(silhouettes, options.min_share, skeleton);
   changes.rungs = DropRungsInSheets(silhouettes, options.bridges.min_share, skeleton);
+  changes.continued = ContinueWires(silhouettes, options.bridges.min_share, skeleton);
   const std::vector<FoundPiece> pieces = AddUnexplainedWires(silhouettes, skeleton);
   changes.found = static_cast<int>(pieces.size());
   SplitAtCorners(skeleton, kCorner);

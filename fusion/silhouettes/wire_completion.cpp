@@ -1,8 +1,6 @@
 #include "fusion/silhouettes/wire_completion.h"
 
 #include <algorithm>
-#include <array>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -24,9 +22,7 @@ constexpr double kClearWidths = 0.85;  // as TrackStrips asks of what it accepts
 constexpr double kClearPx = 2;
 constexpr double kMaxForeshortening = 0.96;  // what depth loses is mostly seen nearly end on
 constexpr double kCrossingPx = 4;            // half a crossing wire and its blur
-// Directions are not exact: how far to either side a way may end, the least first.
-constexpr std::array<double, 7> kShifts = {0, 0.003, -0.003, 0.006, -0.006, 0.009, -0.009};
-constexpr double kCornerAngle = 1.0;  // the same as for smoothing
+constexpr double kCornerAngle = 1.0;         // the same as for smoothing
 
 // How often a place was looked at where no other curve is in the way, and seen.
 struct Looks {
@@ -160,11 +156,9 @@ std::vector<Trial> MakeTrials(const SkeletonGraph& skeleton,
   for (size_t i = 0; i < ways.size(); ++i) {
     const double radius = RadiusOf(skeleton, ways[i].branch);
     if (radius <= 0) continue;
-    for (const double shift : kShifts) {
-      auto shifted = shift == 0 ? ways[i] : Shifted(skeleton, ways[i], shift);
-      if (!shifted) continue;
+    for (BranchContinuation& shifted : WithShifts(skeleton, ways[i])) {
       const EdgeId unknown = -1 - static_cast<EdgeId>(trials.size());
-      trials.push_back({i, std::move(*shifted), radius, {}, {}});
+      trials.push_back({i, std::move(shifted), radius, {}, {}});
       trials.back().samples = SamplesAlong(trials.back().way.curve, unknown, step);
       trials.back().looks.resize(trials.back().samples.size());
     }

@@ -97,14 +97,24 @@ TEST(AddContinuations, MakeCyclesOfAComb) {
   EXPECT_NO_THROW(Validate(graph, 1e-6, "comb"));
 }
 
-TEST(ShiftedContinuation, MovesItsEndAlongTheOtherEdge) {
+TEST(ShiftedContinuations, EndBesideEachOtherOnTheOtherEdge) {
   const SkeletonGraph graph = Comb();
   const BranchContinuation way = Downward(graph).front();
-  const auto shifted = Shifted(graph, way, 0.006);
-  ASSERT_TRUE(shifted.has_value());
-  EXPECT_EQ(shifted->curve.front(), way.curve.front());
-  EXPECT_NEAR((shifted->curve.back() - way.curve.back()).norm(), 0.006, 1e-12);
-  EXPECT_FALSE(Shifted(graph, way, 1).has_value());
+  const std::vector<BranchContinuation> ways = WithShifts(graph, way);
+  ASSERT_EQ(ways.size(), 7);
+  EXPECT_EQ(ways[0].curve, way.curve);
+  for (size_t i = 1; i < ways.size(); ++i) {
+    EXPECT_EQ(ways[i].curve.front(), way.curve.front());
+    EXPECT_NEAR((ways[i].curve.back() - way.curve.back()).norm(),
+                0.003 * static_cast<double>((i + 1) / 2), 1e-12);
+  }
+}
+
+TEST(ShiftedContinuations, DoNotLeaveTheOtherEdge) {
+  const SkeletonGraph graph = Comb();
+  BranchContinuation way = Downward(graph).front();
+  way.target.arc_length = 0.004;
+  EXPECT_EQ(WithShifts(graph, way).size(), 5);
 }
 
 }  // namespace
