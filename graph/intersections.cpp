@@ -12,6 +12,7 @@
 #include "graph/contacts.h"
 #include "graph/edge_curve.h"
 #include "graph/merge.h"
+#include "graph/parallel_edges.h"
 #include "graph/validate.h"
 #include "kernel/disjoint_sets.h"
 #include "kernel/error.h"

@@ -2,16 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
-#include <memory>
-#include <numeric>
 #include <set>
 #include <tuple>
 
 #include "graph/contacts.h"
-#include "graph/edge_curve.h"
 #include "graph/junctions.h"
-#include "graph/segment_tree.h"
+#include "graph/parallel_edges.h"
 #include "kernel/spatial_search.h"
 
 namespace curvefusion {
@@ -19,101 +15,11 @@ namespace curvefusion {
 namespace {
 
 constexpr int kMaxRounds = 8;
-// Nodes of edges are fetched from memory so many edges ahead.
-constexpr size_t kLookahead = 12;
 // Curves that were joined at both ends of a stretch within the threshold may part a little between.
 constexpr double kParallelSlack = 1.5;
 
-// The trees of edges whose distance was asked for.
-class EdgeTrees {
- public:
-  explicit EdgeTrees(const SkeletonGraph& graph) : graph_(graph) {}
-
-  /// Whether every point of an edge lies within a distance of another edge.
-  bool StaysWithin(EdgeId edge, EdgeId other, double distance) {
-    const auto [entry, is_new] = trees_.try_emplace(other);
-    if (is_new) entry->second = std::make_unique<SegmentTree>(graph_.edge(other).points);
-    const SegmentTree& tree = *entry->second;
-    const Polyline& points = graph_.edge(edge).points;
-    if (!tree.IsWithin(points[points.size() / 2], distance)) return false;
-    return std::all_of(points.begin(), points.end(),
-                       [&tree, distance](const Vec3& p) { return tree.IsWithin(p, distance); });
-  }
-
- private:
-  const SkeletonGraph& graph_;
-  std::map<EdgeId, std::unique_ptr<SegmentTree>> trees_;
-};
-
-double Weight(const SkeletonEdge& edge) {
-  if (edge.observations.empty()) return 1;
-  const double sum = std::accumulate(edge.observations.begin(), edge.observations.end(), 0.0);
-  return std::max(1e-6, sum / static_cast<double>(edge.observations.size()));
-}
-
-// Whether two edges between the same nodes run against each other; of two self-loops, the
-// direction in which they stay nearer.
-bool RunAgainst(const SkeletonEdge& a, const SkeletonEdge& b) {
-  if (a.nodes[0] != a.nodes[1]) return a.nodes[0] != b.nodes[0];
-  const Vec3 quarter = PointAt(a.points, CumulativeLength(a.points), Length(a.points) / 4);
-  const std::vector<double> arcs = CumulativeLength(b.points);
-  return (quarter - PointAt(b.points, arcs, arcs.back() * 3 / 4)).norm() <
-         (quarter - PointAt(b.points, arcs, arcs.back() / 4)).norm();
-}
-
-// The values of `to` at the same fractions of the length as the points of `from`.
-SkeletonEdge MatchAlongLength(const SkeletonEdge& from, const SkeletonEdge& to) {
-  const std::vector<double> from_arcs = CumulativeLength(from.points);
-  const std::vector<double> to_arcs = CumulativeLength(to.points);
-  const double scale = from_arcs.back() > 0 ? to_arcs.back() / from_arcs.back() : 0;
-  std::vector<double> at;
-  at.reserve(from_arcs.size());
-  for (const double arc : from_arcs) at.push_back(std::min(arc * scale, to_arcs.back()));
-  return SampledAt(to, to_arcs, at);
-}
-
-// The mean of two edges between the same nodes, on the points of the first.
-SkeletonEdge MeanEdge(const SkeletonEdge& a, SkeletonEdge b) {
-  if (RunAgainst(a, b)) Reverse(b);
-  const double share = Weight(b) / (Weight(a) + Weight(b));
-  const SkeletonEdge matched = MatchAlongLength(a, b);
-  SkeletonEdge mean = a;
-  if (mean.radii.empty()) mean.radii = matched.radii;
-  for (size_t i = 0; i < mean.points.size(); ++i) {
-    if (i > 0 && i + 1 < mean.points.size())
-      mean.points[i] += share * (matched.points[i] - mean.points[i]);
-    if (!matched.radii.empty()) mean.radii[i] += share * (matched.radii[i] - mean.radii[i]);
-    if (!mean.observations.empty() && !matched.observations.empty())
-      mean.observations[i] += matched.observations[i];
-  }
-  RemoveRepeatedPoints(mean);
-  return mean;
-}
-
 bool IsDangling(const SkeletonGraph& graph, const SkeletonEdge& edge) {
   return graph.Degree(edge.nodes[0]) == 1 || graph.Degree(edge.nodes[1]) == 1;
-}
-
-// Every two edges with the same two nodes, by ascending handles, if one of them changed after a
-// version.
-std::vector<std::pair<EdgeId, EdgeId>> EdgesOfSameNodes(const SkeletonGraph& graph, int since) {
-  std::vector<std::pair<EdgeId, EdgeId>> pairs;
-  const std::vector<EdgeId> edges = graph.Edges(since);
-  for (size_t i = 0; i < edges.size(); ++i) {
-    if (i + kLookahead < edges.size())
-      for (const NodeId node : graph.edge(edges[i + kLookahead]).nodes) graph.FetchNode(node);
-    const EdgeId id = edges[i];
-    const auto& [a, b] = graph.edge(id).nodes;
-    const NodeId node = graph.Degree(a) <= graph.Degree(b) ? a : b;
-    for (const EdgeId other : graph.IncidentEdges(node)) {
-      const auto& [c, d] = graph.edge(other).nodes;
-      if (other != id && std::minmax(a, b) == std::minmax(c, d))
-        pairs.emplace_back(std::minmax(id, other));
-    }
-  }
-  std::sort(pairs.begin(), pairs.end());
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-  return pairs;
 }
 
 // Pairs of junctions within a distance, nearest first.
@@ -202,25 +108,6 @@ void MergeNearbyJunctions(SkeletonGraph& graph, double distance) {
   for (const auto& [apart, i, j] : NearPairs(clusters.means(), distance))
     clusters.Unite(i, j, distance);
   MergeNodeGroups(graph, clusters.Groups(), 2 * distance);
-}
-
-std::vector<std::pair<EdgeId, EdgeId>> ParallelEdges(const SkeletonGraph& graph, double distance,
-                                                     int since) {
-  std::vector<std::pair<EdgeId, EdgeId>> parallel;
-  EdgeTrees trees(graph);
-  for (const auto& [a, b] : EdgesOfSameNodes(graph, since))
-    if (trees.StaysWithin(a, b, distance) && trees.StaysWithin(b, a, distance))
-      parallel.emplace_back(a, b);
-  return parallel;
-}
-
-void MergeParallelEdges(SkeletonGraph& graph, double distance, int since) {
-  for (const auto& [a, b] : ParallelEdges(graph, distance, since)) {
-    if (!graph.HasEdge(a) || !graph.HasEdge(b)) continue;
-    SkeletonEdge mean = MeanEdge(graph.edge(a), graph.edge(b));
-    graph.RemoveEdge(b);
-    graph.SetCurve(a, std::move(mean.points), std::move(mean.radii), std::move(mean.observations));
-  }
 }
 
 void MergeOverlappingEdges(SkeletonGraph& graph, double distance) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <utility>
 #include <vector>
 
 #include "graph/skeleton_graph.h"
@@ -12,16 +11,6 @@ namespace curvefusion {
 /// while their means are within the distance, so a row of junctions does not collapse. Edges
 /// between merged junctions disappear up to a length of 2 `distance`. CurveFusion 3.3.
 void MergeNearbyJunctions(SkeletonGraph& graph, double distance);
-
-/// Pairs of edges between the same two nodes of which every point of each lies within `distance` of
-/// the other, decided exactly: one curve that is there twice; of pairs of which an edge changed
-/// after a version. O(n log n) in the points of candidates.
-std::vector<std::pair<EdgeId, EdgeId>> ParallelEdges(const SkeletonGraph& graph, double distance,
-                                                     int since = 0);
-
-/// Replaces parallel edges by their mean along arc length, weighted by observations; observations
-/// add up. `since` as for ParallelEdges.
-void MergeParallelEdges(SkeletonGraph& graph, double distance, int since = 0);
 
 /// Where edges run side by side within `distance`, longer than a crossing explains: joins them at
 /// both ends of that stretch and replaces the two parts by their mean along arc length.

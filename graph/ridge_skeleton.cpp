@@ -6,6 +6,7 @@
 
 #include "graph/intersections.h"
 #include "graph/merge.h"
+#include "graph/parallel_edges.h"
 
 namespace curvefusion {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "graph/contacts.h"
-#include "graph/merge.h"
+#include "graph/parallel_edges.h"
 #include "kernel/error.h"
 
 namespace curvefusion {

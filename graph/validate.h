@@ -23,8 +23,8 @@ std::vector<std::string> Faults(const SkeletonGraph& graph);
 /// - it has no Faults;
 /// - no two edges come within `proximity` of each other except at a shared node, no edge comes
 ///   within it of itself except where it is continuous (FindContacts says what that means);
-/// - no edge is there twice: two edges between the same nodes, each within `proximity` of the
-///   other.
+/// - no edge is there twice: two edges between the same nodes that are one curve to within
+///   `proximity` (graph/parallel_edges.h).
 /// Exact decisions; O(n log n) in segments for graphs that are nearly valid.
 std::vector<std::string> Violations(const SkeletonGraph& graph, double proximity);
 

@@ -8,7 +8,7 @@
 #include "graph/curve_network.h"
 #include "graph/graph_smoother.h"
 #include "graph/intersections.h"
-#include "graph/merge.h"
+#include "graph/parallel_edges.h"
 #include "graph/segment_pairs.h"
 #include "graph/sparse_solver.h"
 #include "kernel/parallel.h"

@@ -46,32 +46,6 @@ TEST(MergeNearbyJunctions, ARowDoesNotCollapse) {
   EXPECT_GE(graph.node_count(), 60 / 4);
 }
 
-TEST(MergeParallelEdges, TwiceTheSameCurveBecomesItsWeightedMean) {
-  SkeletonGraph graph;
-  graph.AddNode({0, 0, 0});
-  graph.AddNode({0.1, 0, 0});
-  const Polyline above = {{0, 0, 0}, {0.05, 0.004, 0}, {0.1, 0, 0}};
-  graph.AddEdge({{0, 1}, above, {}, {3, 3, 3}});
-  graph.AddEdge({{1, 0}, {{0.1, 0, 0}, {0.05, 0, 0}, {0, 0, 0}}, {}, {1, 1, 1}});
-  MergeParallelEdges(graph, 0.003);
-  EXPECT_EQ(graph.edge_count(), 2);
-  MergeParallelEdges(graph, 0.005);
-  ASSERT_EQ(graph.edge_count(), 1);
-  EXPECT_NEAR(graph.edge(0).points[1].y(), 0.003, 1e-12);  // three quarters of 4 mm
-  EXPECT_EQ(graph.edge(0).observations[1], 4);
-}
-
-TEST(MergeParallelEdges, RingsMeetInTheRightDirection) {
-  SkeletonGraph graph;
-  const Polyline ring = Ring(0.05, 100);
-  const NodeId node = graph.AddNode(ring[0]);
-  Connect(graph, node, node, ring);
-  Connect(graph, node, node, Polyline(ring.rbegin(), ring.rend()));
-  MergeParallelEdges(graph, 0.001);
-  ASSERT_EQ(graph.edge_count(), 1);
-  EXPECT_NEAR(graph.TotalLength(), Length(ring), 1e-12);  // the same points twice
-}
-
 TEST(MergeOverlappingEdges, OnlyTheCommonStretchIsMerged) {
   SkeletonGraph graph;
   graph.AddPolyline(StraightLine({0, 0, 0}, {0.2, 0, 0}));

@@ -9,7 +9,6 @@
 #include <array>
 #include <cstdlib>
 #include <functional>
-#include <optional>
 #include <set>
 #include <string>
 
@@ -21,6 +20,7 @@
 #include "graph/graph_io.h"
 #include "graph/intersections.h"
 #include "graph/merge.h"
+#include "graph/parallel_edges.h"
 #include "graph/smoothing.h"
 #include "graph/validate.h"
 #include "tests/graph/contact_oracle.h"
@@ -82,12 +82,9 @@ std::string CheckUntouched(const Given& given, const SkeletonGraph& resolved) {
 // How far resolving with threshold 0 may move points, metres: below 64 times 64 ulps of the largest
 // coordinate, as places nearer than 64 ulps are one and what is joined may be joined again. Only
 // where a curve is cut within a thousandth of a segment from a vertex, that gives way to the cut.
-// None where segments lie on one another: of curves that become one the mean is taken, and they are
-// compared by their vertices only.
-std::optional<double> PieceBound(const Given& given) {
+double PieceBound(const Given& given) {
   constexpr double kJoined = 64;
   constexpr double kSplinter = 2e-3;  // twice that of cuts: segments have been cut before
-  constexpr double kParallel = 1e-6;
   const SegmentTable table(given.graph);
   double bound = kJoined * ResolutionAt(LargestCoordinate(given.graph));
   double longest = 0;
@@ -99,7 +96,6 @@ std::optional<double> PieceBound(const Given& given) {
     const Segment t = table.At(pair.t);
     const Vec3 u = s.b - s.a;
     const Vec3 v = t.b - t.a;
-    if (u.cross(v).norm() <= kParallel * u.norm() * v.norm()) return std::nullopt;
     const ClosestParameters at = ClosestPoints(s.a, s.b, t.a, t.b);
     for (const auto& [parameter, length] : {std::pair(at.s, u.norm()), {at.t, v.norm()}}) {
       const double from_end = std::min(parameter, 1 - parameter);
@@ -117,9 +113,7 @@ std::string CheckPieces(const Given& given, const SkeletonGraph& resolved) {
   const std::set<int> different(pieces.begin(), pieces.end());
   if (resolved.ComponentCount() > static_cast<int>(different.size()))
     return "resolving tears apart what hung together";
-  const std::optional<double> bound = PieceBound(given);
-  if (!bound) return "";
-  return DifferenceFromPieces(given.graph, given.contacts, resolved, *bound);
+  return DifferenceFromPieces(given.graph, given.contacts, resolved, PieceBound(given));
 }
 
 std::string CheckResolution(const Given& given, uint64_t seed) {
