@@ -142,6 +142,7 @@ class VertexFinder {
 
 void JoinContacts(SkeletonGraph& graph, const std::vector<Contact>& contacts, double threshold,
                   JoinSelection selection) {
+  const double reach = selection == JoinSelection::kAll ? 0 : kConnectedReach * threshold;
   OccupiedParts occupied;
   std::vector<LocationPair> places;
   for (const Contact* contact : ByRank(contacts)) {
@@ -152,7 +153,7 @@ void JoinContacts(SkeletonGraph& graph, const std::vector<Contact>& contacts, do
     if (!is_free) continue;
     if (contact->overlap && selection == JoinSelection::kApart)
       for (const Part& part : parts) occupied.Add(part.edge, part.low, part.high);
-    const std::vector<LocationPair> joined = PlacesToJoin(*contact, threshold);
+    const std::vector<LocationPair> joined = PlacesToJoin(*contact, threshold, reach);
     places.insert(places.end(), joined.begin(), joined.end());
   }
   JoinLocations(graph, places, threshold);

@@ -210,6 +210,15 @@ std::vector<Stretch> Stretches(const SegmentTable& table, const std::vector<Segm
   return stretches;
 }
 
+std::vector<Stretch> StretchesOf(const SegmentTable& table, const std::vector<SegmentPair>& pairs,
+                                 double threshold, double radius) {
+  std::vector<Stretch> stretches;
+  stretches.reserve(pairs.size());
+  for (const SegmentPair& pair : pairs)
+    stretches.push_back(StretchOf(table, pair, threshold, radius));
+  return stretches;
+}
+
 bool AreOneStretch(const Stretch& a, const Stretch& b, double gap) {
   if (a.curves != b.curves) return false;
   for (int i = 0; i < 2; ++i) {
@@ -263,8 +272,12 @@ std::vector<Contact> ContactsOf(const SegmentTable& table, const std::vector<Seg
   // that have a point in common are in contact, lines that have more.
   const double overlap_extent =
       radius > threshold ? kCollinearExtent * radius : 2 * kConnectedReach * radius;
+  // There each pair of segments is a contact of its own, as a curve may run over a place any number
+  // of times: the ends of a stretch that is put together of several say little then.
   const std::vector<Stretch> stretches =
-      UnitedStretches(Stretches(table, pairs, threshold, radius), kStretchGap * radius);
+      radius > threshold
+          ? StretchesOf(table, pairs, threshold, radius)
+          : UnitedStretches(Stretches(table, pairs, threshold, radius), kStretchGap * radius);
   std::vector<Contact> contacts;
   contacts.reserve(stretches.size());
   for (const Stretch& stretch : stretches)
@@ -292,13 +305,13 @@ std::vector<Contact> ContactSearch::Find(const SkeletonGraph& graph) {
   return ContactsOf(pairs_.table(), pairs_.pairs(), threshold_, radius);
 }
 
-std::vector<LocationPair> PlacesToJoin(const Contact& contact, double threshold) {
+std::vector<LocationPair> PlacesToJoin(const Contact& contact, double snap, double reach) {
   if (!contact.overlap) {
-    if (contact.closest_gap > threshold) return {contact.closest};
+    if (contact.closest_gap > snap) return {contact.closest};
     return {contact.first_gap > contact.last_gap ? contact.first : contact.last};
   }
   // A stretch that begins where FindContacts stops to excuse a shared node goes on to that node.
-  const double at_node = (kConnectedReach + 2) * threshold;
+  const double at_node = reach + 2 * snap;
   std::vector<LocationPair> places;
   bool is_joined = false;
   for (const bool at_first : {true, false}) {

@@ -9,7 +9,8 @@
 namespace curvefusion {
 
 /// A stretch along which two edges, or two parts of one, come within a threshold of each other
-/// without need: segments in contact (graph/segment_pairs.h) that follow one another on both.
+/// without need: segments in contact (graph/segment_pairs.h) that follow one another on both. With
+/// a threshold below rounding, each pair of segments is one.
 struct Contact {
   LocationPair closest;    ///< where they are nearest
   double distance = 0;     ///< there, metres
@@ -50,7 +51,8 @@ class ContactSearch {
 /// The places that have to become one node to resolve a contact: the nearest ones, or where these
 /// are at one node already, the end of the stretch farther from it; for an overlap, those at its
 /// two ends, as far as they are not at a node already. Where one edge folds back onto itself, the
-/// fold is a place of its own, paired with itself. The threshold must be above zero.
-std::vector<LocationPair> PlacesToJoin(const Contact& contact, double threshold);
+/// fold is a place of its own, paired with itself. Places no more than `snap` from a node are at
+/// it, above zero; `reach` is the arc length over a node up to which FindContacts excuses nearness.
+std::vector<LocationPair> PlacesToJoin(const Contact& contact, double snap, double reach);
 
 }  // namespace curvefusion

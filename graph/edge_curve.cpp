@@ -9,7 +9,7 @@ namespace curvefusion {
 
 namespace {
 
-// A vertex nearer to a cut than this part of its segment is replaced by the cut, so that no
+// A vertex no farther from a cut than this part of its segment is replaced by the cut, so that no
 // splinter of a segment is left.
 constexpr double kSplinter = 1e-3;
 
@@ -38,15 +38,20 @@ T Interpolated(const std::vector<T>& values, const Place& place) {
   return values[place.index] + place.fraction * (values[place.index + 1] - values[place.index]);
 }
 
-// The places of a part: its two cuts and the vertices between them.
-Places PlacesBetween(const std::vector<double>& arc_lengths, double from, double to) {
+// The places of a part: its two cuts and the vertices between them, but for those that give way to
+// a cut.
+Places PlacesBetween(const std::vector<double>& arc_lengths, double from, double to,
+                     double max_splinter) {
   const Place first = PlaceAt(arc_lengths, from);
   const Place last = PlaceAt(arc_lengths, to);
+  const auto splinter = [&](size_t i) {
+    return std::min(kSplinter, max_splinter / (arc_lengths[i + 1] - arc_lengths[i]));
+  };
   Places places;
   places.reserve(last.index - first.index + 2);
   places.push_back(first);
-  const size_t begin = first.index + (first.fraction > 1 - kSplinter ? 2 : 1);
-  const size_t end = last.index + (last.fraction < kSplinter ? 0 : 1);
+  const size_t begin = first.index + (1 - first.fraction <= splinter(first.index) ? 2 : 1);
+  const size_t end = last.index + (last.fraction <= splinter(last.index) ? 0 : 1);
   for (size_t i = begin; i < end; ++i) places.push_back({i, 0.0});
   places.push_back(last);
   return places;
@@ -168,9 +173,9 @@ void MoveNodeAndFade(SkeletonGraph& graph, NodeId node, const Vec3& position, do
 }  // namespace
 
 SkeletonEdge PartOfEdge(const SkeletonEdge& edge, const std::vector<double>& arc_lengths,
-                        double from, double to) {
+                        double from, double to, double max_splinter) {
   assert(from <= to && arc_lengths.size() == edge.points.size());
-  return EdgeAt(edge, PlacesBetween(arc_lengths, from, to));
+  return EdgeAt(edge, PlacesBetween(arc_lengths, from, to, max_splinter));
 }
 
 Vec3 CutPoint(const SkeletonEdge& edge, const std::vector<double>& arc_lengths, double at) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "graph/skeleton_graph.h"
@@ -9,9 +10,11 @@ namespace curvefusion {
 /// The curve of an edge between two arc lengths from <= to, with radii and observations
 /// interpolated. `arc_lengths` is CumulativeLength(edge.points). The nodes of the result are those
 /// of the edge and mean nothing. Parts that share a cut share its point bit for bit; at least two
-/// points.
+/// points. A vertex of the edge that is no more than `max_splinter` metres and a thousandth of the
+/// segment from a cut gives way to it.
 SkeletonEdge PartOfEdge(const SkeletonEdge& edge, const std::vector<double>& arc_lengths,
-                        double from, double to);
+                        double from, double to,
+                        double max_splinter = std::numeric_limits<double>::infinity());
 
 /// The point at which parts of an edge are cut at an arc length, bit for bit as PartOfEdge gives
 /// it.

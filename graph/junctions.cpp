@@ -79,7 +79,7 @@ class EdgeCutter {
     const SkeletonEdge whole = graph_.TakeEdge(id);
     splits.emplace_back(lengths.back(), whole.nodes[1]);
     for (size_t i = 0; i + 1 < splits.size(); ++i) {
-      SkeletonEdge part = PartOfEdge(whole, lengths, splits[i].first, splits[i + 1].first);
+      SkeletonEdge part = PartOfEdge(whole, lengths, splits[i].first, splits[i + 1].first, snap_);
       part.nodes = {splits[i].second, splits[i + 1].second};
       graph_.AddEdge(std::move(part));
     }

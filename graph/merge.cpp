@@ -117,7 +117,7 @@ void MergeOverlappingEdges(SkeletonGraph& graph, double distance) {
     std::vector<LocationPair> places;
     for (const Contact& contact : FindContacts(graph, distance)) {
       if (!contact.overlap) continue;
-      const std::vector<LocationPair> ends = PlacesToJoin(contact, distance);
+      const std::vector<LocationPair> ends = PlacesToJoin(contact, distance, kConnectedReach * distance);
       places.insert(places.end(), ends.begin(), ends.end());
     }
     if (places.empty()) return;

@@ -32,6 +32,18 @@ TEST(EdgeCurve, ACutAtAVertexLeavesNoSplinter) {
   }
 }
 
+TEST(EdgeCurve, AVertexFartherThanTheLongestSplinterStays) {
+  const SkeletonEdge edge = LEdge();
+  const std::vector<double> arcs = CumulativeLength(edge.points);
+  for (const auto& [limit, points] : {std::pair(1e-9, 2u), {0.5e-9, 3u}, {0.0, 3u}}) {
+    EXPECT_EQ(PartOfEdge(edge, arcs, 0, 1 + 0.75e-9, limit).points.size(), points);
+    EXPECT_EQ(PartOfEdge(edge, arcs, 1 - 0.75e-9, 2, limit).points.size(), points);
+  }
+  // A cut at a vertex is the vertex.
+  EXPECT_EQ(PartOfEdge(edge, arcs, 0, 1, 0).points.size(), 2u);
+  EXPECT_EQ(PartOfEdge(edge, arcs, 1, 2, 0).points.size(), 2u);
+}
+
 TEST(EdgeCurve, ResamplingKeepsEndsAndInterpolates) {
   const SkeletonEdge edge = Resampled(LEdge(), 0.1);
   ASSERT_EQ(edge.points.size(), 21u);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -175,6 +176,39 @@ TEST(ResolveIntersections, ACurveThatRunsBackOverItselfBecomesSimple) {
     // The curve bends to the junction, which may lie a threshold off.
     EXPECT_NEAR(graph.TotalLength(), 0.2, std::max(1e-9, threshold));
   }
+}
+
+// Parts of the line are covered once, three and five times; where it is left, a fork is all that
+// remains.
+TEST(ResolveIntersections, ACurveThatRunsManyTimesOverItselfIsLaidOutInOneRound) {
+  SkeletonGraph graph;
+  graph.AddPolyline({{0, 0, 0},
+                     {1, 0, 0},
+                     {0.25, 0, 0},
+                     {0.75, 0, 0},
+                     {0.375, 0, 0},
+                     {0.5, 0, 0},
+                     {0.5, 0.5, 0}});
+  const ResolutionRounds rounds = ResolveIntersections(graph, 0);
+  EXPECT_EQ(rounds.joining, 1);
+  EXPECT_EQ(rounds.merging + rounds.dropping, 0);
+  EXPECT_EQ(graph.edge_count(), 3);
+  ASSERT_EQ(CountDegree(graph, 3), 1);
+  EXPECT_NEAR(graph.TotalLength(), 1.5, 1e-12);  // rounding only
+}
+
+// Cut at a millionth of its segment from a vertex, a curve stays where it is.
+TEST(ResolveIntersections, AtThresholdZeroAVertexNearACrossingStays) {
+  SkeletonGraph graph;
+  const Vec3 corner(0, 0, 0);
+  graph.AddPolyline({{-1, 0, 0}, corner, {0, 1, 0}});
+  graph.AddPolyline({{-1e-6, -1, 0}, {-1e-6, 1, 0}});
+  ResolveIntersections(graph, 0);
+  EXPECT_EQ(graph.edge_count(), 4);
+  int found = 0;
+  for (const EdgeId id : graph.Edges())
+    found += std::count(graph.edge(id).points.begin(), graph.edge(id).points.end(), corner);
+  EXPECT_EQ(found, 1);
 }
 
 TEST(ResolveIntersections, ThousandsThroughOnePointMeetThere) {

@@ -79,30 +79,11 @@ std::string CheckUntouched(const Given& given, const SkeletonGraph& resolved) {
   return AsText(resolved) == AsText(expected) ? "" : "without contacts, something has changed";
 }
 
-// How far resolving with threshold 0 may move points, metres: below 64 times 64 ulps of the largest
-// coordinate, as places nearer than 64 ulps are one and what is joined may be joined again. Only
-// where a curve is cut within a thousandth of a segment from a vertex, that gives way to the cut.
-double PieceBound(const Given& given) {
-  constexpr double kJoined = 64;
-  constexpr double kSplinter = 2e-3;  // twice that of cuts: segments have been cut before
-  const SegmentTable table(given.graph);
-  double bound = kJoined * ResolutionAt(LargestCoordinate(given.graph));
-  double longest = 0;
-  for (int k = 0; k < table.point_count(); ++k)
-    if (table.IsSegment(k)) longest = std::max(longest, (table.At(k).b - table.At(k).a).norm());
-  bool has_splinters = false;
-  for (const SegmentPair& pair : given.contacts) {
-    const Segment s = table.At(pair.s);
-    const Segment t = table.At(pair.t);
-    const Vec3 u = s.b - s.a;
-    const Vec3 v = t.b - t.a;
-    const ClosestParameters at = ClosestPoints(s.a, s.b, t.a, t.b);
-    for (const auto& [parameter, length] : {std::pair(at.s, u.norm()), {at.t, v.norm()}}) {
-      const double from_end = std::min(parameter, 1 - parameter);
-      has_splinters |= from_end < kSplinter && from_end * length > bound / kJoined;
-    }
-  }
-  return has_splinters ? kSplinter * longest : bound;
+// How far resolving with threshold 0 may move points, metres: places nearer than 64 ulps of the
+// largest coordinate are one, and what was joined may be joined again.
+double PieceBound(const SkeletonGraph& graph) {
+  constexpr double kJoined = 4;
+  return kJoined * ResolutionAt(LargestCoordinate(graph));
 }
 
 // With threshold 0, the pieces are known: those that hang together by nodes or contacts. Above,
@@ -113,7 +94,7 @@ std::string CheckPieces(const Given& given, const SkeletonGraph& resolved) {
   const std::set<int> different(pieces.begin(), pieces.end());
   if (resolved.ComponentCount() > static_cast<int>(different.size()))
     return "resolving tears apart what hung together";
-  return DifferenceFromPieces(given.graph, given.contacts, resolved, PieceBound(given));
+  return DifferenceFromPieces(given.graph, given.contacts, resolved, PieceBound(given.graph));
 }
 
 std::string CheckResolution(const Given& given, uint64_t seed) {
