@@ -1,9 +1,12 @@
 #include "graph/canonical_form.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <numeric>
 #include <utility>
 #include <vector>
+
+#include "kernel/morton_order.h"
 
 namespace curvefusion {
 
@@ -40,9 +43,9 @@ int Compare(const SkeletonEdge& a, bool a_reversed, const SkeletonEdge& b, bool 
 // is fetched in time.
 constexpr size_t kLookahead = 12;
 
-// Places of nodes in ascending order, found by their first coordinate alone where that decides.
+// Where a position comes in the order of nodes, as far as 63 bits tell.
 struct SortedNode {
-  double x;
+  uint64_t code;
   NodeId node;
 };
 
@@ -50,10 +53,10 @@ std::vector<SortedNode> SortedNodes(const SkeletonGraph& graph) {
   std::vector<SortedNode> sorted;
   sorted.reserve(graph.node_count());
   for (const NodeId node : graph.Nodes())
-    if (graph.Degree(node) > 0) sorted.push_back({graph.position(node).x(), node});
+    if (graph.Degree(node) > 0) sorted.push_back({MortonCode(graph.position(node)), node});
   std::sort(sorted.begin(), sorted.end(), [&graph](const SortedNode& a, const SortedNode& b) {
-    if (a.x != b.x) return a.x < b.x;
-    return Compare(graph.position(a.node), graph.position(b.node)) < 0;
+    if (a.code != b.code) return a.code < b.code;
+    return ComesBefore(graph.position(a.node), graph.position(b.node));
   });
   return sorted;
 }
@@ -135,10 +138,15 @@ template <class At, class Take>
 SkeletonGraph InCanonicalOrder(CanonicalOrder order, const At& at, const Take& take) {
   const size_t count = order.edges.size();
   for (size_t i = 0; i < count; ++i) {
-    if (i + 2 * kLookahead < count) __builtin_prefetch(&at(order.edges[i + 2 * kLookahead].edge));
+    if (i + 2 * kLookahead < count) {
+      const SkeletonEdge& later = at(order.edges[i + 2 * kLookahead].edge);
+      __builtin_prefetch(&later.nodes);
+      __builtin_prefetch(&later.observations);  // may lie on the next line
+    }
     if (i + kLookahead < count) {
       const SkeletonEdge& later = at(order.edges[i + kLookahead].edge);
       __builtin_prefetch(later.points.data());
+      __builtin_prefetch(&later.points.back());
       for (const NodeId node : later.nodes)
         __builtin_prefetch(&order.nodes.position(order.new_nodes[node]));
     }

@@ -5,9 +5,10 @@
 #include <iterator>
 #include <numeric>
 #include <span>
-#include <tuple>
+#include <utility>
 
 #include "graph/edge_curve.h"
+#include "kernel/buckets.h"
 #include "kernel/disjoint_sets.h"
 
 namespace curvefusion {
@@ -34,7 +35,8 @@ class EdgeCutter {
     for (const auto& [a, b] : pairs)
       for (const CurveLocation& location : {a, b})
         places_.push_back({location.edge, static_cast<int>(places_.size()), location.arc_length});
-    std::sort(places_.begin(), places_.end());
+    if (places_.empty()) return {};
+    SortPlaces();
     nodes_.resize(places_.size());
     for (size_t i = 0; i < places_.size();) {
       size_t j = i;
@@ -53,10 +55,27 @@ class EdgeCutter {
     EdgeId edge;
     int number;  // in the order in which places are given
     double arc_length;
-    bool operator<(const Place& other) const {
-      return std::tie(edge, arc_length) < std::tie(other.edge, other.arc_length);
-    }
   };
+
+  // By edge, and along each.
+  void SortPlaces() {
+    const auto [first, last] =
+        std::minmax_element(places_.begin(), places_.end(),
+                            [](const Place& a, const Place& b) { return a.edge < b.edge; });
+    const EdgeId first_edge = first->edge;
+    const int edge_count = last->edge - first_edge + 1;
+    std::vector<int> buckets;
+    buckets.reserve(places_.size());
+    for (const Place& place : places_) buckets.push_back(place.edge - first_edge);
+    const Buckets by_edge = SortIntoBuckets(buckets, edge_count);
+    std::vector<Place> sorted;
+    sorted.reserve(places_.size());
+    for (const int i : by_edge.members) sorted.push_back(places_[i]);
+    for (int k = 0; k < edge_count; ++k)
+      std::sort(sorted.begin() + by_edge.first[k], sorted.begin() + by_edge.first[k + 1],
+                [](const Place& a, const Place& b) { return a.arc_length < b.arc_length; });
+    places_ = std::move(sorted);
+  }
 
   // Arc lengths at which an edge is split, and the nodes there.
   using Splits = boost::container::small_vector<std::pair<double, NodeId>, 8>;

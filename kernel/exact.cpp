@@ -198,6 +198,7 @@ double SizeOf(const Offset<double>& offset) {
 std::optional<bool> RoundedWithin(const Segment& s, const Segment& t, double distance) {
   const ClosestParameters at = ClosestPoints(s.a, s.b, t.a, t.b);
   const Offset<double> offset(s, t);
+  if (SizeOf(offset) == 0) return true;  // the same point
   const Vector<double> apart = offset.At(at.s, at.t);
   const double least = Dot(offset.w, apart) + std::min(0.0, Dot(offset.u, apart)) -
                        std::max(0.0, Dot(offset.v, apart));
