@@ -50,17 +50,18 @@ class PointGrid {
   };
 
   static constexpr int64_t kCellsPerAxis = int64_t{1} << 21;
+  static constexpr int64_t kHalfOfAxis = int64_t{1} << 20;
 
   // Far outliers share the outermost cells: clamping keeps neighbours in neighbouring cells.
   int64_t Coordinate(double x) const {
-    const double half = static_cast<double>(kCellsPerAxis / 2);
+    const auto half = static_cast<double>(kHalfOfAxis);
     return static_cast<int64_t>(std::clamp(std::floor(x / cell_size_) + half, 0.0, 2 * half - 1));
   }
   static bool IsOutermost(int64_t coordinate) {
     return coordinate == 0 || coordinate == kCellsPerAxis - 1;
   }
   double CellCenter(int64_t coordinate) const {
-    return (static_cast<double>(coordinate - kCellsPerAxis / 2) + 0.5) * cell_size_;
+    return (static_cast<double>(coordinate - kHalfOfAxis) + 0.5) * cell_size_;
   }
   static uint64_t ColumnKey(int64_t x, int64_t y) {
     return (static_cast<uint64_t>(x) << 21) | static_cast<uint64_t>(y);
