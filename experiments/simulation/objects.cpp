@@ -6,15 +6,16 @@
 namespace curvefusion {
 
 std::vector<std::string> ObjectNames() {
-  return {"dish",        "cage",     "cat",        "deco",      "hanger",
-          "rack",        "chair",    "wine",       "triangles", "parallel_wires",
-          "breadholder", "valence6", "mesh_panel", "cubeframe", "empty"};
+  return {"dish",       "cage",      "cat",       "deco",           "hanger",      "rack",
+          "chair",      "wine",      "triangles", "parallel_wires", "breadholder", "valence6",
+          "mesh_panel", "cubeframe", "empty",     "stool",          "basket",      "shelf",
+          "ladder",     "dome",      "spring",    "knot",           "coat_stand"};
 }
 
 WireObject MakeObject(const std::string& name, const ObjectOptions& options) {
   WireObject object{name, options.curves};
   if (object.curves.empty() && !MakePaperObject(name, object.curves) &&
-      !MakeStudyObject(name, options, object.curves)) {
+      !MakeEverydayObject(name, object.curves) && !MakeStudyObject(name, options, object.curves)) {
     throw Error(ErrorKind::kUsage, "no object is called '" + name + "'; did you mean '" +
                                        NearestName(name, ObjectNames()) + "'?");
   }

@@ -35,13 +35,17 @@ std::vector<std::string> ObjectNames();
 /// The paper's eight objects as analogues (`dish`, `cage`, `cat`, `deco`, `hanger`, `rack`,
 /// `chair`, `wine`: sizes guessed from its figures, diameters from its Table 1), and objects of the
 /// studies: `triangles` (1, 2, 3 and 4 mm), `parallel_wires`, `breadholder`, `valence6` (the
-/// junction of the paper's limitations), `mesh_panel`, `cubeframe`, `empty` (no wire at all).
+/// junction of the paper's limitations), `mesh_panel`, `cubeframe`, `empty` (no wire at all), and
+/// of other shapes: `stool`, `basket`, `shelf`, `ladder`, `dome`, `spring`, `knot`, `coat_stand`.
 /// Throws Error(kUsage) for another name, unless the options bring the curves, and for parallel
 /// wires thicker than their spacing.
 WireObject MakeObject(const std::string& name, const ObjectOptions& options = {});
 
 /// The paper's eight; false where `name` is none of them.
 bool MakePaperObject(const std::string& name, std::vector<WireCurve>& curves);
+
+/// Objects of other shapes; false where `name` is none of them.
+bool MakeEverydayObject(const std::string& name, std::vector<WireCurve>& curves);
 
 /// The objects of the studies; false where `name` is none of them.
 bool MakeStudyObject(const std::string& name, const ObjectOptions& options,
