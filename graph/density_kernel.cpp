@@ -1,23 +1,19 @@
 #include "graph/density_kernel.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace curvefusion {
 
 namespace {
 
-using Lanes = Eigen::Array4f;
-constexpr int kLanes = 4;
 // Neighbours do for kernels so far from where they were gathered, in sigma, and turned by an angle
 // of this cosine at most: what is then missed lies at the kernel's edge, where it weighs nothing.
 constexpr double kSlack = 0.5;
 constexpr double kLeastCosine = 0.9;
 
-Lanes Load(const float* values) { return Eigen::Map<const Lanes, Eigen::Unaligned>(values); }
-
-// Ones for the first so many lanes.
-constexpr float kFirstLanes[kLanes][kLanes] = {
-    {0, 0, 0, 0}, {1, 0, 0, 0}, {1, 1, 0, 0}, {1, 1, 1, 0}};
+Lanes PositivePart(const Lanes& lanes) { return lanes > 0 ? lanes : Lanes{}; }
 
 // The sums that make up moments, four points at a time.
 class KernelSums {
@@ -28,14 +24,34 @@ class KernelSums {
         along_scale_(static_cast<float>(1 - 1 / (place.stretch * place.stretch))),
         scale_(static_cast<float>(1 / (8 * sigma * sigma))) {}
 
-  void Add(const Lanes& x, const Lanes& y, const Lanes& z, const Lanes& weights) {
-    const Lanes dx = x - at_.x();
-    const Lanes dy = y - at_.y();
-    const Lanes dz = z - at_.z();
+  // All points of [first, last).
+  void Add(const PackedArrays& points, int first, int last) {
+    KernelSums in_registers = *this;
+    for (int i = first; i < last; i += kLanes) in_registers.Add(points.Load(i, last));
+    *this = in_registers;
+  }
+
+  KernelMoments Moments() const {
+    KernelMoments moments;
+    moments.weight = Sum(sum_);
+    if (moments.weight <= 0) return moments;
+    moments.mean = Vec3(Sum(x_), Sum(y_), Sum(z_)) / moments.weight;
+    Mat3 second;
+    second << Sum(xx_), Sum(xy_), Sum(xz_), Sum(xy_), Sum(yy_), Sum(yz_), Sum(xz_), Sum(yz_),
+        Sum(zz_);
+    moments.covariance = second / moments.weight - moments.mean * moments.mean.transpose();
+    return moments;
+  }
+
+ private:
+  [[gnu::always_inline]] void Add(const PackedArrays::Packet& points) {
+    const Lanes dx = points.x - at_.x();
+    const Lanes dy = points.y - at_.y();
+    const Lanes dz = points.z - at_.z();
     const Lanes t_along = dx * along_.x() + dy * along_.y() + dz * along_.z();
     const Lanes squared = dx * dx + dy * dy + dz * dz - along_scale_ * t_along * t_along;
-    const Lanes t = (1.0F - scale_ * squared).max(0.0F);
-    const Lanes weight = weights * (t * t) * (t * t);
+    const Lanes t = PositivePart(1.0F - scale_ * squared);
+    const Lanes weight = points.weights * (t * t) * (t * t);
     const Lanes wx = weight * dx;
     const Lanes wy = weight * dy;
     const Lanes wz = weight * dz;
@@ -51,23 +67,9 @@ class KernelSums {
     yz_ += wy * dz;
   }
 
-  KernelMoments Moments() const {
-    KernelMoments moments;
-    moments.weight = sum_.sum();
-    if (moments.weight <= 0) return moments;
-    moments.mean = Vec3(x_.sum(), y_.sum(), z_.sum()) / moments.weight;
-    Mat3 second;
-    second << xx_.sum(), xy_.sum(), xz_.sum(), xy_.sum(), yy_.sum(), yz_.sum(), xz_.sum(),
-        yz_.sum(), zz_.sum();
-    moments.covariance = second / moments.weight - moments.mean * moments.mean.transpose();
-    return moments;
-  }
-
- private:
   Vec3f at_, along_;
   float along_scale_, scale_;
-  Lanes sum_ = Lanes::Zero(), x_ = sum_, y_ = sum_, z_ = sum_;
-  Lanes xx_ = sum_, yy_ = sum_, zz_ = sum_, xy_ = sum_, xz_ = sum_, yz_ = sum_;
+  Lanes sum_{}, x_{}, y_{}, z_{}, xx_{}, yy_{}, zz_{}, xy_{}, xz_{}, yz_{};
 };
 
 // The stick around which a long kernel extends by as much as across it.
@@ -75,63 +77,101 @@ Vec3 HalfStick(const KernelPlace& place, double sigma) {
   return (place.stretch - 1) * kKernelSupport * sigma * place.direction;
 }
 
+// The squared distance of a place, relative to the middle of a stick, from the stick.
+double SquaredDistanceFromStick(const Vec3& place, const Vec3& half_stick) {
+  const double squared = half_stick.squaredNorm();
+  const double t = squared > 0 ? std::clamp(place.dot(half_stick) / squared, -1.0, 1.0) : 0;
+  return (place - t * half_stick).squaredNorm();
+}
+
+// The same for packets of points.
+class StickDistance {
+ public:
+  StickDistance(const Vec3f& middle, const Vec3& half_stick)
+      : middle_(middle),
+        half_(half_stick.cast<float>()),
+        inverse_(static_cast<float>(1 / std::max(half_stick.squaredNorm(), 1e-30))) {}
+
+  [[gnu::always_inline]] Lanes Squared(const PackedArrays::Packet& points) const {
+    Lanes dx = points.x - middle_.x();
+    Lanes dy = points.y - middle_.y();
+    Lanes dz = points.z - middle_.z();
+    Lanes t = inverse_ * (dx * half_.x() + dy * half_.y() + dz * half_.z());
+    t = t > 1 ? Lanes{} + 1 : t;
+    t = t < -1 ? Lanes{} - 1 : t;
+    dx -= t * half_.x();
+    dy -= t * half_.y();
+    dz -= t * half_.z();
+    return dx * dx + dy * dy + dz * dz;
+  }
+
+ private:
+  Vec3f middle_, half_;
+  float inverse_;
+};
+
+// Appends the points of a cell that are near a stick to the first `count` in `near`; returns how
+// many there are then.
+int AppendNear(const PackedArrays& points, const PackedPoints::Run& cell,
+               const StickDistance& stick, float squared_reach, int count, PackedArrays& near) {
+  const size_t most = static_cast<size_t>(count + cell.last - cell.first + kLanes);
+  if (near.x.size() < most) near.Resize(2 * most);
+  for (int first = cell.first; first < cell.last; first += kLanes) {
+    const Lanes squared = stick.Squared(points.Load(first, cell.last));
+    const int last = std::min(kLanes, cell.last - first);
+    for (int lane = 0; lane < last; ++lane) {
+      near.x[count] = points.x[first + lane];
+      near.y[count] = points.y[first + lane];
+      near.z[count] = points.z[first + lane];
+      near.weights[count] = points.weights[first + lane];
+      count += squared[lane] <= squared_reach;
+    }
+  }
+  return count;
+}
+
 }  // namespace
 
 DensityField::DensityField(const ObservedPoints& points, double sigma)
-    : sigma_(sigma),
-      grid_(points.positions, (kKernelSupport + kSlack) * sigma),
-      origin_(points.empty() ? Vec3(Vec3::Zero()) : points.positions.front()) {
-  // Whole packets are read wherever they start.
-  const size_t padded = points.size() + kLanes - 1;
-  for (std::vector<float>* values : {&x_, &y_, &z_, &weights_}) values->assign(padded, 0);
-  for (size_t i = 0; i < points.size(); ++i) {
-    const int point = grid_.order()[i];
-    const Vec3f offset = (points.positions[point] - origin_).cast<float>();
-    x_[i] = offset.x();
-    y_[i] = offset.y();
-    z_[i] = offset.z();
-    weights_[i] = points.counts[point];
-  }
-}
+    : sigma_(sigma), points_(points.positions, points.counts, kKernelSupport * sigma) {}
 
 bool DensityField::Suffice(const Neighbours& neighbours, const KernelPlace& place) const {
   const KernelPlace& gathered = neighbours.place_;
   if (!neighbours.is_gathered_ || gathered.stretch != place.stretch) return false;
   const double slack = kSlack * sigma_;
   if ((place.position - gathered.position).squaredNorm() > slack * slack) return false;
-  return place.stretch == 1 || std::abs(place.direction.dot(gathered.direction)) >= kLeastCosine;
+  return std::abs(place.direction.dot(gathered.direction)) >= kLeastCosine;
 }
 
 void DensityField::Gather(const KernelPlace& place, Neighbours& neighbours) const {
   neighbours.place_ = place;
   neighbours.is_gathered_ = true;
-  neighbours.ranges_.clear();
   const double reach = (kKernelSupport + kSlack) * sigma_;
   const Vec3 half_stick = HalfStick(place, sigma_);
   const Vec3 extent = half_stick.cwiseAbs() + Vec3::Constant(reach);
-  // Of a column of cells, seen from above, the stick's shadow must come near.
-  const Vec2 half_shadow = half_stick.head<2>();
-  const double squared_shadow = half_shadow.squaredNorm();
-  const double column_reach = reach + grid_.cell_size();
-  const auto is_near = [&](double x, double y) {
-    const Vec2 offset = Vec2(x, y) - place.position.head<2>();
-    const double t =
-        squared_shadow > 0 ? std::clamp(offset.dot(half_shadow) / squared_shadow, -1.0, 1.0) : 0;
-    return (offset - t * half_shadow).squaredNorm() <= column_reach * column_reach;
-  };
-  grid_.ForEachRange(place.position - extent, place.position + extent, is_near,
-                     [&](int first, int last) { neighbours.ranges_.emplace_back(first, last); });
+  points_.FindCells(place.position - extent, place.position + extent, neighbours.cells_);
+  const double cell_reach = reach + std::numbers::sqrt3 / 2 * points_.cell_size();
+  const Vec3 at = points_.Relative(place.position).cast<double>();
+  const StickDistance stick(points_.Relative(place.position), half_stick);
+  const auto squared_reach = static_cast<float>(reach * reach);
+  int count = 0;
+  for (const PackedPoints::Run& cell : neighbours.cells_) {
+    const Vec3 offset = cell.center.cast<double>() - at;
+    if (SquaredDistanceFromStick(offset, half_stick) > cell_reach * cell_reach) continue;
+    count = AppendNear(points_.arrays(), cell, stick, squared_reach, count, neighbours.near_);
+  }
+  neighbours.near_.Resize(count);
+  neighbours.count_ = count;
 }
 
 KernelMoments DensityField::Moments(const KernelPlace& place, Neighbours& neighbours) const {
-  if (!Suffice(neighbours, place)) Gather(place, neighbours);
-  KernelSums sums(place, sigma_, (place.position - origin_).cast<float>());
-  for (const auto& [first, last] : neighbours.ranges_) {
-    for (int i = first; i < last; i += kLanes) {
-      Lanes weights = Load(&weights_[i]);
-      if (last - i < kLanes) weights *= Load(kFirstLanes[last - i]);
-      sums.Add(Load(&x_[i]), Load(&y_[i]), Load(&z_[i]), weights);
-    }
+  KernelSums sums(place, sigma_, points_.Relative(place.position));
+  if (place.stretch == 1) {
+    points_.ForEachRangeNear(place.position, kKernelSupport * sigma_, neighbours.around_,
+                             [&](int first, int last) { sums.Add(points_.arrays(), first, last); });
+  } else {
+    if (!Suffice(neighbours, place)) Gather(place, neighbours);
+    sums.Add(neighbours.near_, 0, neighbours.count_);
   }
   return sums.Moments();
 }

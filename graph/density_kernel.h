@@ -4,9 +4,9 @@
 #include <utility>
 #include <vector>
 
+#include "graph/packed_points.h"
 #include "kernel/geometry.h"
 #include "kernel/observed_points.h"
-#include "kernel/point_grid.h"
 
 namespace curvefusion {
 
@@ -46,7 +46,10 @@ class DensityField {
 
    private:
     friend class DensityField;
-    std::vector<std::pair<int, int>> ranges_;  // of points in the order of the grid
+    PackedPoints::Neighbours around_;       // for round kernels
+    std::vector<PackedPoints::Run> cells_;  // for long ones
+    PackedArrays near_;
+    int count_ = 0;  // of the points near
     bool is_gathered_ = false;
     KernelPlace place_;  // for which they were gathered
   };
@@ -62,9 +65,7 @@ class DensityField {
   void Gather(const KernelPlace& place, Neighbours& neighbours) const;
 
   double sigma_;
-  PointGrid grid_;
-  Vec3 origin_;                             ///< the points are stored relative to it
-  std::vector<float> x_, y_, z_, weights_;  ///< in the order of the grid
+  PackedPoints points_;
 };
 
 }  // namespace curvefusion

@@ -22,11 +22,25 @@ class PointGrid {
   template <class Visit>
   void ForEachWithin(const Vec3& p, double radius, const Visit& visit) const;
 
-  /// Calls visit(first, last) for ranges of order() that together hold all points in the box from
-  /// `low` to `high`, and some beside it: whole cells, those one above the other in one range.
-  /// Columns of cells for which keep(x, y of the centre) is false are left out.
-  template <class Keep, class Visit>
-  void ForEachRange(const Vec3& low, const Vec3& high, const Keep& keep, const Visit& visit) const;
+  /// The points of an occupied cell: [first, last) of order(). The outermost cells, which hold all
+  /// points beyond them, have no bounds.
+  struct CellPoints {
+    Vec3 center;
+    int first;
+    int last;
+    bool is_bounded;
+  };
+
+  /// Calls visit(CellPoints) for the occupied cells that overlap the box from `low` to `high`, in
+  /// ascending order of `first`.
+  template <class Visit>
+  void ForEachCell(const Vec3& low, const Vec3& high, const Visit& visit) const;
+
+  /// The centre of the cell in which p lies.
+  Vec3 CellCenterAt(const Vec3& p) const {
+    return {CellCenter(Coordinate(p.x())), CellCenter(Coordinate(p.y())),
+            CellCenter(Coordinate(p.z()))};
+  }
 
   /// Index of the nearest point within `max_distance` (inclusive) of p, the lowest of several; -1
   /// where there is none. The faster the nearer it is.
@@ -70,6 +84,11 @@ class PointGrid {
     return (ColumnKey(x, y) << 21) | static_cast<uint64_t>(z);
   }
 
+  // As ForEachCell, but whole columns of cells in one range: visit(first, last of order()). Columns
+  // for which keep(x, y of the centre) is false are left out.
+  template <class Keep, class Visit>
+  void ForEachRange(const Vec3& low, const Vec3& high, const Keep& keep, const Visit& visit) const;
+
   // The first of a sorted range whose key is not less.
   template <class Entry>
   static const Entry* FirstFrom(const Entry* first, const Entry* last, uint64_t key) {
@@ -103,6 +122,31 @@ void PointGrid::ForEachRange(const Vec3& low, const Vec3& high, const Keep& keep
       const uint64_t last_key = Key(x, y, high_z);
       while (last != top && last->key <= last_key) ++last;
       if (first != last) visit(first->first, last->first);
+    }
+  }
+}
+
+template <class Visit>
+void PointGrid::ForEachCell(const Vec3& low, const Vec3& high, const Visit& visit) const {
+  const int64_t low_y = Coordinate(low.y()), high_y = Coordinate(high.y());
+  const int64_t low_z = Coordinate(low.z()), high_z = Coordinate(high.z());
+  const Column* end = columns_.data() + columns_.size() - 1;
+  const Column* column = columns_.data();
+  for (int64_t x = Coordinate(low.x()); x <= Coordinate(high.x()); ++x) {
+    const uint64_t last_column = ColumnKey(x, high_y);
+    column = FirstFrom(column, end, ColumnKey(x, low_y));
+    for (; column != end && column->key <= last_column; ++column) {
+      const auto y = static_cast<int64_t>(column->key & (kCellsPerAxis - 1));
+      const Cell* top = cells_.data() + (column + 1)->first;
+      const Cell* cell = FirstFrom(cells_.data() + column->first, top, Key(x, y, low_z));
+      for (const uint64_t last_key = Key(x, y, high_z); cell != top && cell->key <= last_key;
+           ++cell) {
+        const auto z = static_cast<int64_t>(cell->key & (kCellsPerAxis - 1));
+        visit(CellPoints{{CellCenter(x), CellCenter(y), CellCenter(z)},
+                         cell->first,
+                         (cell + 1)->first,
+                         !IsOutermost(x) && !IsOutermost(y) && !IsOutermost(z)});
+      }
     }
   }
 }

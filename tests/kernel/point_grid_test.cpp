@@ -62,6 +62,35 @@ TEST(PointGrid, FarOutliersStayNeighboursOfTheirNeighbours) {
   EXPECT_EQ(Found(grid, points[2], 0.01), (std::vector<int>{2}));
 }
 
+TEST(PointGrid, CellsOverABoxHoldItsPoints) {
+  const std::vector<Vec3> points = RandomPoints(500);
+  const PointGrid grid(points, 0.011);
+  const Vec3 low(-0.02, -0.01, 0), high(0.01, 0.03, 0.04);
+  std::vector<int> found;
+  int last = 0;
+  grid.ForEachCell(low, high, [&](const PointGrid::CellPoints& cell) {
+    EXPECT_GE(cell.first, last);
+    EXPECT_TRUE(cell.is_bounded);
+    last = cell.last;
+    for (int i = cell.first; i < cell.last; ++i) {
+      found.push_back(grid.order()[i]);
+      const Vec3 offset = points[grid.order()[i]] - cell.center;
+      EXPECT_LE(offset.lpNorm<Eigen::Infinity>(), 0.5001 * grid.cell_size());
+      EXPECT_EQ(grid.CellCenterAt(points[grid.order()[i]]), cell.center);
+    }
+  });
+  int inside = 0;
+  for (int i = 0; i < 500; ++i) {
+    if ((points[i].array() < low.array()).any() || (points[i].array() > high.array()).any()) {
+      continue;
+    }
+    ++inside;
+    EXPECT_EQ(std::count(found.begin(), found.end(), i), 1);
+  }
+  EXPECT_GT(inside, 20);
+  EXPECT_LT(found.size(), 200u);  // not all
+}
+
 TEST(PointGrid, NearestIsThatOfBruteForce) {
   std::vector<Vec3> points = RandomPoints(200);
   points.push_back(points[17]);  // of two equally near the first is taken
