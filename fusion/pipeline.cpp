@@ -141,14 +141,21 @@ RadiusEstimate MeasureRadii(const SkeletonGraph& skeleton, const Sequence& seque
   return estimate;
 }
 
-SkeletonGraph Contract(const ObservedPoints& points, const std::string& name, RunContext& run) {
+// `ridge` holds the ridges of the points where they are known already.
+SkeletonGraph Contract(const ObservedPoints& points, const std::optional<RidgePoints>& ridge,
+                       const std::string& name, RunContext& run) {
   const StageLog::Timer timer(run.log, "contraction");
   const double ratio = run.ray_noise_ratio;
   const AffineTransform T_space_world =
       ratio > 1 ? NoiseMetric(points, ratio) : AffineTransform(Eigen::Scaling(run.magnification));
-  SkeletonGraph skeleton = ratio > 1 || run.magnification > 1
-                               ? ExtractRidgeSkeleton(points, run.options.ridge, T_space_world)
-                               : ExtractRidgeSkeleton(points, run.options.ridge);
+  SkeletonGraph skeleton;
+  if (ratio > 1 || run.magnification > 1) {
+    skeleton = ExtractRidgeSkeleton(points, run.options.ridge, T_space_world);
+  } else if (ridge) {
+    skeleton = ExtractRidgeSkeleton(points, *ridge, run.options.ridge);
+  } else {
+    skeleton = ExtractRidgeSkeleton(points, run.options.ridge);
+  }
   run.log.Count("contraction", "ray noise ratio", ratio);
   run.observer.OnProgress("contraction", 1, 1);
   run.observer.OnPoints(name + "_points", points);
@@ -156,10 +163,14 @@ SkeletonGraph Contract(const ObservedPoints& points, const std::string& name, Ru
   return skeleton;
 }
 
-// Registers every bundle to the curves of those before it: all points together, and for every frame
-// how its bundle was moved.
-std::pair<ObservedPoints, std::vector<RigidTransform>> RegisterBundles(const SegmentedScan& scan,
-                                                                       RunContext& run) {
+struct RegisteredBundles {
+  ObservedPoints points;                           // of all bundles
+  RidgePoints ridge;                               // of the points
+  std::vector<RigidTransform> T_registered_frame;  // for every frame how its bundle was moved
+};
+
+// Registers every bundle to the curves of those before it.
+RegisteredBundles RegisterBundles(const SegmentedScan& scan, RunContext& run) {
   const StageLog::Timer timer(run.log, "registration");
   CarriedPoints carried(run.options.carried);
   const RidgeProjectionOptions ridges =
@@ -176,23 +187,22 @@ std::pair<ObservedPoints, std::vector<RigidTransform>> RegisterBundles(const Seg
   for (const int bundle : scan.bundle_of_frame) {
     T_registered_frame.push_back(T_registered_bundle[bundle]);
   }
-  return {carried.points(), T_registered_frame};
+  return {carried.points(), carried.ridges(), T_registered_frame};
 }
 
 // Registers single frames, whose points were moved to the axes of a first skeleton.
-RegisteredFrames RegisterFramesToCurves(const SegmentedScan& scan,
-                                        const std::vector<RigidTransform>& T_registered_frame,
+RegisteredFrames RegisterFramesToCurves(const SegmentedScan& scan, const RegisteredBundles& bundles,
                                         const std::vector<Vec3>& cameras,
                                         const SkeletonGraph& first, RunContext& run) {
   const StageLog::Timer timer(run.log, "registration");
   std::vector<ObservedPoints> on_axis;
   for (size_t i = 0; i < scan.frames.size(); ++i) {
-    on_axis.push_back(Transformed(MoveToAxis(Transformed(scan.frames[i], T_registered_frame[i]),
-                                             first, run.options.axis_depth),
-                                  T_registered_frame[i].inverse()));
+    const RigidTransform& T = bundles.T_registered_frame[i];
+    on_axis.push_back(Transformed(
+        MoveToAxis(Transformed(scan.frames[i], T), first, run.options.axis_depth), T.inverse()));
   }
   RegisteredFrames registered =
-      RegisterFrames(on_axis, T_registered_frame, cameras,
+      RegisterFrames(on_axis, bundles.T_registered_frame, cameras, bundles.ridge,
                      ForCloseWires(run.options.ridge.projection, run.magnification),
                      run.options.registration, run.options.frames);
   run.observer.OnProgress("frame registration", 1, 1);
@@ -229,19 +239,20 @@ ObservedPoints LargestBundle(const SegmentedScan& scan) {
 // registered to noise: they keep the poses of their bundles.
 void ContractCarriedPoints(const SegmentedScan& scan, RunContext& run, Reconstruction& result) {
   run.ray_noise_ratio = RayNoiseRatio(LargestBundle(scan), run.options.min_linearity);
-  const auto [points, T_registered_frame] = RegisterBundles(scan, run);
-  SkeletonGraph first = Contract(points, "registered_bundles", run);
+  const RegisteredBundles bundles = RegisterBundles(scan, run);
+  SkeletonGraph first = Contract(bundles.points, bundles.ridge, "registered_bundles", run);
   AssignRadii(MeasureRadii(first, result.sequence, run), run.options.radius, first);
   if (run.ray_noise_ratio > 1) {
-    CorrectPoses(T_registered_frame, result.sequence);
-    result.points = MoveToAxis(points, first, run.options.axis_depth);
+    CorrectPoses(bundles.T_registered_frame, result.sequence);
+    result.points = MoveToAxis(bundles.points, first, run.options.axis_depth);
   } else {
-    RegisteredFrames registered = RegisterFramesToCurves(
-        scan, T_registered_frame, CameraCenters(result.sequence), first, run);
+    RegisteredFrames registered =
+        RegisterFramesToCurves(scan, bundles, CameraCenters(result.sequence), first, run);
     CorrectPoses(registered.T_registered_world, result.sequence);
     result.points = std::move(registered.points);
   }
-  result.skeleton = Contract(result.points, "registered_frames", run);
+  // Whatever shows only now that all points are in place is to be found, too.
+  result.skeleton = Contract(result.points, std::nullopt, "registered_frames", run);
 }
 
 void AssignMeasuredRadii(RunContext& run, Reconstruction& result) {

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "graph/density_kernel.h"
+#include "graph/packed_points.h"
 #include "graph/ridge_scale.h"
 #include "kernel/parallel.h"
 #include "kernel/point_grid.h"
@@ -17,8 +18,9 @@ namespace curvefusion {
 
 namespace {
 
-constexpr double kConvergedStep = 0.01 * kMillimetre;
-constexpr int kGrain = 32;
+// A tenth of the noise of ridges or less.
+constexpr double kConvergedStep = 0.02 * kMillimetre;
+constexpr int kGrain = 256;
 // Kernel widths grow by this factor from one level to the next.
 constexpr double kLevelRatio = 1.4142135623730951;
 // A density is smooth enough for points and seeds this far apart, in kernel widths.
@@ -65,17 +67,17 @@ double TypicalStrength(std::vector<double> strengths) {
 // often and seldom become equally strong, while their profile across stays.
 void EqualizeCounts(ObservedPoints& points, double radius, double least_relative_count) {
   if (points.empty()) return;
-  const PointGrid grid(points.positions, radius);
+  const PackedPoints packed(points.positions, points.counts, radius);
   std::vector<double> usual(points.size());
-  ParallelFor(0, static_cast<int64_t>(points.size()), kGrain, [&](int64_t i) {
-    double sum = 0;
-    double squares = 0;
-    grid.ForEachWithin(points.positions[i], radius, [&](int j, const Vec3&) {
-      const double count = points.counts[j];
-      sum += count;
-      squares += count * count;
-    });
-    usual[i] = squares / sum;
+  const std::vector<int> order = InOrderOfCells(points.positions, packed.cell_size());
+  const auto n = static_cast<int64_t>(points.size());
+  ParallelChunks(0, n, kGrain, [&](int64_t first, int64_t last) {
+    PackedPoints::Neighbours neighbours;
+    for (int64_t k = first; k < last; ++k) {
+      const int i = order[k];
+      const BallSums around = packed.SumsWithin(points.positions[i], radius, neighbours);
+      usual[i] = around.squared_weight / around.weight;
+    }
   });
   const double least = least_relative_count * Median(usual);
   for (size_t i = 0; i < points.size(); ++i) {
@@ -169,20 +171,29 @@ void ProjectSeed(const DensityField& field, const ProjectionRound& round, RidgeS
   }
 }
 
+std::vector<Vec3> Positions(const std::vector<RidgeSeed>& seeds) {
+  std::vector<Vec3> positions;
+  positions.reserve(seeds.size());
+  for (const RidgeSeed& seed : seeds) positions.push_back(seed.position);
+  return positions;
+}
+
 void ProjectSeeds(const std::vector<DensityField>& levels, const ProjectionRound& round,
                   std::vector<RidgeSeed>& seeds) {
+  const std::vector<int> order =
+      InOrderOfCells(Positions(seeds), kKernelSupport / 2 * levels[0].sigma());
   ParallelChunks(0, static_cast<int64_t>(seeds.size()), kGrain, [&](int64_t first, int64_t last) {
-    DensityField::Neighbours neighbours;
-    for (int64_t i = first; i < last; ++i) {
-      ProjectSeed(levels[seeds[i].level], round, seeds[i], neighbours);
+    std::vector<DensityField::Neighbours> neighbours(levels.size());
+    for (int64_t k = first; k < last; ++k) {
+      RidgeSeed& seed = seeds[order[k]];
+      ProjectSeed(levels[seed.level], round, seed, neighbours[seed.level]);
     }
   });
 }
 
 // Keeps the strongest seeds such that no two are nearer than the spacing.
 std::vector<RidgeSeed> ThinOut(const std::vector<RidgeSeed>& seeds, double spacing) {
-  std::vector<Vec3> positions;
-  for (const RidgeSeed& seed : seeds) positions.push_back(seed.position);
+  const std::vector<Vec3> positions = Positions(seeds);
   std::vector<int> order(seeds.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(),
@@ -200,8 +211,7 @@ std::vector<RidgeSeed> ThinOut(const std::vector<RidgeSeed>& seeds, double spaci
 
 // The typical strength of the seeds of one level around each seed.
 std::vector<double> UsualStrengths(const std::vector<RidgeSeed>& seeds, double radius) {
-  std::vector<Vec3> positions;
-  for (const RidgeSeed& seed : seeds) positions.push_back(seed.position);
+  const std::vector<Vec3> positions = Positions(seeds);
   const PointGrid grid(positions, radius);
   std::vector<double> usual(seeds.size());
   ParallelFor(0, static_cast<int64_t>(seeds.size()), kGrain, [&](int64_t i) {
@@ -251,8 +261,19 @@ RidgePoints WiresOfTheirOwn(const ObservedPoints& points, const std::vector<Ridg
     ridge.positions.push_back(seeds[i].position);
     ridge.directions.push_back(seeds[i].direction);
     ridge.strengths.push_back(seeds[i].strength);
+    ridge.levels.push_back(seeds[i].level);
   }
   return ridge;
+}
+
+// The ridge points to which seeds near ridges lead.
+RidgePoints RidgesFrom(const ObservedPoints& observed, const std::vector<DensityField>& levels,
+                       std::vector<RidgeSeed> seeds, const RidgeProjectionOptions& options) {
+  ProjectSeeds(levels, {MomentsAbout::kSeed, options.iterations, options.stretch}, seeds);
+  seeds = ThinOut(seeds, options.spacing);
+  const int widest_level = static_cast<int>(levels.size()) - 1;
+  return WiresOfTheirOwn(observed, TrueRidgeSeeds(seeds, widest_level, options), widest_level,
+                         options.contrast);
 }
 
 }  // namespace
@@ -324,13 +345,33 @@ RidgePoints ProjectToRidges(const ObservedPoints& points, const RidgeProjectionO
   EqualizeCounts(usable, options.equalization_radius, options.least_relative_count);
   const std::vector<DensityField> levels = MakeLevels(usable, options);
   std::vector<RidgeSeed> seeds = MakeSeeds(usable, levels, options);
-  ProjectSeeds(levels, {MomentsAbout::kMean, kGatheringIterations, 1}, seeds);
-  seeds = ThinOut(seeds, options.spacing / 2);
-  ProjectSeeds(levels, {MomentsAbout::kSeed, options.iterations, options.stretch}, seeds);
-  seeds = ThinOut(seeds, options.spacing);
-  const int widest_level = static_cast<int>(levels.size()) - 1;
-  return WiresOfTheirOwn(observed, TrueRidgeSeeds(seeds, widest_level, options), widest_level,
-                         options.contrast);
+  // Step by step, so that seeds that share their neighbours follow one another.
+  for (int i = 0; i < kGatheringIterations; ++i) {
+    ProjectSeeds(levels, {MomentsAbout::kMean, 1, 1}, seeds);
+  }
+  return RidgesFrom(observed, levels, ThinOut(seeds, options.spacing / 2), options);
+}
+
+RidgePoints FollowRidges(const ObservedPoints& points, const RidgePoints& before,
+                         const RidgeProjectionOptions& options) {
+  const ObservedPoints observed = UsablePoints(points);
+  ObservedPoints usable = observed;
+  EqualizeCounts(usable, options.equalization_radius, options.least_relative_count);
+  std::vector<RidgeSeed> seeds;
+  for (size_t i = 0; i < before.size(); ++i) {
+    seeds.push_back(
+        {before.positions[i], before.directions[i], before.strengths[i], 0, 0, before.levels[i]});
+  }
+  return RidgesFrom(observed, MakeLevels(usable, options), seeds, options);
+}
+
+void Append(RidgePoints& ridge, const RidgePoints& more, const RigidTransform& T) {
+  for (size_t i = 0; i < more.size(); ++i) {
+    ridge.positions.push_back(T * more.positions[i]);
+    ridge.directions.push_back(T.linear() * more.directions[i]);
+    ridge.strengths.push_back(more.strengths[i]);
+    ridge.levels.push_back(more.levels[i]);
+  }
 }
 
 }  // namespace curvefusion

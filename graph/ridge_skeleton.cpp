@@ -84,7 +84,11 @@ void VisitOptions(RidgeOptions& options, OptionVisitor& visitor) {
 }
 
 SkeletonGraph ExtractRidgeSkeleton(const ObservedPoints& points, const RidgeOptions& options) {
-  const RidgePoints ridge = ProjectToRidges(points, options.projection);
+  return ExtractRidgeSkeleton(points, ProjectToRidges(points, options.projection), options);
+}
+
+SkeletonGraph ExtractRidgeSkeleton(const ObservedPoints& points, const RidgePoints& ridge,
+                                   const RidgeOptions& options) {
   SkeletonGraph graph = ConnectRidgePoints(ridge, options.network);
   DropNoiseEdges(graph, points, options.edges);
   DropSmallComponents(graph, options.fragment_length);

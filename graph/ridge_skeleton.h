@@ -32,6 +32,10 @@ void VisitOptions(RidgeOptions& options, OptionVisitor& visitor);
 /// no radii and no observations. Shift the points with ShiftAlongRays first where radii are known.
 SkeletonGraph ExtractRidgeSkeleton(const ObservedPoints& points, const RidgeOptions& options);
 
+/// The same where the ridges of the points have been found already, with the same options.
+SkeletonGraph ExtractRidgeSkeleton(const ObservedPoints& points, const RidgePoints& ridge,
+                                   const RidgeOptions& options);
+
 /// The same in a space of other lengths: the points are moved there and the curves back.
 SkeletonGraph ExtractRidgeSkeleton(const ObservedPoints& points, const RidgeOptions& options,
                                    const AffineTransform& T_space_world);

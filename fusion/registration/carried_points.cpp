@@ -28,19 +28,20 @@ AlignmentResult CarriedPoints::AddBundle(const ObservedPoints& bundle,
                                          const RidgeProjectionOptions& ridges,
                                          const AlignmentOptions& alignment, double row_spacing) {
   AlignmentResult result;
+  const RidgePoints found = ProjectToRidges(bundle, ridges);
   if (!points_.empty() && !bundle.empty()) {
-    const RidgePoints curves = ProjectToRidges(points_, ridges);
     AlignmentOptions patient = alignment;
     patient.max_iterations = std::max(alignment.max_iterations, kIterations);
-    result =
-        AlignRows(ProjectToRidges(bundle, ridges),
-                  AlignmentTarget({curves.positions, curves.directions}), patient, row_spacing);
+    result = AlignRows(found, AlignmentTarget({ridges_.positions, ridges_.directions}), patient,
+                       row_spacing);
     if (!result.converged || result.inlier_fraction < options_.min_inliers) {
       result.T_target_source = RigidTransform::Identity();
     }
   }
   Append(points_, Transformed(bundle, result.T_target_source));
   points_ = ResampleOnGrid(points_, options_.voxel_size);
+  Append(ridges_, found, result.T_target_source);
+  ridges_ = FollowRidges(points_, ridges_, ridges);
   return result;
 }
 

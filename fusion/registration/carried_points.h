@@ -31,9 +31,13 @@ class CarriedPoints {
 
   const ObservedPoints& points() const { return points_; }
 
+  /// The ridges of the points, as found with the options of the last bundle.
+  const RidgePoints& ridges() const { return ridges_; }
+
  private:
   CarriedPointsOptions options_;
   ObservedPoints points_;
+  RidgePoints ridges_;
 };
 
 }  // namespace curvefusion

@@ -87,7 +87,7 @@ void VisitOptions(FrameRegistrationOptions& options, OptionVisitor& visitor) {
 
 RegisteredFrames RegisterFrames(const std::vector<ObservedPoints>& frames,
                                 const std::vector<RigidTransform>& start,
-                                const std::vector<Vec3>& cameras,
+                                const std::vector<Vec3>& cameras, RidgePoints ridge,
                                 const RidgeProjectionOptions& ridges,
                                 const AlignmentOptions& alignment,
                                 const FrameRegistrationOptions& options) {
@@ -96,7 +96,7 @@ RegisteredFrames RegisterFrames(const std::vector<ObservedPoints>& frames,
   result.T_registered_world = start;
   std::vector<RigidTransform>& T = result.T_registered_world;
   for (int round = 0; round < options.rounds; ++round) {
-    const RidgePoints ridge = ProjectToRidges(Merged(frames, T, options.voxel_size), ridges);
+    ridge = FollowRidges(Merged(frames, T, options.voxel_size), ridge, ridges);
     const AlignmentTarget curves({ridge.positions, ridge.directions});
     std::vector<MeasuredCorrection> measured(frames.size());
     ParallelFor(0, static_cast<int64_t>(frames.size()), 1, [&](int64_t i) {

@@ -30,16 +30,17 @@ struct RegisteredFrames {
 };
 
 /// Registers every frame to the ridges of all frames' points, merges the moved points, and repeats.
-/// `frames` holds what each frame saw (world frame, by its given pose, one entry per frame in order
-/// of time), `start` a first correction for each, `cameras` where each was taken from. What single
-/// frames measure is smoothed over time by what is known of drift: a frame alone is too noisy. In
-/// the end everything is moved so that the first frame keeps its given pose: the drift of a
-/// trajectory starts at zero there.
+/// `ridge` holds the ridges of all frames' points, with the start corrections, found with the
+/// options `ridges`; they are followed as the points move. `frames` holds what each frame saw
+/// (world frame, by its given pose, one entry per frame in order of time), `start` a first
+/// correction for each, `cameras` where each was taken from. What single frames measure is smoothed
+/// over time by what is known of drift: a frame alone is too noisy. In the end everything is moved
+/// so that the first frame keeps its given pose: the drift of a trajectory starts at zero there.
 /// Deviation: the paper registers bundles as a whole; a bundle smears by the drift within it, and
 /// anchors the world to the mean drift of the first one.
 RegisteredFrames RegisterFrames(const std::vector<ObservedPoints>& frames,
                                 const std::vector<RigidTransform>& start,
-                                const std::vector<Vec3>& cameras,
+                                const std::vector<Vec3>& cameras, RidgePoints ridge,
                                 const RidgeProjectionOptions& ridges,
                                 const AlignmentOptions& alignment,
                                 const FrameRegistrationOptions& options);

@@ -103,9 +103,9 @@ TEST(ConnectRidgePoints, ComponentsAreThoseOfTheDistanceGraph) {
 
 TEST(ConnectRidgePoints, DegenerateInput) {
   EXPECT_TRUE(ConnectRidgePoints({}, {}).empty());
-  EXPECT_TRUE(ConnectRidgePoints({{Vec3::Zero()}, {Vec3::UnitX()}, {1}}, {}).empty());
+  EXPECT_TRUE(ConnectRidgePoints({{Vec3::Zero()}, {Vec3::UnitX()}, {1}, {0}}, {}).empty());
   const RidgePoints coincident{
-      {Vec3::Zero(), Vec3::Zero()}, {Vec3::UnitX(), Vec3::UnitX()}, {1, 1}};
+      {Vec3::Zero(), Vec3::Zero()}, {Vec3::UnitX(), Vec3::UnitX()}, {1, 1}, {0, 0}};
   EXPECT_TRUE(ConnectRidgePoints(coincident, {}).empty());
 }
 

@@ -172,5 +172,35 @@ TEST(ShiftAlongRays, CentresWiresSeenFromOneSide) {
   EXPECT_NEAR(mean, 0, 0.15e-3);  // 4000 points scatter by .6 mm; the kernel's shape adds .1
 }
 
+TEST(FollowRidges, FindsTheRidgesOfMovedPointsAgain) {
+  const ObservedPoints points = NoisyWires({kWire});
+  const RidgePoints before = ProjectToRidges(points, {});
+  RigidTransform motion = RigidTransform::Identity();
+  motion.translation() = Vec3(0, 0.002, 0.001);
+  const RidgePoints after = FollowRidges(Transformed(points, motion), before, {});
+  const std::vector<Polyline> moved{{motion * kWire[0], motion * kWire[1]}};
+  // As near as ridges found from all points.
+  EXPECT_LT(GreatestDistanceInside(after, moved, 0.005, 0.095),
+            GreatestDistanceInside(before, {kWire}, 0.005, 0.095) + 2e-4);
+  EXPECT_LT(LargestGapAlongX(after, 0.005, 0.095), 0.004);
+}
+
+TEST(FollowRidges, TakesWhatSeveralCloudsShowTogether) {
+  const Polyline other{{0, 0.03, 0}, {0.1, 0.03, 0}};
+  RidgePoints before = ProjectToRidges(NoisyWires({kWire}), {});
+  const size_t ridge_points = before.size();
+  Append(before, ProjectToRidges(NoisyWires({other}), {}), RigidTransform::Identity());
+  const ObservedPoints both = NoisyWires({kWire, other});
+  const RidgePoints after = FollowRidges(both, before, {});
+  EXPECT_GT(after.size(), 1.8 * static_cast<double>(ridge_points));
+  EXPECT_LT(GreatestDistanceInside(after, {kWire, other}, 0.005, 0.095), 1e-3);
+}
+
+TEST(FollowRidges, NothingIsFoundWhereNothingWas) {
+  EXPECT_EQ(FollowRidges(NoisyWires({kWire}), {}, {}).size(), 0u);
+  const RidgePoints before = ProjectToRidges(NoisyWires({kWire}), {});
+  EXPECT_EQ(FollowRidges({}, before, {}).size(), 0u);
+}
+
 }  // namespace
 }  // namespace curvefusion
