@@ -359,8 +359,11 @@ RidgePoints FollowRidges(const ObservedPoints& points, const RidgePoints& before
   EqualizeCounts(usable, options.equalization_radius, options.least_relative_count);
   std::vector<RidgeSeed> seeds;
   for (size_t i = 0; i < before.size(); ++i) {
-    seeds.push_back(
-        {before.positions[i], before.directions[i], before.strengths[i], 0, 0, before.levels[i]});
+    // Those between close the gaps that thinning out would widen from time to time.
+    for (const double along : {-0.5, 0.0, 0.5}) {
+      const Vec3 place = before.positions[i] + along * options.spacing * before.directions[i];
+      seeds.push_back({place, before.directions[i], 0, 0, 0, before.levels[i]});
+    }
   }
   return RidgesFrom(observed, MakeLevels(usable, options), seeds, options);
 }
