@@ -13,8 +13,6 @@ namespace {
 constexpr double kSlack = 0.5;
 constexpr double kLeastCosine = 0.9;
 
-Lanes PositivePart(const Lanes& lanes) { return lanes > 0 ? lanes : Lanes{}; }
-
 // The sums that make up moments, four points at a time.
 class KernelSums {
  public:
@@ -25,7 +23,7 @@ class KernelSums {
         scale_(static_cast<float>(1 / (8 * sigma * sigma))) {}
 
   // All points of [first, last).
-  void Add(const PackedArrays& points, int first, int last) {
+  CURVEFUSION_WIDE_LANES void Add(const PackedArrays& points, int first, int last) {
     KernelSums in_registers = *this;
     for (int i = first; i < last; i += kLanes) in_registers.Add(points.Load(i, last));
     *this = in_registers;
@@ -50,7 +48,8 @@ class KernelSums {
     const Lanes dz = points.z - at_.z();
     const Lanes t_along = dx * along_.x() + dy * along_.y() + dz * along_.z();
     const Lanes squared = dx * dx + dy * dy + dz * dz - along_scale_ * t_along * t_along;
-    const Lanes t = PositivePart(1.0F - scale_ * squared);
+    Lanes t = 1.0F - scale_ * squared;
+    t = t > 0 ? t : Lanes{};
     const Lanes weight = points.weights * (t * t) * (t * t);
     const Lanes wx = weight * dx;
     const Lanes wy = weight * dy;
@@ -84,47 +83,47 @@ double SquaredDistanceFromStick(const Vec3& place, const Vec3& half_stick) {
   return (place - t * half_stick).squaredNorm();
 }
 
-// The same for packets of points.
-class StickDistance {
- public:
-  StickDistance(const Vec3f& middle, const Vec3& half_stick)
-      : middle_(middle),
-        half_(half_stick.cast<float>()),
-        inverse_(static_cast<float>(1 / std::max(half_stick.squaredNorm(), 1e-30))) {}
+// The same, for packets of points.
+struct Stick {
+  Vec3f middle, half;
+  float inverse;  // of the squared half length
+  float squared_reach;
 
-  [[gnu::always_inline]] Lanes Squared(const PackedArrays::Packet& points) const {
-    Lanes dx = points.x - middle_.x();
-    Lanes dy = points.y - middle_.y();
-    Lanes dz = points.z - middle_.z();
-    Lanes t = inverse_ * (dx * half_.x() + dy * half_.y() + dz * half_.z());
+  Stick(const Vec3f& center, const Vec3& half_stick, double reach)
+      : middle(center),
+        half(half_stick.cast<float>()),
+        inverse(static_cast<float>(1 / std::max(half_stick.squaredNorm(), 1e-30))),
+        squared_reach(static_cast<float>(reach * reach)) {}
+
+  [[gnu::always_inline]] void FindSquaredDistances(const PackedArrays::Packet& points,
+                                                   Lanes& squared) const {
+    Lanes dx = points.x - middle.x();
+    Lanes dy = points.y - middle.y();
+    Lanes dz = points.z - middle.z();
+    Lanes t = inverse * (dx * half.x() + dy * half.y() + dz * half.z());
     t = t > 1 ? Lanes{} + 1 : t;
     t = t < -1 ? Lanes{} - 1 : t;
-    dx -= t * half_.x();
-    dy -= t * half_.y();
-    dz -= t * half_.z();
-    return dx * dx + dy * dy + dz * dz;
+    dx -= t * half.x();
+    dy -= t * half.y();
+    dz -= t * half.z();
+    squared = dx * dx + dy * dy + dz * dz;
   }
-
- private:
-  Vec3f middle_, half_;
-  float inverse_;
 };
 
-// Appends the points of a cell that are near a stick to the first `count` in `near`; returns how
-// many there are then.
-int AppendNear(const PackedArrays& points, const PackedPoints::Run& cell,
-               const StickDistance& stick, float squared_reach, int count, PackedArrays& near) {
-  const size_t most = static_cast<size_t>(count + cell.last - cell.first + kLanes);
-  if (near.x.size() < most) near.Resize(2 * most);
+// Appends the points of a cell that are near a stick to the first `count` in `near`, where there is
+// room for all; returns how many there are then.
+CURVEFUSION_WIDE_LANES int AppendNear(const PackedArrays& points, const PackedPoints::Run& cell,
+                                      const Stick& stick, int count, PackedArrays& near) {
   for (int first = cell.first; first < cell.last; first += kLanes) {
-    const Lanes squared = stick.Squared(points.Load(first, cell.last));
+    Lanes squared;
+    stick.FindSquaredDistances(points.Load(first, cell.last), squared);
     const int last = std::min(kLanes, cell.last - first);
     for (int lane = 0; lane < last; ++lane) {
       near.x[count] = points.x[first + lane];
       near.y[count] = points.y[first + lane];
       near.z[count] = points.z[first + lane];
       near.weights[count] = points.weights[first + lane];
-      count += squared[lane] <= squared_reach;
+      count += squared[lane] <= stick.squared_reach;
     }
   }
   return count;
@@ -152,13 +151,14 @@ void DensityField::Gather(const KernelPlace& place, Neighbours& neighbours) cons
   points_.FindCells(place.position - extent, place.position + extent, neighbours.cells_);
   const double cell_reach = reach + std::numbers::sqrt3 / 2 * points_.cell_size();
   const Vec3 at = points_.Relative(place.position).cast<double>();
-  const StickDistance stick(points_.Relative(place.position), half_stick);
-  const auto squared_reach = static_cast<float>(reach * reach);
+  const Stick stick(points_.Relative(place.position), half_stick, reach);
   int count = 0;
   for (const PackedPoints::Run& cell : neighbours.cells_) {
     const Vec3 offset = cell.center.cast<double>() - at;
     if (SquaredDistanceFromStick(offset, half_stick) > cell_reach * cell_reach) continue;
-    count = AppendNear(points_.arrays(), cell, stick, squared_reach, count, neighbours.near_);
+    const size_t most = static_cast<size_t>(count + cell.last - cell.first + kLanes);
+    if (neighbours.near_.x.size() < most) neighbours.near_.Resize(2 * most);
+    count = AppendNear(points_.arrays(), cell, stick, count, neighbours.near_);
   }
   neighbours.near_.Resize(count);
   neighbours.count_ = count;

@@ -6,6 +6,36 @@
 
 namespace curvefusion {
 
+namespace {
+
+struct LaneSums {
+  Vec3f center;
+  float squared_radius;
+  Lanes weight{};
+  Lanes squared_weight{};
+};
+
+// Adds the points of [first, last) that are in the ball.
+CURVEFUSION_WIDE_LANES void AddWithin(const PackedArrays& arrays, int first, int last,
+                                      LaneSums& sums) {
+  Lanes sum = sums.weight;
+  Lanes squares = sums.squared_weight;
+  for (int i = first; i < last; i += kLanes) {
+    const PackedArrays::Packet points = arrays.Load(i, last);
+    const Lanes dx = points.x - sums.center.x();
+    const Lanes dy = points.y - sums.center.y();
+    const Lanes dz = points.z - sums.center.z();
+    const Lanes squared = dx * dx + dy * dy + dz * dz;
+    const Lanes weights = squared <= sums.squared_radius ? points.weights : Lanes{};
+    sum += weights;
+    squares += weights * weights;
+  }
+  sums.weight = sum;
+  sums.squared_weight = squares;
+}
+
+}  // namespace
+
 void PackedArrays::Resize(size_t points) {
   for (std::vector<float>* values : {&x, &y, &z, &weights}) {
     values->resize(points + kLanes - 1);
@@ -40,26 +70,10 @@ void PackedPoints::FindCells(const Vec3& low, const Vec3& high, std::vector<Run>
 }
 
 BallSums PackedPoints::SumsWithin(const Vec3& center, double radius, Neighbours& neighbours) const {
-  const Vec3f at = Relative(center);
-  const auto squared_radius = static_cast<float>(radius * radius);
-  Lanes sum{};
-  Lanes squares{};
-  ForEachRangeNear(center, radius, neighbours, [&](int first, int last) {
-    Lanes sum_here = sum, squares_here = squares;
-    for (int i = first; i < last; i += kLanes) {
-      const PackedArrays::Packet points = arrays_.Load(i, last);
-      const Lanes dx = points.x - at.x();
-      const Lanes dy = points.y - at.y();
-      const Lanes dz = points.z - at.z();
-      const Lanes squared = dx * dx + dy * dy + dz * dz;
-      const Lanes weights = squared <= squared_radius ? points.weights : Lanes{};
-      sum_here += weights;
-      squares_here += weights * weights;
-    }
-    sum = sum_here;
-    squares = squares_here;
-  });
-  return {Sum(sum), Sum(squares)};
+  LaneSums sums{Relative(center), static_cast<float>(radius * radius)};
+  ForEachRangeNear(center, radius, neighbours,
+                   [&](int first, int last) { AddWithin(arrays_, first, last, sums); });
+  return {Sum(sums.weight), Sum(sums.squared_weight)};
 }
 
 std::vector<int> InOrderOfCells(const std::vector<Vec3>& places, double cell_size) {

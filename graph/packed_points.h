@@ -8,8 +8,15 @@
 
 namespace curvefusion {
 
+/// Functions marked so are compiled for processors with wide registers, too. The bits are the same.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__)
+#define CURVEFUSION_WIDE_LANES [[gnu::target_clones("avx2", "default")]]
+#else
+#define CURVEFUSION_WIDE_LANES
+#endif
+
 /// So many points are summed at a time.
-inline constexpr int kLanes = 4;
+inline constexpr int kLanes = 8;
 using Lanes [[gnu::vector_size(kLanes * sizeof(float))]] = float;
 
 /// The sum of the lanes, always in the same order.
@@ -95,17 +102,19 @@ class PackedPoints {
 /// The order of places by cells of side `cell_size`.
 std::vector<int> InOrderOfCells(const std::vector<Vec3>& places, double cell_size);
 
-inline PackedArrays::Packet PackedArrays::Load(int first, int last) const {
-  // Ones for the first so many lanes.
-  static constexpr float kFirstLanes[kLanes][kLanes] = {
-      {0, 0, 0, 0}, {1, 0, 0, 0}, {1, 1, 0, 0}, {1, 1, 1, 0}};
-  const auto load = [](const float* values) {
-    Lanes lanes;
-    __builtin_memcpy(&lanes, values, sizeof(lanes));
-    return lanes;
-  };
-  Packet packet{load(&x[first]), load(&y[first]), load(&z[first]), load(&weights[first])};
-  if (last - first < kLanes) packet.weights *= load(kFirstLanes[last - first]);
+[[gnu::always_inline]] inline PackedArrays::Packet PackedArrays::Load(int first, int last) const {
+  // From so many on, ones for so many lanes less.
+  static constexpr float kOnesThenZeros[2 * kLanes] = {1, 1, 1, 1, 1, 1, 1, 1};
+  Packet packet;
+  __builtin_memcpy(&packet.x, &x[first], sizeof(Lanes));
+  __builtin_memcpy(&packet.y, &y[first], sizeof(Lanes));
+  __builtin_memcpy(&packet.z, &z[first], sizeof(Lanes));
+  __builtin_memcpy(&packet.weights, &weights[first], sizeof(Lanes));
+  if (last - first < kLanes) {
+    Lanes ones;
+    __builtin_memcpy(&ones, &kOnesThenZeros[kLanes - (last - first)], sizeof(Lanes));
+    packet.weights *= ones;
+  }
   return packet;
 }
 
