@@ -175,11 +175,16 @@ RegisteredBundles RegisterBundles(const SegmentedScan& scan, RunContext& run) {
   CarriedPoints carried(run.options.carried);
   const RidgeProjectionOptions ridges =
       ForCloseWires(run.options.ridge.projection, run.magnification);
+  // Side by side, as much of a projection is done one step after the other.
+  std::vector<RidgePoints> ridge_of_bundle(scan.bundles.size());
+  ParallelFor(0, static_cast<int64_t>(scan.bundles.size()), 1,
+              [&](int64_t i) { ridge_of_bundle[i] = ProjectToRidges(scan.bundles[i], ridges); });
   std::vector<RigidTransform> T_registered_bundle;
-  for (const ObservedPoints& bundle : scan.bundles) {
-    T_registered_bundle.push_back(
-        carried.AddBundle(bundle, ridges, run.options.registration, run.row_spacing)
-            .T_target_source);
+  for (size_t i = 0; i < scan.bundles.size(); ++i) {
+    T_registered_bundle.push_back(carried
+                                      .AddBundle(scan.bundles[i], ridge_of_bundle[i], ridges,
+                                                 run.options.registration, run.row_spacing)
+                                      .T_target_source);
     run.observer.OnProgress("bundle registration", static_cast<int64_t>(T_registered_bundle.size()),
                             static_cast<int64_t>(scan.bundles.size()));
   }

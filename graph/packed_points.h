@@ -87,6 +87,9 @@ class PackedPoints {
 
   double cell_size() const { return grid_.cell_size(); }
 
+  /// The points' indices, sorted by cell.
+  const std::vector<int>& order() const { return grid_.order(); }
+
   /// A place as the points are stored.
   Vec3f Relative(const Vec3& place) const { return (place - origin_).cast<float>(); }
 

@@ -69,7 +69,7 @@ void EqualizeCounts(ObservedPoints& points, double radius, double least_relative
   if (points.empty()) return;
   const PackedPoints packed(points.positions, points.counts, radius);
   std::vector<double> usual(points.size());
-  const std::vector<int> order = InOrderOfCells(points.positions, packed.cell_size());
+  const std::vector<int>& order = packed.order();
   const auto n = static_cast<int64_t>(points.size());
   ParallelChunks(0, n, kGrain, [&](int64_t first, int64_t last) {
     PackedPoints::Neighbours neighbours;

@@ -14,6 +14,8 @@ namespace curvefusion {
 namespace {
 
 constexpr int kGrain = 256;
+// Over so much of a window the numbers of limits exceeded hardly change.
+constexpr double kCellPerWindow = 1.0 / 3;
 
 // A spread s seen through a kernel of variance v has variance s^2 v / (s^2 + v).
 double SpreadBehindKernel(double variance, double kernel_variance) {
@@ -40,42 +42,67 @@ std::vector<double> SpreadsAt(const ObservedPoints& points, const std::vector<Ve
   return spreads;
 }
 
+// For each number of limits the samples whose spread exceeds so many.
+std::vector<PackedPoints> PackByExceeded(const std::vector<Vec3>& samples,
+                                         const std::vector<double>& spreads,
+                                         const std::vector<double>& limits, double window) {
+  std::vector<std::vector<Vec3>> by_exceeded(limits.size() + 1);
+  for (size_t i = 0; i < samples.size(); ++i) {
+    const auto limit = std::lower_bound(limits.begin(), limits.end(), spreads[i]);
+    by_exceeded[limit - limits.begin()].push_back(samples[i]);
+  }
+  std::vector<PackedPoints> packed;
+  for (const std::vector<Vec3>& some : by_exceeded) {
+    packed.emplace_back(some, std::vector<float>(some.size(), 1), window);
+  }
+  return packed;
+}
+
+// The `quantile` one of the numbers of limits exceeded within the window around each place.
+std::vector<int> QuantilesAt(const std::vector<PackedPoints>& samples_by_exceeded,
+                             const std::vector<Vec3>& places, double window, double quantile) {
+  std::vector<int> exceeded(places.size(), 0);
+  const std::vector<int> order = InOrderOfCells(places, samples_by_exceeded[0].cell_size());
+  ParallelChunks(0, static_cast<int64_t>(places.size()), kGrain, [&](int64_t first, int64_t last) {
+    std::vector<PackedPoints::Neighbours> neighbours(samples_by_exceeded.size());
+    std::vector<int> histogram(samples_by_exceeded.size());
+    for (int64_t j = first; j < last; ++j) {
+      const int i = order[j];
+      int count = 0;
+      for (size_t k = 0; k < histogram.size(); ++k) {
+        histogram[k] = static_cast<int>(
+            samples_by_exceeded[k].SumsWithin(places[i], window, neighbours[k]).weight);
+        count += histogram[k];
+      }
+      if (count == 0) continue;
+      int rank = static_cast<int>(quantile * (count - 1));
+      while (rank >= histogram[exceeded[i]]) rank -= histogram[exceeded[i]++];
+    }
+  });
+  return exceeded;
+}
+
 }  // namespace
 
 std::vector<int> LimitsExceeded(const ObservedPoints& points, const std::vector<Vec3>& queries,
                                 const std::vector<double>& limits,
                                 const RidgeScaleOptions& options) {
   const std::vector<Vec3> samples = ResampleOnGrid(points, options.sample_spacing).positions;
-  // For each number of limits the samples that exceed so many.
-  std::vector<std::vector<Vec3>> samples_by_exceeded(limits.size() + 1);
-  const std::vector<double> spreads = SpreadsAt(points, samples, options.sigma);
-  for (size_t i = 0; i < samples.size(); ++i) {
-    samples_by_exceeded[std::lower_bound(limits.begin(), limits.end(), spreads[i]) - limits.begin()]
-        .push_back(samples[i]);
+  const std::vector<PackedPoints> samples_by_exceeded =
+      PackByExceeded(samples, SpreadsAt(points, samples, options.sigma), limits, options.window);
+  // The first query of a cell is asked for all that lie in it.
+  VoxelNumbers cells;
+  std::vector<int> cell_of_query;
+  std::vector<Vec3> places;
+  for (const Vec3& query : queries) {
+    cell_of_query.push_back(cells.Number(VoxelOf(query, kCellPerWindow * options.window)));
+    if (cell_of_query.back() == static_cast<int>(places.size())) places.push_back(query);
   }
-  std::vector<PackedPoints> packed;
-  for (const std::vector<Vec3>& some : samples_by_exceeded) {
-    packed.emplace_back(some, std::vector<float>(some.size(), 1), options.window);
-  }
-  std::vector<int> exceeded(queries.size(), 0);
-  const std::vector<int> order = InOrderOfCells(queries, packed[0].cell_size());
-  ParallelChunks(0, static_cast<int64_t>(queries.size()), kGrain, [&](int64_t first, int64_t last) {
-    std::vector<PackedPoints::Neighbours> neighbours(packed.size());
-    std::vector<int> histogram(packed.size());
-    for (int64_t j = first; j < last; ++j) {
-      const int i = order[j];
-      int count = 0;
-      for (size_t k = 0; k < packed.size(); ++k) {
-        histogram[k] = static_cast<int>(
-            packed[k].SumsWithin(queries[i], options.window, neighbours[k]).weight);
-        count += histogram[k];
-      }
-      if (count == 0) continue;
-      int rank = static_cast<int>(options.quantile * (count - 1));
-      while (rank >= histogram[exceeded[i]]) rank -= histogram[exceeded[i]++];
-    }
-  });
-  return exceeded;
+  const std::vector<int> exceeded =
+      QuantilesAt(samples_by_exceeded, places, options.window, options.quantile);
+  std::vector<int> exceeded_by_query;
+  for (const int cell : cell_of_query) exceeded_by_query.push_back(exceeded[cell]);
+  return exceeded_by_query;
 }
 
 }  // namespace curvefusion

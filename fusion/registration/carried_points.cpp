@@ -24,11 +24,10 @@ void VisitOptions(CarriedPointsOptions& options, OptionVisitor& visitor) {
       options.min_inliers);
 }
 
-AlignmentResult CarriedPoints::AddBundle(const ObservedPoints& bundle,
+AlignmentResult CarriedPoints::AddBundle(const ObservedPoints& bundle, const RidgePoints& found,
                                          const RidgeProjectionOptions& ridges,
                                          const AlignmentOptions& alignment, double row_spacing) {
   AlignmentResult result;
-  const RidgePoints found = ProjectToRidges(bundle, ridges);
   if (!points_.empty() && !bundle.empty()) {
     AlignmentOptions patient = alignment;
     patient.max_iterations = std::max(alignment.max_iterations, kIterations);

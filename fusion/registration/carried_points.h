@@ -22,12 +22,13 @@ class CarriedPoints {
  public:
   explicit CarriedPoints(const CarriedPointsOptions& options) : options_(options) {}
 
-  /// Registers the ridges of a bundle (world frame) to those of the points carried so far and adds
-  /// it; where wires are dense, most points lie between them and say nothing. The returned
-  /// alignment is the identity for the first bundle and where too few points fit. `row_spacing` is
-  /// that of AlignRows.
-  AlignmentResult AddBundle(const ObservedPoints& bundle, const RidgeProjectionOptions& ridges,
-                            const AlignmentOptions& alignment, double row_spacing = 0);
+  /// Registers the ridges of a bundle (world frame), found with the options `ridges`, to those of
+  /// the points carried so far and adds it; where wires are dense, most points lie between them and
+  /// say nothing. The returned alignment is the identity for the first bundle and where too few
+  /// points fit. `row_spacing` is that of AlignRows.
+  AlignmentResult AddBundle(const ObservedPoints& bundle, const RidgePoints& found,
+                            const RidgeProjectionOptions& ridges, const AlignmentOptions& alignment,
+                            double row_spacing = 0);
 
   const ObservedPoints& points() const { return points_; }
 

@@ -11,6 +11,10 @@ namespace {
 const std::vector<Polyline> kWires{
     {{0, 0, 0}, {0.15, 0, 0}}, {{0, 0, 0}, {0, 0.15, 0}}, {{0.15, 0, 0}, {0.15, 0, 0.15}}};
 
+AlignmentResult Add(const ObservedPoints& bundle, CarriedPoints& carried) {
+  return carried.AddBundle(bundle, ProjectToRidges(bundle, {}), {}, {});
+}
+
 RigidTransform Drift() {
   RigidTransform T = RigidTransform::Identity();
   T.translation() = Vec3(0.003, -0.002, 0.002);
@@ -20,10 +24,10 @@ RigidTransform Drift() {
 TEST(CarriedPoints, BundlesAreMovedBackAndTheRidgesStayOnTheWires) {
   CarriedPoints carried({});
   const ObservedPoints first = NoisyWires(kWires);
-  carried.AddBundle(first, {}, {});
+  Add(first, carried);
   EXPECT_GT(carried.ridges().size(), 100u);
   for (int bundle = 0; bundle < 2; ++bundle) {
-    const AlignmentResult result = carried.AddBundle(Transformed(first, Drift()), {}, {});
+    const AlignmentResult result = Add(Transformed(first, Drift()), carried);
     const RigidTransform left = result.T_target_source * Drift();
     // The same points on another grid: the ridges differ by a fraction of the noise, 1 mm.
     EXPECT_LT(left.translation().norm(), 0.0005);
@@ -35,10 +39,10 @@ TEST(CarriedPoints, BundlesAreMovedBackAndTheRidgesStayOnTheWires) {
 
 TEST(CarriedPoints, WiresThatOnlyALaterBundleShowsHaveRidges) {
   CarriedPoints carried({});
-  carried.AddBundle(NoisyWires(kWires), {}, {});
+  Add(NoisyWires(kWires), carried);
   std::vector<Polyline> more = kWires;
   more.push_back({{0, 0.15, 0}, {0, 0.15, 0.15}});
-  carried.AddBundle(NoisyWires(more), {}, {});
+  Add(NoisyWires(more), carried);
   int beside = 0;
   for (const Vec3& p : carried.ridges().positions) beside += DistanceTo({more.back()}, p) < 0.002;
   EXPECT_GT(beside, 60);  // 150 mm
@@ -46,11 +50,11 @@ TEST(CarriedPoints, WiresThatOnlyALaterBundleShowsHaveRidges) {
 
 TEST(CarriedPoints, EmptyBundlesChangeNothing) {
   CarriedPoints carried({});
-  carried.AddBundle({}, {}, {});
+  Add({}, carried);
   EXPECT_TRUE(carried.points().empty());
-  carried.AddBundle(NoisyWires(kWires), {}, {});
+  Add(NoisyWires(kWires), carried);
   const size_t ridge_points = carried.ridges().size();
-  const AlignmentResult result = carried.AddBundle({}, {}, {});
+  const AlignmentResult result = Add({}, carried);
   EXPECT_TRUE(result.T_target_source.isApprox(RigidTransform::Identity()));
   EXPECT_NEAR(static_cast<double>(carried.ridges().size()), static_cast<double>(ridge_points),
               0.1 * static_cast<double>(ridge_points));
