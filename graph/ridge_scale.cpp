@@ -14,8 +14,6 @@ namespace curvefusion {
 namespace {
 
 constexpr int kGrain = 256;
-// Over so much of a window the numbers of limits exceeded hardly change.
-constexpr double kCellPerWindow = 1.0 / 3;
 
 // A spread s seen through a kernel of variance v has variance s^2 v / (s^2 + v).
 double SpreadBehindKernel(double variance, double kernel_variance) {
@@ -90,19 +88,7 @@ std::vector<int> LimitsExceeded(const ObservedPoints& points, const std::vector<
   const std::vector<Vec3> samples = ResampleOnGrid(points, options.sample_spacing).positions;
   const std::vector<PackedPoints> samples_by_exceeded =
       PackByExceeded(samples, SpreadsAt(points, samples, options.sigma), limits, options.window);
-  // The first query of a cell is asked for all that lie in it.
-  VoxelNumbers cells;
-  std::vector<int> cell_of_query;
-  std::vector<Vec3> places;
-  for (const Vec3& query : queries) {
-    cell_of_query.push_back(cells.Number(VoxelOf(query, kCellPerWindow * options.window)));
-    if (cell_of_query.back() == static_cast<int>(places.size())) places.push_back(query);
-  }
-  const std::vector<int> exceeded =
-      QuantilesAt(samples_by_exceeded, places, options.window, options.quantile);
-  std::vector<int> exceeded_by_query;
-  for (const int cell : cell_of_query) exceeded_by_query.push_back(exceeded[cell]);
-  return exceeded_by_query;
+  return QuantilesAt(samples_by_exceeded, queries, options.window, options.quantile);
 }
 
 }  // namespace curvefusion
