@@ -70,11 +70,13 @@ double ExtentOf(const Contact& contact) {
 // Overlaps, the longest first, then crossings; contacts of equal rank in their order.
 std::vector<const Contact*> ByRank(const std::vector<Contact>& contacts) {
   std::vector<std::pair<double, const Contact*>> ranked;
+  ranked.reserve(contacts.size());
   for (const Contact& contact : contacts)
     ranked.emplace_back(contact.overlap ? -ExtentOf(contact) : 1.0, &contact);
   std::stable_sort(ranked.begin(), ranked.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<const Contact*> sorted;
+  sorted.reserve(ranked.size());
   for (const auto& entry : ranked) sorted.push_back(entry.second);
   return sorted;
 }
@@ -161,6 +163,7 @@ void JoinContacts(SkeletonGraph& graph, const std::vector<Contact>& contacts, do
 
 void MergeContactVertices(SkeletonGraph& graph, const std::vector<Contact>& contacts) {
   std::vector<const Contact*> nearest_first;
+  nearest_first.reserve(contacts.size());
   for (const Contact& contact : contacts) nearest_first.push_back(&contact);
   std::stable_sort(nearest_first.begin(), nearest_first.end(),
                    [](const Contact* a, const Contact* b) { return a->distance < b->distance; });

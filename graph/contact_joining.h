@@ -9,8 +9,7 @@ namespace curvefusion {
 /// Which contacts are joined in one go.
 enum class JoinSelection {
   /// Of overlaps that meet the same part of an edge only the longest, and no crossing inside it:
-  /// the
-  /// others are found again once it is merged.
+  /// the others are found again once it is merged.
   kApart,
   /// All of them: where only points that coincide are in contact, what is not joined at once parts
   /// by rounding.

@@ -97,6 +97,7 @@ std::vector<EdgeId> ShortEdges(const SkeletonGraph& graph, double length) {
   }
   std::sort(found.begin(), found.end());
   std::vector<EdgeId> edges;
+  edges.reserve(found.size());
   for (const auto& entry : found) edges.push_back(entry.second);
   return edges;
 }
@@ -117,7 +118,8 @@ void MergeOverlappingEdges(SkeletonGraph& graph, double distance) {
     std::vector<LocationPair> places;
     for (const Contact& contact : FindContacts(graph, distance)) {
       if (!contact.overlap) continue;
-      const std::vector<LocationPair> ends = PlacesToJoin(contact, distance, kConnectedReach * distance);
+      const std::vector<LocationPair> ends =
+          PlacesToJoin(contact, distance, kConnectedReach * distance);
       places.insert(places.end(), ends.begin(), ends.end());
     }
     if (places.empty()) return;

@@ -15,7 +15,7 @@ inline constexpr double kConnectedReach = 6;
 struct SegmentPair {
   int s;
   int t;
-  auto operator<=>(const SegmentPair&) const = default;
+  auto operator<=>(const SegmentPair&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
 /// The ways along the graph between two segments, along their common curve or over one common node,

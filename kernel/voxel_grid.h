@@ -16,7 +16,7 @@ struct VoxelKey {
   int y = 0;
   int z = 0;
   bool operator==(const VoxelKey&) const = default;
-  auto operator<=>(const VoxelKey&) const = default;
+  auto operator<=>(const VoxelKey&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
 struct VoxelKeyHash {
