@@ -9,7 +9,7 @@
 
 #include "kernel/box_pairs.h"
 #include "kernel/disjoint_sets.h"
-#include "meshing/closest_approach.h"
+#include "kernel/exact.h"
 
 namespace curvefusion {
 
@@ -23,15 +23,15 @@ constexpr double kClearance = 0.1;
 // A tube may come back to itself only after it has turned by more than this in total.
 constexpr double kTurnOfReturn = 2.0 * std::numbers::pi / 3;
 
-struct Segment {
+struct TubeSegment {
   int path, index;
-  LineSegment line;
+  Segment line;
   double radius_a, radius_b;
   double radius() const { return std::max(radius_a, radius_b); }
 };
 
-std::vector<Segment> SegmentsOf(const std::vector<TubePath>& paths) {
-  std::vector<Segment> segments;
+std::vector<TubeSegment> SegmentsOf(const std::vector<TubePath>& paths) {
+  std::vector<TubeSegment> segments;
   for (int p = 0; p < static_cast<int>(paths.size()); ++p) {
     const TubeAxis& axis = paths[p].axis;
     for (int i = 0; i < paths[p].segment_count(); ++i) {
@@ -46,13 +46,18 @@ double ClearDistance(double radius, double other_radius) {
   return kReach * (radius + other_radius) + kClearance * std::min(radius, other_radius);
 }
 
-bool ComeNear(const Segment& s, const Segment& t) {
-  return FindClosestApproach(s.line, t.line).distance < ClearDistance(s.radius(), t.radius());
+double DistanceBetween(const Segment& s, const Segment& t) {
+  const ClosestParameters at = ClosestPoints(s.a, s.b, t.a, t.b);
+  return (s.a + at.s * (s.b - s.a) - t.a - at.t * (t.b - t.a)).norm();
 }
 
-std::vector<std::pair<int, int>> NearPairs(const std::vector<Segment>& segments) {
+bool ComeNear(const TubeSegment& s, const TubeSegment& t) {
+  return DistanceBetween(s.line, t.line) < ClearDistance(s.radius(), t.radius());
+}
+
+std::vector<std::pair<int, int>> NearPairs(const std::vector<TubeSegment>& segments) {
   std::vector<Eigen::AlignedBox3d> boxes;
-  for (const Segment& s : segments) {
+  for (const TubeSegment& s : segments) {
     const Vec3 reach = Vec3::Constant((kReach + kClearance) * s.radius());
     Eigen::AlignedBox3d box(Vec3(s.line.a.cwiseMin(s.line.b) - reach),
                             Vec3(s.line.a.cwiseMax(s.line.b) + reach));
@@ -80,8 +85,8 @@ std::vector<std::vector<double>> TurnSums(const std::vector<TubePath>& paths) {
 
 // Whether two segments are near only because one follows the other along a tube.
 bool FollowEachOther(const std::vector<TubePath>& paths,
-                     const std::vector<std::vector<double>>& turn_sums, const Segment& s,
-                     const Segment& t) {
+                     const std::vector<std::vector<double>>& turn_sums, const TubeSegment& s,
+                     const TubeSegment& t) {
   if (s.path != t.path) return false;
   const std::vector<double>& sums = turn_sums[s.path];
   const double turn = std::abs(sums[t.index] - sums[s.index]);
@@ -119,27 +124,27 @@ std::vector<TubePath> CutOpenPath(TubePath path, const std::vector<int>& cuts) {
 }
 
 // Marks the rings at the ends of segment s that are too near to t for a cut.
-void MarkCrowdedRings(const std::vector<TubePath>& paths, const Segment& s, const Segment& t,
-                      std::vector<std::vector<char>>& crowded) {
+void MarkCrowdedRings(const std::vector<TubePath>& paths, const TubeSegment& s,
+                      const TubeSegment& t, std::vector<std::vector<char>>& crowded) {
   const size_t next = (s.index + 1) % paths[s.path].axis.points.size();
-  if (DistanceFrom(t.line, s.line.a) < ClearDistance(s.radius_a, t.radius())) {
+  if (DistanceBetween({s.line.a, s.line.a}, t.line) < ClearDistance(s.radius_a, t.radius())) {
     crowded[s.path][s.index] = 1;
   }
-  if (DistanceFrom(t.line, s.line.b) < ClearDistance(s.radius_b, t.radius())) {
+  if (DistanceBetween({s.line.b, s.line.b}, t.line) < ClearDistance(s.radius_b, t.radius())) {
     crowded[s.path][next] = 1;
   }
 }
 
 // The group of every segment, as the index of the group's first segment.
 std::vector<int> GroupOfSegments(const std::vector<TubePath>& paths,
-                                 const std::vector<Segment>& segments) {
+                                 const std::vector<TubeSegment>& segments) {
   const std::vector<std::vector<double>> turn_sums = TurnSums(paths);
   DisjointSets groups(segments.size());
   std::vector<std::vector<char>> crowded;
   for (const TubePath& path : paths) crowded.emplace_back(path.axis.points.size(), 0);
   for (const auto& [i, j] : NearPairs(segments)) {
-    const Segment& s = segments[i];
-    const Segment& t = segments[j];
+    const TubeSegment& s = segments[i];
+    const TubeSegment& t = segments[j];
     if (FollowEachOther(paths, turn_sums, s, t)) continue;
     if (ComeNear(s, t)) groups.Unite(i, j);
     MarkCrowdedRings(paths, s, t, crowded);
@@ -147,7 +152,7 @@ std::vector<int> GroupOfSegments(const std::vector<TubePath>& paths,
   }
   int first_of_path = 0;
   for (size_t i = 0; i < segments.size(); ++i) {
-    const Segment& s = segments[i];
+    const TubeSegment& s = segments[i];
     if (s.index == 0) first_of_path = static_cast<int>(i);
     if (!crowded[s.path][s.index] || (s.index == 0 && !paths[s.path].closed)) continue;
     const int before =
@@ -178,12 +183,12 @@ std::vector<TubeStretch> StretchesOfPath(int path, bool closed, const int* group
 }
 
 std::vector<std::vector<std::pair<int, int>>> SelfContacts(const std::vector<TubePath>& paths) {
-  const std::vector<Segment> segments = SegmentsOf(paths);
+  const std::vector<TubeSegment> segments = SegmentsOf(paths);
   const std::vector<std::vector<double>> turn_sums = TurnSums(paths);
   std::vector<std::vector<std::pair<int, int>>> contacts(paths.size());
   for (const auto& [i, j] : NearPairs(segments)) {
-    const Segment& s = segments[i];
-    const Segment& t = segments[j];
+    const TubeSegment& s = segments[i];
+    const TubeSegment& t = segments[j];
     if (s.path != t.path || FollowEachOther(paths, turn_sums, s, t)) continue;
     if (ComeNear(s, t)) {
       contacts[s.path].emplace_back(s.index, t.index);
@@ -212,7 +217,7 @@ std::vector<TubePath> CutSelfContacts(std::vector<TubePath> paths) {
 }
 
 std::vector<std::vector<TubeStretch>> GroupContacts(const std::vector<TubePath>& paths) {
-  const std::vector<Segment> segments = SegmentsOf(paths);
+  const std::vector<TubeSegment> segments = SegmentsOf(paths);
   const std::vector<int> group = GroupOfSegments(paths, segments);
   std::map<int, std::vector<TubeStretch>> stretches;
   int first = 0;

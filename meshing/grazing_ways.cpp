@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "kernel/box_pairs.h"
-#include "meshing/closest_approach.h"
+#include "kernel/exact.h"
 
 namespace curvefusion {
 
@@ -22,16 +22,16 @@ constexpr double kTangentReach = 1.5;
 // In radii along a tube: what is nearer than that is a bend and no return.
 constexpr double kReturn = 4;
 
-struct Segment {
+struct AxisSegment {
   int axis, index;
-  LineSegment line;
+  Segment line;
   double radius;
   double middle;  // arc length
   Vec3 tangent;
 };
 
-std::vector<Segment> SegmentsOf(const std::vector<TubeAxis>& axes) {
-  std::vector<Segment> segments;
+std::vector<AxisSegment> SegmentsOf(const std::vector<TubeAxis>& axes) {
+  std::vector<AxisSegment> segments;
   for (size_t k = 0; k < axes.size(); ++k) {
     const auto& [points, radii] = axes[k];
     const std::vector<double> along = CumulativeLength(points);
@@ -58,13 +58,16 @@ struct Passing {
   Vec3 way;
 };
 
-std::optional<Passing> PassingOf(const Segment& s, const Segment& t) {
+std::optional<Passing> PassingOf(const AxisSegment& s, const AxisSegment& t) {
   const double touch = s.radius + t.radius;
   if (s.axis == t.axis && std::abs(s.middle - t.middle) < kReturn * touch / 2) return std::nullopt;
-  const ClosestApproach closest = FindClosestApproach(s.line, t.line);
-  const double miss = std::abs(closest.distance - touch) / touch;
+  const ClosestParameters at = ClosestPoints(s.line.a, s.line.b, t.line.a, t.line.b);
+  const Vec3 offset =
+      t.line.a + at.t * (t.line.b - t.line.a) - s.line.a - at.s * (s.line.b - s.line.a);
+  const double distance = offset.norm();
+  const double miss = std::abs(distance - touch) / touch;
   if (miss > kBand) return std::nullopt;
-  const Vec3 way = (closest.on_second - closest.on_first) / closest.distance;
+  const Vec3 way = offset / distance;
   const double slant = std::max(std::abs(way.dot(s.tangent)), std::abs(way.dot(t.tangent)));
   if (slant > kGreatestSlant) return std::nullopt;
   return Passing{miss, way};
@@ -73,9 +76,9 @@ std::optional<Passing> PassingOf(const Segment& s, const Segment& t) {
 }  // namespace
 
 std::vector<std::vector<Vec3>> FindGrazingWays(const std::vector<TubeAxis>& axes) {
-  const std::vector<Segment> segments = SegmentsOf(axes);
+  const std::vector<AxisSegment> segments = SegmentsOf(axes);
   std::vector<Eigen::AlignedBox3d> boxes;
-  for (const Segment& s : segments) {
+  for (const AxisSegment& s : segments) {
     const Vec3 reach = Vec3::Constant((1 + kBand) * s.radius);
     Eigen::AlignedBox3d box(Vec3(s.line.a.cwiseMin(s.line.b) - reach),
                             Vec3(s.line.a.cwiseMax(s.line.b) + reach));

@@ -214,12 +214,6 @@ void AppendStretch(const TubeAxis& stretch, TubeAxis& axis) {
   }
 }
 
-TubeAxis WithoutRepeatedPoints(const TubeAxis& axis) {
-  TubeAxis distinct;
-  AppendStretch(axis, distinct);
-  return distinct;
-}
-
 TubeAxis SimplifyStretch(const TubeAxis& axis, const AxisOptions& options) {
   std::vector<size_t> kept = PointsWithinTolerance(axis, options.tolerance);
   kept = SmoothKinks(axis, ThinOut(axis, kept, options.min_spacing), options);
@@ -234,6 +228,12 @@ double ChordDeviation(const TubeAxis& axis, size_t a, size_t k, size_t b) {
   const double radius_on_chord = axis.radii[a] + t * (axis.radii[b] - axis.radii[a]);
   const double offset = (axis.points[k] - on_chord).norm();
   return std::max(offset, std::abs(axis.radii[k] - radius_on_chord)) / axis.radii[k];
+}
+
+TubeAxis WithoutRepeatedPoints(const TubeAxis& axis) {
+  TubeAxis distinct;
+  AppendStretch(axis, distinct);
+  return distinct;
 }
 
 TubeAxis SmoothAxis(const TubeAxis& axis) { return FitToEnvelope(WithoutRepeatedPoints(axis)); }

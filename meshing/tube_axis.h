@@ -26,6 +26,9 @@ struct AxisOptions {
 /// counts like a coordinate.
 double ChordDeviation(const TubeAxis& axis, size_t a, size_t k, size_t b);
 
+/// `axis` without points equal to their predecessor.
+TubeAxis WithoutRepeatedPoints(const TubeAxis& axis);
+
 /// `axis` without noise (FitToEnvelope) and without points equal to their predecessor. Both ends
 /// are kept bit for bit.
 TubeAxis SmoothAxis(const TubeAxis& axis);

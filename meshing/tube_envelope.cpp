@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 namespace curvefusion {
 
@@ -29,6 +30,11 @@ constexpr double kGreatestMove = 0.1;
 constexpr double kReachWindow = 0.2;
 // Of the sum of two directions: less is no common direction across the tube.
 constexpr double kLeastAgreement = 0.5;
+// Radians: cross-sections at a sharper corner are wider than the tube by .01 and more.
+constexpr double kCornerTurn = 0.3;
+constexpr double kCornerBend = 0.25;  // what is measured between the halves of such a corner
+// A corner is the sharpest turn so far to either side.
+constexpr double kCornerReach = 0.7;
 
 // Balls along an axis, with their positions along it.
 struct BallRow {
@@ -76,24 +82,47 @@ struct Station {
   Vec3 tangent = Vec3::Zero();
 };
 
-Station ExamineStation(const BallRow& row, size_t i) {
+// The balls to either side along which the direction of the tube is measured.
+struct Window {
+  double back, ahead;  // m
+  size_t first, last;
+};
+
+// Nothing next to an end.
+std::optional<Window> WindowAt(const BallRow& row, size_t i) {
   const double radius = row.axis.radii[i];
   const double place = row.along[i];
   const double back = std::min(kTangentReach * radius, place);
   const double ahead = std::min(kTangentReach * radius, row.along.back() - place);
-  if (std::min(back, ahead) < kLeastReach * radius) return {};
-  const size_t first = row.At(place - back);
-  const size_t last = row.At(place + ahead);
-  const double turning = row.turning[last] - row.turning[first];
-  if (turning < kLeastTurning) return {};
-  const double core = std::min(back, ahead) / 3;
+  if (std::min(back, ahead) < kLeastReach * radius) return std::nullopt;
+  return Window{back, ahead, row.At(place - back), row.At(place + ahead)};
+}
+
+// Directions of the tube, noise averaged out.
+struct Directions {
+  Vec3 before, after;
+  double bend() const { return TurnAngle(before, after); }
+};
+
+Directions DirectionsAt(const BallRow& row, size_t i, const Window& window) {
+  const double place = row.along[i];
+  const double core = std::min(window.back, window.ahead) / 3;
   const Vec3 middle = row.MeanOf(row.At(place - core), row.At(place + core));
-  const Vec3 before = middle - row.MeanOf(first, row.At(place - back / 2));
-  const Vec3 after = row.MeanOf(row.At(place + ahead / 2), last) - middle;
-  const double bend = TurnAngle(before, after);
+  return {middle - row.MeanOf(window.first, row.At(place - window.back / 2)),
+          row.MeanOf(row.At(place + window.ahead / 2), window.last) - middle};
+}
+
+Station ExamineStation(const BallRow& row, size_t i) {
+  const std::optional<Window> window = WindowAt(row, i);
+  if (!window) return {};
+  const double turning = row.turning[window->last] - row.turning[window->first];
+  if (turning < kLeastTurning) return {};
+  const Directions directions = DirectionsAt(row, i, *window);
+  const double bend = directions.bend();
   if (bend > kGreatestBend) return {};
-  const double noise = turning - row.GreatestTurn(first, last) - kTurningOfBend * bend;
-  return {true, noise > kLeastTurning, (before + after).normalized()};
+  const double noise =
+      turning - row.GreatestTurn(window->first, window->last) - kTurningOfBend * bend;
+  return {true, noise > kLeastTurning, (directions.before + directions.after).normalized()};
 }
 
 // How far a ray from `from` runs within the balls first..last.
@@ -211,6 +240,28 @@ bool IsNoisy(const TubeAxis& axis) {
     if (ExamineStation(row, i).is_noisy) return true;
   }
   return false;
+}
+
+std::vector<int> FindCorners(const TubeAxis& axis) {
+  std::vector<int> corners;
+  if (!IsRough(axis)) return corners;
+  const BallRow row(axis);
+  const std::vector<double> along = CumulativeLength(axis.points);
+  double corner_turn = 0;
+  for (size_t i = 1; i + 1 < axis.points.size(); ++i) {
+    const double turn = TurnAngleAt(axis.points, i);
+    if (turn < kCornerTurn) continue;
+    const size_t ball = row.At(along[i]);
+    const std::optional<Window> window = WindowAt(row, ball);
+    if (!window || DirectionsAt(row, ball, *window).bend() < kCornerBend) continue;
+    const bool is_apart =
+        corners.empty() || along[i] - along[corners.back()] > kCornerReach * axis.radii[i];
+    if (!is_apart && turn <= corner_turn) continue;
+    if (!is_apart) corners.pop_back();
+    corners.push_back(static_cast<int>(i));
+    corner_turn = turn;
+  }
+  return corners;
 }
 
 TubeAxis ReachAsFar(const TubeAxis& axis, TubeAxis fitted, const std::vector<Vec3>& ways) {

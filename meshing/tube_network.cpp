@@ -28,6 +28,8 @@ constexpr double kLeastLength = 0.05;
 constexpr double kSameRadius = 0.9;
 // A branch may stick out of the one that swallows it by so much of the radius.
 constexpr double kContainment = 1.02;
+// How near a corner tubes must graze for it to be cut: fitted cross-sections reach as far.
+constexpr double kCornerReach = 1.5;
 // One step of float32 coordinates must be finer than this part of the radius.
 constexpr double kFinestFloatStep = 2e-3;
 
@@ -208,29 +210,14 @@ void DissolveDegree2Nodes(TubeNetwork& network) {
   RemoveMarked(gone, network);
 }
 
-// Only what is fitted to noise errs so much that it matters where tubes graze.
-void SimplifyBranches(const AxisOptions& options, TubeNetwork& network) {
-  std::vector<TubeAxis> smooth;
-  for (const TubeBranch& branch : network.branches) smooth.push_back(SmoothAxis(branch.axis));
-  const std::vector<std::vector<Vec3>> ways = FindGrazingWays(smooth);
-  for (size_t i = 0; i < smooth.size(); ++i) {
-    TubeAxis& axis = network.branches[i].axis;
-    const bool grazes =
-        std::any_of(ways[i].begin(), ways[i].end(), [](const Vec3& way) { return !way.isZero(); });
-    if (grazes && IsNoisy(axis)) {
-      axis = SimplifyAxis(ReachAsFar(axis, std::move(smooth[i]), ways[i]), ways[i], options);
-    } else {
-      axis = SimplifyAxis(smooth[i], std::vector<Vec3>(ways[i].size(), Vec3::Zero()), options);
-    }
-  }
-}
-
-void CutAtTightBends(TubeNetwork& network, double max_turn) {
+// Cuts every branch at the inner points given for it, ascending.
+void CutBranches(const std::vector<std::vector<int>>& cuts, TubeNetwork& network) {
   std::vector<TubeBranch> pieces;
-  for (const TubeBranch& branch : network.branches) {
+  for (size_t i = 0; i < cuts.size(); ++i) {
+    const TubeBranch& branch = network.branches[i];
     int first = 0;
     int first_node = branch.nodes[0];
-    for (const int cut : FindCuts(branch.axis, max_turn)) {
+    for (const int cut : cuts[i]) {
       pieces.push_back({{first_node, network.node_count}, Slice(branch.axis, first, cut)});
       first = cut;
       first_node = network.node_count++;
@@ -239,6 +226,73 @@ void CutAtTightBends(TubeNetwork& network, double max_turn) {
     pieces.push_back({{first_node, branch.nodes[1]}, Slice(branch.axis, first, last)});
   }
   network.branches = std::move(pieces);
+}
+
+using Ways = std::vector<std::vector<Vec3>>;
+
+std::vector<TubeAxis> SmoothAxes(const TubeNetwork& network) {
+  std::vector<TubeAxis> smooth;
+  for (const TubeBranch& branch : network.branches) smooth.push_back(SmoothAxis(branch.axis));
+  return smooth;
+}
+
+bool Grazes(const std::vector<Vec3>& ways) {
+  return std::any_of(ways.begin(), ways.end(), [](const Vec3& way) { return !way.isZero(); });
+}
+
+// Whether a tube grazes another one so near that a corner at this place matters.
+bool GrazesNear(const TubeAxis& smooth, const std::vector<Vec3>& ways, const Vec3& corner) {
+  for (size_t i = 0; i < ways.size(); ++i) {
+    if (ways[i].isZero()) continue;
+    const Polyline segment = {smooth.points[i], smooth.points[i + 1]};
+    if (Project(segment, corner).distance < kCornerReach * smooth.radii[i]) return true;
+  }
+  return false;
+}
+
+// Cuts tubes at corners where they graze: the tube fitted to a corner, and a mitred ring, stand out
+// there. Returns whether there are any.
+bool CutAtGrazingCorners(const std::vector<TubeAxis>& smooth, const Ways& ways,
+                         TubeNetwork& network) {
+  const int first_corner = network.node_count;
+  std::vector<std::vector<int>> cuts(smooth.size());
+  for (size_t i = 0; i < smooth.size(); ++i) {
+    if (!Grazes(ways[i])) continue;
+    TubeAxis& axis = network.branches[i].axis;
+    axis = WithoutRepeatedPoints(axis);
+    for (const int corner : FindCorners(axis)) {
+      if (GrazesNear(smooth[i], ways[i], axis.points[corner])) cuts[i].push_back(corner);
+    }
+  }
+  CutBranches(cuts, network);
+  for (int node = first_corner; node < network.node_count; ++node) network.corners.push_back(node);
+  return !network.corners.empty();
+}
+
+// Only what is fitted to noise or corners errs so much that it matters where tubes graze.
+void SimplifyBranches(const AxisOptions& options, TubeNetwork& network) {
+  std::vector<TubeAxis> smooth = SmoothAxes(network);
+  Ways ways = FindGrazingWays(smooth);
+  if (CutAtGrazingCorners(smooth, ways, network)) {
+    smooth = SmoothAxes(network);
+    ways = FindGrazingWays(smooth);
+  }
+  for (size_t i = 0; i < smooth.size(); ++i) {
+    TubeAxis& axis = network.branches[i].axis;
+    if (Grazes(ways[i]) && IsNoisy(axis)) {
+      axis = SimplifyAxis(ReachAsFar(axis, std::move(smooth[i]), ways[i]), ways[i], options);
+    } else {
+      axis = SimplifyAxis(smooth[i], std::vector<Vec3>(ways[i].size(), Vec3::Zero()), options);
+    }
+  }
+}
+
+void CutAtTightBends(TubeNetwork& network, double max_turn) {
+  std::vector<std::vector<int>> cuts;
+  for (const TubeBranch& branch : network.branches) {
+    cuts.push_back(FindCuts(branch.axis, max_turn));
+  }
+  CutBranches(cuts, network);
 }
 
 // Whether the tube along `inner` lies inside the tube along `outer`, judged at the points of

@@ -24,6 +24,7 @@ struct BranchEnd {
 struct TubeNetwork {
   int node_count = 0;
   std::vector<TubeBranch> branches;
+  std::vector<int> corners;  ///< nodes, ascending, that no tube runs through in one piece
 
   /// The branch ends at every node; a loop stands there twice.
   std::vector<std::vector<BranchEnd>> EndsAtNodes() const;
@@ -31,7 +32,8 @@ struct TubeNetwork {
 
 /// Prepares a skeleton for sweeping: nodes at the same place, or joined by an edge shorter than
 /// 0.15 radii, become one; degree-2 nodes are dissolved; curves are simplified and cut where they
-/// turn by more than `max_turn` or more tightly than the tube is thick; a branch that lies inside
+/// turn by more than `max_turn` or more tightly than the tube is thick, and at corners that graze
+/// another tube (FindGrazingWays); a branch that lies inside
 /// another between the same nodes is dropped. Edges without radii get `default_radius`. Throws
 /// Error(kBadInput) for coordinates or radii that are not finite, radii that are not positive, or
 /// ones too thin for float32 coordinates at their distance from the origin.

@@ -49,8 +49,8 @@ std::vector<Segment> SegmentsOf(const std::vector<TubePath>& paths) {
   return segments;
 }
 
-// Where on a segment, 0 at a and 1 at b, the plane lies that holds a point; planes turn from that
-// of one ring to that of the other.
+// Where on a segment, 0 at a and 1 at b, the plane lies that holds a point, or beyond it; planes
+// turn from that of one ring to that of the other.
 double PlaneThrough(const Segment& s, const Vec3& p) {
   const Vec3 way = s.b - s.a;
   double t = (p - s.a).dot(way) / way.squaredNorm();
@@ -61,17 +61,19 @@ double PlaneThrough(const Segment& s, const Vec3& p) {
     t += normal.dot(p - s.a - t * way) / slope;
     t = std::clamp(t, -1.0, 2.0);
   }
-  return std::clamp(t, 0.0, 1.0);
+  return t;
 }
 
-// The normal of the round tube at a point near its surface, and how far that is off, in radii.
+// The normal of the round tube at a point near its surface, and how far that is off, in radii:
+// outwards, inwards, or beyond the last ring of the segment.
 struct TubeNormal {
   Vec3 normal;
   double offset;
 };
 
 TubeNormal NormalAt(const Segment& s, const Vec3& p) {
-  const double t = PlaneThrough(s, p);
+  const double plane = PlaneThrough(s, p);
+  const double t = std::clamp(plane, 0.0, 1.0);
   const Vec3 way = s.b - s.a;
   const double length = way.norm();
   const double radius = s.radius_a + t * (s.radius_b - s.radius_a);
@@ -81,7 +83,8 @@ TubeNormal NormalAt(const Segment& s, const Vec3& p) {
   const bool on_dome = (t == 0 && s.starts) || (t == 1 && s.finishes);
   const Vec3 lean =
       on_dome ? Vec3(Vec3::Zero()) : Vec3((s.radius_b - s.radius_a) / (length * length) * way);
-  return {(out / distance - lean).normalized(), std::abs(distance / radius - 1)};
+  const double beyond = on_dome ? 0 : std::abs(plane - t) * length / radius;
+  return {(out / distance - lean).normalized(), std::abs(distance / radius - 1) + beyond};
 }
 
 // The segment on whose tube every triangle lies; -1 where on none.

@@ -124,8 +124,10 @@ Chaining LinkBranches(const TubeNetwork& network, double max_turn) {
                     std::vector<std::array<double, 2>>(n, {0.0, 0.0}),
                     std::vector<std::array<TubeEnd, 2>>(n)};
   const std::vector<std::vector<BranchEnd>> ends = network.EndsAtNodes();
-  for (const std::vector<BranchEnd>& at_node : ends) {
-    FinishEnds(network, at_node, LinkAtNode(network, at_node, max_turn, chaining), chaining);
+  for (int node = 0; node < network.node_count; ++node) {
+    const bool is_corner = std::binary_search(network.corners.begin(), network.corners.end(), node);
+    const double through = is_corner ? 0.0 : LinkAtNode(network, ends[node], max_turn, chaining);
+    FinishEnds(network, ends[node], through, chaining);
   }
   return chaining;
 }
