@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "meshing/sweep.h"
 #include "meshing/tubes.h"
 #include "tests/meshing/tube_graphs.h"
 
@@ -67,6 +68,22 @@ TEST(ComputeTubeNormals, DoNotBreakAtTheRingsOfABend) {
       EXPECT_GT(ring.Normal(f, k).dot((p - centre).normalized()), std::cos(0.05));
     }
   }
+}
+
+// Rings half a radius apart at which the tube turns by .4 radians to and fro: triangles beside a
+// ring are as near to the surface of the next segment as to that of their own.
+TEST(ComputeTubeNormals, DoNotBreakAtTightRings) {
+  TubePath path;
+  Vec3 point = Vec3::Zero();
+  for (int i = 0; i < 12; ++i) {
+    path.axis.points.push_back(point);
+    path.axis.radii.push_back(kRadius);
+    const double angle = i % 4 < 2 ? 0.2 : -0.2;
+    point += (i % 2 ? 0.5 : 1.5) * kRadius * Vec3(std::cos(angle), std::sin(angle), 0);
+  }
+  const TubeRings rings = SweepRings(path, 16, 0.1);
+  const TriangleMesh mesh = CloseStub(rings, 0, path.segment_count());
+  EXPECT_EQ(ComputeTubeNormals(mesh, {path}).normals.size(), mesh.vertices.size());
 }
 
 TEST(ComputeTubeNormals, TrianglesOnNoTubeHaveTheirOwn) {
