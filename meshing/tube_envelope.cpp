@@ -30,9 +30,9 @@ constexpr double kGreatestMove = 0.1;
 constexpr double kReachWindow = 0.2;
 // Of the sum of two directions: less is no common direction across the tube.
 constexpr double kLeastAgreement = 0.5;
-// Radians: cross-sections at a sharper corner are wider than the tube by .05 and more; less is
-// noise.
-constexpr double kCornerTurn = 0.6;
+// Radians: cross-sections at a sharper corner are wider than the tube by .06 and more; what turns
+// less is noise.
+constexpr double kCornerTurn = 0.7;
 constexpr double kCornerBend = 0.25;  // what is measured between the halves of such a corner
 // A corner is the sharpest turn so far to either side.
 constexpr double kCornerReach = 0.7;
