@@ -16,7 +16,7 @@ TubeAxis FitToEnvelope(const TubeAxis& axis);
 /// Whether FitToEnvelope finds noise anywhere along the axis.
 bool IsNoisy(const TubeAxis& axis);
 
-/// Indices of the inner points, ascending, at which a curve has a corner: it turns by more than .3
+/// Indices of the inner points, ascending, at which a curve has a corner: it turns by more than .7
 /// radians at the point and as a whole. No circle is the cross-section of a tube there. Points next
 /// to an end are none.
 std::vector<int> FindCorners(const TubeAxis& axis);

@@ -33,9 +33,9 @@ struct TubeNetwork {
 /// Prepares a skeleton for sweeping: nodes at the same place, or joined by an edge shorter than
 /// 0.15 radii, become one; degree-2 nodes are dissolved; curves are simplified and cut where they
 /// turn by more than `max_turn` or more tightly than the tube is thick, and at corners that graze
-/// another tube (FindGrazingWays); a branch that lies inside
-/// another between the same nodes is dropped. Edges without radii get `default_radius`. Throws
-/// Error(kBadInput) for coordinates or radii that are not finite, radii that are not positive, or
+/// another tube (FindGrazingWays); a branch that lies inside another between the same nodes is
+/// dropped. Edges without radii get `default_radius`. Throws Error(kBadInput) for coordinates or
+/// radii that are not finite, radii that are not positive, or
 /// ones too thin for float32 coordinates at their distance from the origin.
 TubeNetwork PrepareTubes(const SkeletonGraph& graph, double default_radius,
                          const AxisOptions& options);
