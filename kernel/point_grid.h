@@ -89,6 +89,11 @@ class PointGrid {
   template <class Keep, class Visit>
   void ForEachRange(const Vec3& low, const Vec3& high, const Keep& keep, const Visit& visit) const;
 
+  // Calls visit(x, y, first, last) for the cells of each column in the box for which keep(x, y).
+  template <class Keep, class Visit>
+  void ForEachColumnPart(const Vec3& low, const Vec3& high, const Keep& keep,
+                         const Visit& visit) const;
+
   // The first of a sorted range whose key is not less.
   template <class Entry>
   static const Entry* FirstFrom(const Entry* first, const Entry* last, uint64_t key) {
@@ -104,8 +109,8 @@ class PointGrid {
 };
 
 template <class Keep, class Visit>
-void PointGrid::ForEachRange(const Vec3& low, const Vec3& high, const Keep& keep,
-                             const Visit& visit) const {
+void PointGrid::ForEachColumnPart(const Vec3& low, const Vec3& high, const Keep& keep,
+                                  const Visit& visit) const {
   const int64_t low_y = Coordinate(low.y()), high_y = Coordinate(high.y());
   const int64_t low_z = Coordinate(low.z()), high_z = Coordinate(high.z());
   const Column* end = columns_.data() + columns_.size() - 1;
@@ -115,40 +120,43 @@ void PointGrid::ForEachRange(const Vec3& low, const Vec3& high, const Keep& keep
     column = FirstFrom(column, end, ColumnKey(x, low_y));
     for (; column != end && column->key <= last_column; ++column) {
       const auto y = static_cast<int64_t>(column->key & (kCellsPerAxis - 1));
-      if (!IsOutermost(x) && !IsOutermost(y) && !keep(CellCenter(x), CellCenter(y))) continue;
+      if (!keep(x, y)) continue;
       const Cell* top = cells_.data() + (column + 1)->first;
       const Cell* first = FirstFrom(cells_.data() + column->first, top, Key(x, y, low_z));
       const Cell* last = first;
       const uint64_t last_key = Key(x, y, high_z);
       while (last != top && last->key <= last_key) ++last;
-      if (first != last) visit(first->first, last->first);
+      if (first != last) visit(x, y, first, last);
     }
   }
 }
 
+template <class Keep, class Visit>
+void PointGrid::ForEachRange(const Vec3& low, const Vec3& high, const Keep& keep,
+                             const Visit& visit) const {
+  ForEachColumnPart(
+      low, high,
+      [&](int64_t x, int64_t y) {
+        return IsOutermost(x) || IsOutermost(y) || keep(CellCenter(x), CellCenter(y));
+      },
+      [&](int64_t, int64_t, const Cell* first, const Cell* last) {
+        visit(first->first, last->first);
+      });
+}
+
 template <class Visit>
 void PointGrid::ForEachCell(const Vec3& low, const Vec3& high, const Visit& visit) const {
-  const int64_t low_y = Coordinate(low.y()), high_y = Coordinate(high.y());
-  const int64_t low_z = Coordinate(low.z()), high_z = Coordinate(high.z());
-  const Column* end = columns_.data() + columns_.size() - 1;
-  const Column* column = columns_.data();
-  for (int64_t x = Coordinate(low.x()); x <= Coordinate(high.x()); ++x) {
-    const uint64_t last_column = ColumnKey(x, high_y);
-    column = FirstFrom(column, end, ColumnKey(x, low_y));
-    for (; column != end && column->key <= last_column; ++column) {
-      const auto y = static_cast<int64_t>(column->key & (kCellsPerAxis - 1));
-      const Cell* top = cells_.data() + (column + 1)->first;
-      const Cell* cell = FirstFrom(cells_.data() + column->first, top, Key(x, y, low_z));
-      for (const uint64_t last_key = Key(x, y, high_z); cell != top && cell->key <= last_key;
-           ++cell) {
-        const auto z = static_cast<int64_t>(cell->key & (kCellsPerAxis - 1));
-        visit(CellPoints{{CellCenter(x), CellCenter(y), CellCenter(z)},
-                         cell->first,
-                         (cell + 1)->first,
-                         !IsOutermost(x) && !IsOutermost(y) && !IsOutermost(z)});
-      }
-    }
-  }
+  ForEachColumnPart(
+      low, high, [](int64_t, int64_t) { return true; },
+      [&](int64_t x, int64_t y, const Cell* first, const Cell* last) {
+        for (const Cell* cell = first; cell != last; ++cell) {
+          const auto z = static_cast<int64_t>(cell->key & (kCellsPerAxis - 1));
+          visit(CellPoints{{CellCenter(x), CellCenter(y), CellCenter(z)},
+                           cell->first,
+                           (cell + 1)->first,
+                           !IsOutermost(x) && !IsOutermost(y) && !IsOutermost(z)});
+        }
+      });
 }
 
 template <class Visit>
