@@ -49,7 +49,7 @@ struct PackedArrays {
 
 /// Weighted points sorted into a grid and stored as flat arrays of floats, relative to one of them:
 /// for very many sums over all points near a place. Thread-safe for concurrent queries, each with
-/// neighbours of its own. Building costs O(n log n).
+/// neighbours of its own. Building is linear.
 class PackedPoints {
  public:
   /// For queries of about `radius`, metres. Positions must be finite, as many as weights.

@@ -20,6 +20,11 @@ struct ObservedPoints {
     viewing_rays.reserve(n);
     counts.reserve(n);
   }
+  void Resize(size_t n) {
+    positions.resize(n);
+    viewing_rays.resize(n);
+    counts.resize(n);
+  }
   void Add(const Vec3& position, const Vec3& viewing_ray, float count) {
     positions.push_back(position);
     viewing_rays.push_back(viewing_ray);

@@ -2,7 +2,9 @@
 
 #include <cassert>
 #include <limits>
-#include <utility>
+
+#include "kernel/cell_order.h"
+#include "kernel/parallel.h"
 
 namespace curvefusion {
 
@@ -10,31 +12,31 @@ namespace {
 
 // Smaller cells fit a ball better, larger ones are fewer to look up.
 constexpr double kCellsPerRadius = 2;
+constexpr int64_t kPointsPerChunk = 4096;
 
 }  // namespace
 
 PointGrid::PointGrid(const std::vector<Vec3>& points, double radius)
     : cell_size_(radius / kCellsPerRadius) {
   assert(radius > 0);
-  std::vector<std::pair<uint64_t, int>> order(points.size());
-  for (size_t i = 0; i < points.size(); ++i) {
+  std::vector<VoxelKey> cells(points.size());
+  ParallelFor(0, static_cast<int64_t>(points.size()), kPointsPerChunk, [&](int64_t i) {
     const Vec3& p = points[i];
     assert(p.allFinite());
-    order[i] = {Key(Coordinate(p.x()), Coordinate(p.y()), Coordinate(p.z())), static_cast<int>(i)};
-  }
-  std::sort(order.begin(), order.end());
-  points_.reserve(points.size());
-  indices_.reserve(points.size());
-  for (const auto& [key, index] : order) {
-    const uint64_t column = key / kCellsPerAxis;
+    cells[i] = {static_cast<int>(Coordinate(p.x())), static_cast<int>(Coordinate(p.y())),
+                static_cast<int>(Coordinate(p.z()))};
+  });
+  indices_ = OrderByCell(cells);
+  points_.resize(points.size());
+  for (int i = 0; i < static_cast<int>(indices_.size()); ++i) {
+    points_[i] = points[indices_[i]];
+    const VoxelKey& cell = cells[indices_[i]];
+    const uint64_t column = ColumnKey(cell.x, cell.y);
+    const uint64_t key = Key(cell.x, cell.y, cell.z);
     if (columns_.empty() || columns_.back().key != column) {
       columns_.push_back({column, static_cast<int>(cells_.size())});
     }
-    if (cells_.empty() || cells_.back().key != key) {
-      cells_.push_back({key, static_cast<int>(indices_.size())});
-    }
-    indices_.push_back(index);
-    points_.push_back(points[index]);
+    if (cells_.empty() || cells_.back().key != key) cells_.push_back({key, i});
   }
   columns_.push_back({~uint64_t{0}, static_cast<int>(cells_.size())});
   cells_.push_back({~uint64_t{0}, static_cast<int>(indices_.size())});

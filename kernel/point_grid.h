@@ -11,7 +11,7 @@ namespace curvefusion {
 
 /// Points sorted into the cells of a regular grid, for very many queries of one radius over dense
 /// points, where it takes about a quarter of the time of a tree. Thread-safe for concurrent
-/// queries. Building costs O(n log n).
+/// queries. Building is linear.
 class PointGrid {
  public:
   /// For queries of about `radius`, metres, positive. `points` must be finite. Keeps a copy.

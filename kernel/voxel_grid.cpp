@@ -2,6 +2,7 @@
 
 #include <bit>
 
+#include "kernel/cell_order.h"
 #include "kernel/parallel.h"
 
 namespace curvefusion {
@@ -9,67 +10,27 @@ namespace curvefusion {
 namespace {
 
 constexpr size_t kFirstSlotCount = 1024;
-// Cells are shared out among so many tables, to be filled at the same time.
-constexpr int kShares = 8;
 constexpr int64_t kPointsPerChunk = 4096;
+constexpr int64_t kCellsPerChunk = 1024;
 
-std::vector<uint8_t> SharesOfPoints(const ObservedPoints& points, double voxel_size) {
-  std::vector<uint8_t> shares(points.size());
-  ParallelFor(0, static_cast<int64_t>(points.size()), kPointsPerChunk, [&](int64_t i) {
-    const size_t hash = VoxelKeyHash()(VoxelOf(points.positions[i], voxel_size));
-    shares[i] = static_cast<uint8_t>(hash % kShares);
-  });
-  return shares;
+std::vector<VoxelKey> CellsOf(const std::vector<Vec3>& places, double voxel_size) {
+  std::vector<VoxelKey> cells(places.size());
+  ParallelFor(0, static_cast<int64_t>(places.size()), kPointsPerChunk,
+              [&](int64_t i) { cells[i] = VoxelOf(places[i], voxel_size); });
+  return cells;
 }
 
-// The occupied cells of one share.
-struct GridShare {
-  ObservedPoints points;
-  std::vector<size_t> firsts;  // the first point of each cell
-};
-
-GridShare ResampleShare(const ObservedPoints& points, double voxel_size,
-                        const std::vector<uint8_t>& share_of_point, uint8_t share) {
-  VoxelNumbers voxels;
-  GridShare resampled;
-  ObservedPoints& sums = resampled.points;
-  for (size_t i = 0; i < points.size(); ++i) {
-    if (share_of_point[i] != share) continue;
-    const float count = points.counts[i];
-    const auto voxel = static_cast<size_t>(voxels.Number(VoxelOf(points.positions[i], voxel_size)));
-    if (voxel == sums.size()) {
-      sums.Add(Vec3::Zero(), Vec3::Zero(), 0);
-      resampled.firsts.push_back(i);
-    }
-    sums.positions[voxel] += count * points.positions[i];
-    sums.viewing_rays[voxel] += count * points.viewing_rays[i];
-    sums.counts[voxel] += count;
+// Where the points of each cell begin in their order by cell; cells in the order of their first
+// points.
+std::vector<int> Beginnings(const std::vector<VoxelKey>& cells, const std::vector<int>& order) {
+  constexpr int kNotFirst = -1;
+  std::vector<int> beginning_of_first(cells.size(), kNotFirst);
+  for (size_t k = 0; k < order.size(); ++k) {
+    if (k > 0 && cells[order[k]] == cells[order[k - 1]]) continue;
+    beginning_of_first[order[k]] = static_cast<int>(k);
   }
-  for (size_t i = 0; i < sums.size(); ++i) {
-    sums.positions[i] /= sums.counts[i];
-    const double norm = sums.viewing_rays[i].norm();
-    if (norm > 0) sums.viewing_rays[i] /= norm;
-  }
-  return resampled;
-}
-
-// The cells of all shares in the order of their first points.
-ObservedPoints InOrder(const std::vector<GridShare>& shares,
-                       const std::vector<uint8_t>& share_of_point) {
-  size_t cells = 0;
-  for (const GridShare& share : shares) cells += share.firsts.size();
-  ObservedPoints ordered;
-  ordered.Reserve(cells);
-  std::vector<size_t> next(shares.size(), 0);
-  for (size_t i = 0; i < share_of_point.size(); ++i) {
-    const GridShare& share = shares[share_of_point[i]];
-    size_t& cell = next[share_of_point[i]];
-    if (cell == share.firsts.size() || share.firsts[cell] != i) continue;
-    ordered.Add(share.points.positions[cell], share.points.viewing_rays[cell],
-                share.points.counts[cell]);
-    ++cell;
-  }
-  return ordered;
+  std::erase(beginning_of_first, kNotFirst);
+  return beginning_of_first;
 }
 
 }  // namespace
@@ -104,12 +65,29 @@ int VoxelNumbers::Number(const VoxelKey& key) {
 }
 
 ObservedPoints ResampleOnGrid(const ObservedPoints& points, double voxel_size) {
-  const std::vector<uint8_t> share_of_point = SharesOfPoints(points, voxel_size);
-  std::vector<GridShare> shares(kShares);
-  ParallelFor(0, kShares, 1, [&](int64_t share) {
-    shares[share] = ResampleShare(points, voxel_size, share_of_point, static_cast<uint8_t>(share));
+  const std::vector<VoxelKey> cells = CellsOf(points.positions, voxel_size);
+  const std::vector<int> order = OrderByCell(cells);
+  const std::vector<int> beginnings = Beginnings(cells, order);
+  ObservedPoints resampled;
+  resampled.Resize(beginnings.size());
+  ParallelFor(0, static_cast<int64_t>(beginnings.size()), kCellsPerChunk, [&](int64_t i) {
+    Vec3 position = Vec3::Zero();
+    Vec3 ray = Vec3::Zero();
+    float sum = 0;
+    const VoxelKey& cell = cells[order[beginnings[i]]];
+    for (size_t k = beginnings[i]; k < order.size() && cells[order[k]] == cell; ++k) {
+      const int point = order[k];
+      const float count = points.counts[point];
+      position += count * points.positions[point];
+      ray += count * points.viewing_rays[point];
+      sum += count;
+    }
+    resampled.positions[i] = position / sum;
+    const double norm = ray.norm();
+    resampled.viewing_rays[i] = norm > 0 ? Vec3(ray / norm) : ray;
+    resampled.counts[i] = sum;
   });
-  return InOrder(shares, share_of_point);
+  return resampled;
 }
 
 }  // namespace curvefusion
