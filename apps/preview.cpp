@@ -9,6 +9,7 @@
 #include "apps/frame_overlay.h"
 #include "experiments/pictures/orthographic_view.h"
 #include "experiments/pictures/picture_style.h"
+#include "kernel/parallel.h"
 
 namespace curvefusion {
 
@@ -93,14 +94,15 @@ ColorImage DrawPreview(const SkeletonGraph& graph, const ObservedPoints& points,
   cv::Mat canvas = View(preview);
   const auto views = Views(MeanCameraAxes(sequence));
   const double scale = CommonScale(graph, views);
-  for (int i = 0; i < 3; ++i) {
-    Paste(DrawOrthographicView(graph, points, views[i], kPanelWidth, kPanelHeight, scale), i,
-          canvas);
-  }
   const int frame = FrameSeeingMost(graph, sequence);
-  if (frame >= 0) {
-    Paste(DrawFrameOverlay(graph, sequence, frame, kPanelWidth, kPanelHeight), 3, canvas);
-  }
+  constexpr int kPanels = 4;
+  ParallelFor(0, frame >= 0 ? kPanels : kPanels - 1, 1, [&](int64_t i) {
+    const auto panel = static_cast<size_t>(i);
+    Paste(panel < views.size()
+              ? DrawOrthographicView(graph, points, views[panel], kPanelWidth, kPanelHeight, scale)
+              : DrawFrameOverlay(graph, sequence, frame, kPanelWidth, kPanelHeight),
+          static_cast<int>(i), canvas);
+  });
   const int text_width = kWidth - 4 * kGap;
   Text(canvas, title, {2 * kGap, 8, text_width, kTitleHeight - 16}, 0.85, kInk);
   const std::string footer = fmt::format(

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
-#include <utility>
+#include <cstddef>
 
 #include "kernel/parallel.h"
 #include "kernel/voxel_grid.h"
@@ -16,14 +16,18 @@ constexpr size_t kCandidatesPerPoint = 4;
 
 ObservedPoints Merged(const std::vector<ObservedPoints>& frames,
                       const std::vector<RigidTransform>& T, double voxel_size) {
-  std::vector<ObservedPoints> moved(frames.size());
-  ParallelFor(0, static_cast<int64_t>(frames.size()), 1,
-              [&](int64_t i) { moved[i] = Transformed(frames[i], T[i]); });
-  size_t points = 0;
-  for (const ObservedPoints& frame : moved) points += frame.size();
+  std::vector<std::ptrdiff_t> begin = {0};
+  for (const ObservedPoints& frame : frames) {
+    begin.push_back(begin.back() + static_cast<std::ptrdiff_t>(frame.size()));
+  }
   ObservedPoints merged;
-  merged.Reserve(points);
-  for (ObservedPoints& frame : moved) Append(merged, std::exchange(frame, {}));
+  merged.Resize(static_cast<size_t>(begin.back()));
+  ParallelFor(0, static_cast<int64_t>(frames.size()), 1, [&](int64_t i) {
+    const ObservedPoints moved = Transformed(frames[i], T[i]);
+    std::ranges::copy(moved.positions, merged.positions.begin() + begin[i]);
+    std::ranges::copy(moved.viewing_rays, merged.viewing_rays.begin() + begin[i]);
+    std::ranges::copy(moved.counts, merged.counts.begin() + begin[i]);
+  });
   return ResampleOnGrid(merged, voxel_size);
 }
 

@@ -8,6 +8,7 @@
 #include "fusion/segmentation/colour_lookup.h"
 #include "fusion/segmentation/stripe_field.h"
 #include "fusion/strips/wire_posterior.h"
+#include "kernel/parallel.h"
 
 namespace curvefusion {
 
@@ -45,6 +46,16 @@ void Learn(const WireCandidates& frame, const MaskImage& wire, const MaskImage& 
                 [&](int, int, int x, int y) { model.AddWire(bins(x, y)); });
   ForEachColour(background, frame.depth, lookup,
                 [&](int, int, int x, int y) { model.AddBackground(bins(x, y)); });
+}
+
+// What learn(i, model) tells of each of so many frames, together.
+template <class LearnFrame>
+WireColourModel LearnAll(size_t frames, const LearnFrame& learn) {
+  std::vector<WireColourModel> models(frames);
+  ParallelFor(0, static_cast<int64_t>(frames), 1, [&](int64_t i) { learn(i, models[i]); });
+  WireColourModel all;
+  for (const WireColourModel& model : models) all.Add(model);
+  return all;
 }
 
 MaskImage BackgroundAround(const MaskImage& mask) {
@@ -90,16 +101,18 @@ Vec2 BestShift(const ShiftScores& scores) {
 // Where the masks' pixels are likeliest wire; zero where that is nowhere within reach.
 Vec2 FindShift(const std::vector<WireCandidates>& frames, const std::vector<uint8_t>& posterior,
                const Sequence& sequence) {
-  std::vector<PosteriorImage> images;
-  for (const WireCandidates& frame : frames) {
-    images.push_back(ApplyPosterior(BinColours(frame.color), posterior));
-  }
+  const auto n = static_cast<int64_t>(frames.size());
+  std::vector<PosteriorImage> images(frames.size());
+  ParallelFor(0, n, 1, [&](int64_t i) {
+    images[i] = ApplyPosterior(BinColours(frames[i].color), posterior);
+  });
   Vec2 shift = Vec2::Zero();
   for (int round = 0; round < kShiftRounds; ++round) {
+    std::vector<ShiftScores> of_frame(frames.size(), ShiftScores::Zero());
+    const ColourLookup lookup(sequence, shift);
+    ParallelFor(0, n, 1, [&](int64_t i) { AddScores(frames[i], images[i], lookup, of_frame[i]); });
     ShiftScores scores = ShiftScores::Zero();
-    for (size_t i = 0; i < frames.size(); ++i) {
-      AddScores(frames[i], images[i], ColourLookup(sequence, shift), scores);
-    }
+    for (const ShiftScores& some : of_frame) scores += some;
     shift += BestShift(scores);
     if (!(shift.cwiseAbs().maxCoeff() <= kMaxShift_px)) return Vec2::Zero();
   }
@@ -198,19 +211,18 @@ MaskImage PixelsInRows(const WireCandidates& frame) {
 WireColours LearnWireColours(const std::vector<WireCandidates>& frames, const Sequence& sequence,
                              const ColourGateOptions& options) {
   WireColours colours;
-  WireColourModel first, second;
-  std::vector<MaskImage> background;
-  for (const WireCandidates& frame : frames) {
-    background.push_back(BackgroundAround(frame.mask));
-    Learn(frame, frame.mask, background.back(), ColourLookup(sequence, Vec2::Zero()), first);
-  }
+  std::vector<MaskImage> background(frames.size());
+  const WireColourModel first = LearnAll(frames.size(), [&](int64_t i, WireColourModel& model) {
+    background[i] = BackgroundAround(frames[i].mask);
+    Learn(frames[i], frames[i].mask, background[i], ColourLookup(sequence, Vec2::Zero()), model);
+  });
   colours.posterior = first.Posterior();
   colours.shift_px = FindShift(frames, colours.posterior, sequence);
-  for (size_t i = 0; i < frames.size(); ++i) {
+  const WireColourModel second = LearnAll(frames.size(), [&](int64_t i, WireColourModel& model) {
     WireCandidates gated = frames[i];
     GateByColour(colours, sequence, options, gated);
-    Learn(gated, gated.mask, background[i], ColourLookup(sequence, colours.shift_px), second);
-  }
+    Learn(gated, gated.mask, background[i], ColourLookup(sequence, colours.shift_px), model);
+  });
   colours.posterior = second.Posterior();
   return colours;
 }
@@ -219,8 +231,9 @@ void SharpenColours(const std::vector<WireCandidates>& frames, const Sequence& s
                     WireColours& colours) {
   const ColourLookup lookup(sequence, colours.shift_px);
   for (int round = 0; round < kSharpeningRounds; ++round) {
-    WireColourModel model;
-    for (const WireCandidates& frame : frames) LearnFromStripes(frame, colours, lookup, model);
+    const WireColourModel model = LearnAll(frames.size(), [&](int64_t i, WireColourModel& m) {
+      LearnFromStripes(frames[i], colours, lookup, m);
+    });
     colours.posterior = model.Posterior();
   }
 }
