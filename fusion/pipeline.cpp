@@ -16,8 +16,10 @@ namespace curvefusion {
 
 namespace {
 
-// Bundles segmented at the same time: much of a bundle is done one step after the other.
+// Bundles segmented at the same time, at most: much of a bundle is done one step after the other.
 constexpr size_t kBundlesAtOnce = 4;
+// Ridge points by which a bundle is registered are so many times as far apart as those of curves.
+constexpr double kBundleSpacing = 1.5;
 
 // What the steps of one run share: where they report to.
 struct RunContext {
@@ -77,9 +79,11 @@ SegmentedScan SegmentBundles(const Sequence& sequence, const TsdfVolume& volume,
   run.log.Count("segmentation", "row spacing, mm", model.row_spacing / kMillimetre);
   const auto ranges =
       SplitIntoBundles(sequence.frame_count(), run.options.segmentation.bundle.frames);
-  size_t candidates = 0, points = 0;
-  for (size_t begin = 0; begin < ranges.size(); begin += kBundlesAtOnce) {
-    std::vector<SegmentedBundle> bundles(std::min(kBundlesAtOnce, ranges.size() - begin));
+  // About as many each time, so that no bundle is left to itself in the end.
+  const size_t times = (ranges.size() + kBundlesAtOnce - 1) / kBundlesAtOnce;
+  size_t candidates = 0, points = 0, begin = 0;
+  for (size_t left = times; left > 0; --left) {
+    std::vector<SegmentedBundle> bundles((ranges.size() - begin + left - 1) / left);
     ParallelFor(0, static_cast<int64_t>(bundles.size()), 1, [&](int64_t i) {
       const auto& [first, last] = ranges[begin + static_cast<size_t>(i)];
       bundles[i] = SegmentBundle(sequence, first, last, volume, model, run.options.segmentation);
@@ -89,8 +93,8 @@ SegmentedScan SegmentBundles(const Sequence& sequence, const TsdfVolume& volume,
       points += bundle.points.size();
       AddBundle(bundle, scan, run.observer);
     }
-    run.observer.OnProgress("segmentation", ranges[begin + bundles.size() - 1].second,
-                            sequence.frame_count());
+    begin += bundles.size();
+    run.observer.OnProgress("segmentation", ranges[begin - 1].second, sequence.frame_count());
   }
   run.log.Count("segmentation", "bundles", static_cast<double>(scan.bundles.size()));
   run.log.Count("segmentation", "candidates", static_cast<double>(candidates));
@@ -175,10 +179,12 @@ RegisteredBundles RegisterBundles(const SegmentedScan& scan, RunContext& run) {
   CarriedPoints carried(run.options.carried);
   const RidgeProjectionOptions ridges =
       ForCloseWires(run.options.ridge.projection, run.magnification);
+  RidgeProjectionOptions coarse = ridges;
+  coarse.spacing *= kBundleSpacing;
   // Side by side, as much of a projection is done one step after the other.
   std::vector<RidgePoints> ridge_of_bundle(scan.bundles.size());
   ParallelFor(0, static_cast<int64_t>(scan.bundles.size()), 1,
-              [&](int64_t i) { ridge_of_bundle[i] = ProjectToRidges(scan.bundles[i], ridges); });
+              [&](int64_t i) { ridge_of_bundle[i] = ProjectToRidges(scan.bundles[i], coarse); });
   std::vector<RigidTransform> T_registered_bundle;
   for (size_t i = 0; i < scan.bundles.size(); ++i) {
     T_registered_bundle.push_back(carried

@@ -76,8 +76,4 @@ BallSums PackedPoints::SumsWithin(const Vec3& center, double radius, Neighbours&
   return {Sum(sums.weight), Sum(sums.squared_weight)};
 }
 
-std::vector<int> InOrderOfCells(const std::vector<Vec3>& places, double cell_size) {
-  return PointGrid(places, 2 * cell_size).order();
-}
-
 }  // namespace curvefusion

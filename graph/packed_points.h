@@ -64,7 +64,7 @@ class PackedPoints {
   };
 
   /// The cells around the last query, kept for the next one, which is fast where it lies in the
-  /// same cell: ask for places in order (InOrderOfCells). The results do not depend on it.
+  /// same cell: ask for places in order (GroupByCell). The results do not depend on it.
   class Neighbours {
    private:
     friend class PackedPoints;
@@ -101,9 +101,6 @@ class PackedPoints {
   Vec3 origin_;
   PackedArrays arrays_;
 };
-
-/// The order of places by cells of side `cell_size`.
-std::vector<int> InOrderOfCells(const std::vector<Vec3>& places, double cell_size);
 
 [[gnu::always_inline]] inline PackedArrays::Packet PackedArrays::Load(int first, int last) const {
   // From so many on, ones for so many lanes less.

@@ -5,10 +5,13 @@
 #include <cassert>
 #include <cmath>
 #include <numeric>
+#include <span>
+#include <utility>
 
 #include "graph/density_kernel.h"
 #include "graph/packed_points.h"
 #include "graph/ridge_scale.h"
+#include "kernel/buckets.h"
 #include "kernel/parallel.h"
 #include "kernel/point_grid.h"
 #include "kernel/quantile.h"
@@ -63,20 +66,25 @@ double TypicalStrength(std::vector<double> strengths) {
   return 0;
 }
 
+// What is usual hardly changes within this part of the radius.
+constexpr double kCellPerRadius = 0.35;
+
 // Divides the counts by what is usual nearby, the count-weighted mean within the radius: wires seen
 // often and seldom become equally strong, while their profile across stays.
 void EqualizeCounts(ObservedPoints& points, double radius, double least_relative_count) {
   if (points.empty()) return;
   const PackedPoints packed(points.positions, points.counts, radius);
+  const Buckets cells = GroupByCell(points.positions, kCellPerRadius * radius);
   std::vector<double> usual(points.size());
-  const std::vector<int>& order = packed.order();
-  const auto n = static_cast<int64_t>(points.size());
-  ParallelChunks(0, n, kGrain, [&](int64_t first, int64_t last) {
+  ParallelChunks(0, cells.size(), kGrain, [&](int64_t first, int64_t last) {
     PackedPoints::Neighbours neighbours;
-    for (int64_t k = first; k < last; ++k) {
-      const int i = order[k];
-      const BallSums around = packed.SumsWithin(points.positions[i], radius, neighbours);
-      usual[i] = around.squared_weight / around.weight;
+    for (int64_t cell = first; cell < last; ++cell) {
+      const std::span<const int> members = cells[cell];
+      Vec3 center = Vec3::Zero();
+      for (const int i : members) center += points.positions[i];
+      center /= static_cast<double>(members.size());
+      const BallSums around = packed.SumsWithin(center, radius, neighbours);
+      for (const int i : members) usual[i] = around.squared_weight / around.weight;
     }
   });
   const double least = least_relative_count * Median(usual);
@@ -181,7 +189,7 @@ std::vector<Vec3> Positions(const std::vector<RidgeSeed>& seeds) {
 void ProjectSeeds(const std::vector<DensityField>& levels, const ProjectionRound& round,
                   std::vector<RidgeSeed>& seeds) {
   const std::vector<int> order =
-      InOrderOfCells(Positions(seeds), kKernelSupport / 2 * levels[0].sigma());
+      GroupByCell(Positions(seeds), kKernelSupport / 2 * levels[0].sigma()).members;
   ParallelChunks(0, static_cast<int64_t>(seeds.size()), kGrain, [&](int64_t first, int64_t last) {
     std::vector<DensityField::Neighbours> neighbours(levels.size());
     for (int64_t k = first; k < last; ++k) {
@@ -362,10 +370,13 @@ RidgePoints FollowRidges(const ObservedPoints& points, const RidgePoints& before
     // Those between close the gaps that thinning out would widen from time to time.
     for (const double along : {-0.5, 0.0, 0.5}) {
       const Vec3 place = before.positions[i] + along * options.spacing * before.directions[i];
-      seeds.push_back({place, before.directions[i], 0, 0, 0, before.levels[i]});
+      const double strength = 1 - std::abs(along);
+      seeds.push_back({place, before.directions[i], strength, 0, 0, before.levels[i]});
     }
   }
-  return RidgesFrom(observed, MakeLevels(usable, options), seeds, options);
+  // Neighbours have half-way seeds in the same place.
+  seeds = ThinOut(seeds, 0.4 * options.spacing);
+  return RidgesFrom(observed, MakeLevels(usable, options), std::move(seeds), options);
 }
 
 void Append(RidgePoints& ridge, const RidgePoints& more, const RigidTransform& T) {

@@ -25,7 +25,7 @@ std::vector<double> SpreadsAt(const ObservedPoints& points, const std::vector<Ve
                               double sigma) {
   const DensityField field(points, sigma);
   std::vector<double> spreads(places.size());
-  const std::vector<int> order = InOrderOfCells(places, kKernelSupport / 2 * sigma);
+  const std::vector<int> order = GroupByCell(places, kKernelSupport / 2 * sigma).members;
   ParallelChunks(0, static_cast<int64_t>(places.size()), kGrain, [&](int64_t first, int64_t last) {
     DensityField::Neighbours neighbours;
     for (int64_t k = first; k < last; ++k) {
@@ -60,7 +60,7 @@ std::vector<PackedPoints> PackByExceeded(const std::vector<Vec3>& samples,
 std::vector<int> QuantilesAt(const std::vector<PackedPoints>& samples_by_exceeded,
                              const std::vector<Vec3>& places, double window, double quantile) {
   std::vector<int> exceeded(places.size(), 0);
-  const std::vector<int> order = InOrderOfCells(places, samples_by_exceeded[0].cell_size());
+  const std::vector<int> order = GroupByCell(places, samples_by_exceeded[0].cell_size()).members;
   ParallelChunks(0, static_cast<int64_t>(places.size()), kGrain, [&](int64_t first, int64_t last) {
     std::vector<PackedPoints::Neighbours> neighbours(samples_by_exceeded.size());
     std::vector<int> histogram(samples_by_exceeded.size());

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <numeric>
+#include <span>
 #include <vector>
 
 namespace curvefusion {
@@ -10,6 +12,11 @@ namespace curvefusion {
 struct Buckets {
   std::vector<int> first;  ///< of each bucket, and the end
   std::vector<int> members;
+
+  int size() const { return static_cast<int>(first.size()) - 1; }
+  std::span<const int> operator[](int64_t bucket) const {
+    return {members.begin() + first[bucket], members.begin() + first[bucket + 1]};
+  }
 };
 
 /// Sorts items into buckets by counting; those in a negative bucket are left out. Linear.

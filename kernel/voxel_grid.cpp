@@ -13,24 +13,13 @@ constexpr size_t kFirstSlotCount = 1024;
 constexpr int64_t kPointsPerChunk = 4096;
 constexpr int64_t kCellsPerChunk = 1024;
 
-std::vector<VoxelKey> CellsOf(const std::vector<Vec3>& places, double voxel_size) {
-  std::vector<VoxelKey> cells(places.size());
-  ParallelFor(0, static_cast<int64_t>(places.size()), kPointsPerChunk,
-              [&](int64_t i) { cells[i] = VoxelOf(places[i], voxel_size); });
-  return cells;
-}
-
-// Where the points of each cell begin in their order by cell; cells in the order of their first
-// points.
-std::vector<int> Beginnings(const std::vector<VoxelKey>& cells, const std::vector<int>& order) {
-  constexpr int kNotFirst = -1;
-  std::vector<int> beginning_of_first(cells.size(), kNotFirst);
-  for (size_t k = 0; k < order.size(); ++k) {
-    if (k > 0 && cells[order[k]] == cells[order[k - 1]]) continue;
-    beginning_of_first[order[k]] = static_cast<int>(k);
-  }
-  std::erase(beginning_of_first, kNotFirst);
-  return beginning_of_first;
+// The buckets in the order of their first members.
+std::vector<int> OrderByFirstMember(const Buckets& buckets) {
+  constexpr int kNone = -1;
+  std::vector<int> bucket_of_first(buckets.members.size(), kNone);
+  for (int b = 0; b < buckets.size(); ++b) bucket_of_first[buckets[b].front()] = b;
+  std::erase(bucket_of_first, kNone);
+  return bucket_of_first;
 }
 
 }  // namespace
@@ -64,19 +53,30 @@ int VoxelNumbers::Number(const VoxelKey& key) {
   return number;
 }
 
+Buckets GroupByCell(const std::vector<Vec3>& places, double voxel_size) {
+  std::vector<VoxelKey> cells(places.size());
+  ParallelFor(0, static_cast<int64_t>(places.size()), kPointsPerChunk,
+              [&](int64_t i) { cells[i] = VoxelOf(places[i], voxel_size); });
+  Buckets buckets;
+  buckets.members = OrderByCell(cells);
+  for (size_t k = 0; k < places.size(); ++k) {
+    const bool is_same = k > 0 && cells[buckets.members[k]] == cells[buckets.members[k - 1]];
+    if (!is_same) buckets.first.push_back(static_cast<int>(k));
+  }
+  buckets.first.push_back(static_cast<int>(places.size()));
+  return buckets;
+}
+
 ObservedPoints ResampleOnGrid(const ObservedPoints& points, double voxel_size) {
-  const std::vector<VoxelKey> cells = CellsOf(points.positions, voxel_size);
-  const std::vector<int> order = OrderByCell(cells);
-  const std::vector<int> beginnings = Beginnings(cells, order);
+  const Buckets cells = GroupByCell(points.positions, voxel_size);
+  const std::vector<int> order = OrderByFirstMember(cells);
   ObservedPoints resampled;
-  resampled.Resize(beginnings.size());
-  ParallelFor(0, static_cast<int64_t>(beginnings.size()), kCellsPerChunk, [&](int64_t i) {
+  resampled.Resize(order.size());
+  ParallelFor(0, static_cast<int64_t>(order.size()), kCellsPerChunk, [&](int64_t i) {
     Vec3 position = Vec3::Zero();
     Vec3 ray = Vec3::Zero();
     float sum = 0;
-    const VoxelKey& cell = cells[order[beginnings[i]]];
-    for (size_t k = beginnings[i]; k < order.size() && cells[order[k]] == cell; ++k) {
-      const int point = order[k];
+    for (const int point : cells[order[i]]) {
       const float count = points.counts[point];
       position += count * points.positions[point];
       ray += count * points.viewing_rays[point];

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "kernel/buckets.h"
 #include "kernel/geometry.h"
 #include "kernel/observed_points.h"
 
@@ -68,6 +69,10 @@ class VoxelNumbers {
   std::vector<int> slots_;  ///< a power of two, at most half full
   int slot_shift_ = 0;      ///< the hash's upper bits that index slots_
 };
+
+/// The places in each occupied cell of side `voxel_size`, a bucket a cell, in ascending order of
+/// the cells' x, then y, then z. Linear.
+Buckets GroupByCell(const std::vector<Vec3>& places, double voxel_size);
 
 /// One point per occupied cell: the means of positions and rays weighted by counts (rays made unit
 /// again), the sum of counts. Ordered by first occurrence, so the result depends on input order

@@ -2,10 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <random>
-
-#include "kernel/voxel_grid.h"
 
 namespace curvefusion {
 namespace {
@@ -68,18 +65,6 @@ TEST(PackedPoints, EmptySumsAreZero) {
   PackedPoints::Neighbours neighbours;
   const PackedPoints packed({}, {}, 0.01);
   EXPECT_EQ(packed.SumsWithin(Vec3::Zero(), 0.01, neighbours).weight, 0);
-  EXPECT_TRUE(InOrderOfCells({}, 0.01).empty());
-}
-
-TEST(PackedPoints, PlacesInOrderOfCellsAreAllPlaces) {
-  const std::vector<Vec3> places = RandomPlaces(500, 3);
-  std::vector<int> order = InOrderOfCells(places, 0.01);
-  const auto cell = [&](int i) { return VoxelOf(places[i], 0.01); };
-  int changes = 0;
-  for (size_t i = 1; i < order.size(); ++i) changes += cell(order[i]) != cell(order[i - 1]);
-  EXPECT_LE(changes, 5 * 5 * 5);  // each cell once
-  std::sort(order.begin(), order.end());
-  for (int i = 0; i < 500; ++i) EXPECT_EQ(order[i], i);
 }
 
 }  // namespace

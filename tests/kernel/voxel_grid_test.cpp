@@ -58,7 +58,34 @@ TEST(VoxelGrid, CellsComeInTheOrderOfTheirFirstPoints) {
   EXPECT_EQ(count, 20000);
 }
 
-TEST(VoxelGrid, EmptyStaysEmpty) { EXPECT_TRUE(ResampleOnGrid({}, 0.01).empty()); }
+TEST(VoxelGrid, EmptyStaysEmpty) {
+  EXPECT_TRUE(ResampleOnGrid({}, 0.01).empty());
+  EXPECT_EQ(GroupByCell({}, 0.01).size(), 0);
+}
+
+TEST(GroupByCell, HoldsEveryPlaceOnceInItsCell) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> coordinate(-0.1, 0.1);
+  constexpr double kVoxel = 0.05;
+  std::vector<Vec3> places(5000);  // more than one chunk
+  for (Vec3& p : places) p = {coordinate(random), coordinate(random), coordinate(random)};
+  const Buckets cells = GroupByCell(places, kVoxel);
+  EXPECT_EQ(cells.size(), 4 * 4 * 4);
+  std::vector<int> seen;
+  for (int cell = 0; cell < cells.size(); ++cell) {
+    const VoxelKey key = VoxelOf(places[cells[cell].front()], kVoxel);
+    if (cell > 0) {
+      EXPECT_LT(VoxelOf(places[cells[cell - 1].front()], kVoxel), key);
+    }
+    EXPECT_TRUE(std::ranges::is_sorted(cells[cell]));
+    for (const int i : cells[cell]) {
+      EXPECT_EQ(VoxelOf(places[i], kVoxel), key);
+      seen.push_back(i);
+    }
+  }
+  std::ranges::sort(seen);
+  for (int i = 0; i < 5000; ++i) EXPECT_EQ(seen[i], i);
+}
 
 }  // namespace
 }  // namespace curvefusion
