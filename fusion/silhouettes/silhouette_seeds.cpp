@@ -24,9 +24,55 @@ constexpr double kLeaf = 0.002;   // metres; a wire is a few of them thick
 constexpr double kMinShare = 0.97;
 constexpr double kMinUnexplained = 0.06;  // of the views
 constexpr double kBlurPx = 2.5;           // colour runs so far beyond a wire's outline
-constexpr double kLink = 0.0045;          // metres
+// Of the wire that images show about the skeleton, .06 are left over at most once all pieces have
+// been found; before a box of the wires' colour it is .17.
+constexpr double kMaxLeftOver = 0.12;
+constexpr double kLink = 0.0045;  // metres
 constexpr size_t kMinPlaces = 6;
 constexpr double kMinLength = 0.02;  // metres
+
+// An image with 1 where it shows no wire.
+cv::Mat NoWire(const PosteriorImage& posterior) {
+  cv::Mat mask(posterior.height(), posterior.width(), CV_8U);
+  for (int v = 0; v < posterior.height(); ++v)
+    for (int u = 0; u < posterior.width(); ++u)
+      mask.at<uint8_t>(v, u) = WireSilhouettes::IsWire(posterior(u, v)) ? 0 : 1;
+  return mask;
+}
+
+// Sets a mask to 1 where curves account for wire. Returns the box around them, pixels.
+cv::Rect DrawCurves(const SkeletonGraph& skeleton, const WireSilhouettes::View& view,
+                    const PinholeCamera& camera, cv::Mat& mask) {
+  cv::Rect box;
+  for (const EdgeId id : skeleton.Edges()) {
+    const SkeletonEdge& edge = skeleton.edge(id);
+    for (size_t i = 0; i < edge.points.size(); ++i) {
+      const Vec3 p = view.T_color_world * edge.points[i];
+      if (p.z() <= edge.radii[i]) continue;
+      const Vec2 pixel = camera.Project(p);
+      if (!camera.Contains(pixel)) continue;
+      const double radius_px = camera.fx * edge.radii[i] / p.z() + kBlurPx;
+      const cv::Point at(cvRound(pixel.x()), cvRound(pixel.y()));
+      cv::circle(mask, at, cvCeil(radius_px), 1, cv::FILLED);
+      box |= cv::Rect(at, cv::Size(1, 1)) & cv::Rect({}, mask.size());
+    }
+  }
+  return box;
+}
+
+// The share of the wire around the skeleton that no curve accounts for, in the median image.
+double ShareLeftOver(const WireSilhouettes& silhouettes, const SkeletonGraph& skeleton) {
+  std::vector<double> shares(silhouettes.views().size());
+  ParallelFor(0, static_cast<int64_t>(shares.size()), 1, [&](int64_t i) {
+    const WireSilhouettes::View& view = silhouettes.views()[i];
+    const cv::Mat no_wire = NoWire(*view.posterior);
+    cv::Mat explained = no_wire.clone();
+    const cv::Rect box = DrawCurves(skeleton, view, silhouettes.color_camera(), explained);
+    const auto wire = [&](const cv::Mat& mask) { return box.area() - cv::countNonZero(mask(box)); };
+    shares[i] = wire(explained) / std::max(1.0, static_cast<double>(wire(no_wire)));
+  });
+  return Median(std::move(shares));
+}
 
 // Distances in pixels to the nearest wire, and to the nearest wire that no curve accounts for.
 struct ViewDistances {
@@ -36,26 +82,11 @@ struct ViewDistances {
 
 ViewDistances MeasureDistances(const WireSilhouettes::View& view, const PinholeCamera& camera,
                                const SkeletonGraph& skeleton) {
-  const PosteriorImage& posterior = *view.posterior;
-  cv::Mat background(posterior.height(), posterior.width(), CV_8U);
-  for (int v = 0; v < posterior.height(); ++v)
-    for (int u = 0; u < posterior.width(); ++u)
-      background.at<uint8_t>(v, u) = WireSilhouettes::IsWire(posterior(u, v)) ? 0 : 1;
   ViewDistances distances;
-  cv::distanceTransform(background, distances.to_wire, cv::DIST_L2, 3, CV_32F);
-  for (const EdgeId id : skeleton.Edges()) {
-    const SkeletonEdge& edge = skeleton.edge(id);
-    for (size_t i = 0; i < edge.points.size(); ++i) {
-      const Vec3 p = view.T_color_world * edge.points[i];
-      if (p.z() <= edge.radii[i]) continue;
-      const Vec2 pixel = camera.Project(p);
-      if (!camera.Contains(pixel)) continue;
-      const double radius_px = camera.fx * edge.radii[i] / p.z() + kBlurPx;
-      cv::circle(background, {cvRound(pixel.x()), cvRound(pixel.y())}, cvCeil(radius_px), 1,
-                 cv::FILLED);
-    }
-  }
-  cv::distanceTransform(background, distances.to_unexplained, cv::DIST_L2, 3, CV_32F);
+  cv::Mat mask = NoWire(*view.posterior);
+  cv::distanceTransform(mask, distances.to_wire, cv::DIST_L2, 3, CV_32F);
+  DrawCurves(skeleton, view, camera, mask);
+  cv::distanceTransform(mask, distances.to_unexplained, cv::DIST_L2, 3, CV_32F);
   return distances;
 }
 
@@ -201,6 +232,7 @@ std::vector<FoundPiece> AddUnexplainedWires(const WireSilhouettes& silhouettes,
   if (radii.empty()) return {};
   const double radius = Median(std::move(radii));
   std::vector<FoundPiece> pieces;
+  std::vector<EdgeId> edges;
   for (const std::vector<Vec3>& cluster : Clusters(UnexplainedPlaces(silhouettes, skeleton))) {
     const Polyline line = LineThrough(cluster);
     if (Length(line) < kMinLength) continue;
@@ -209,10 +241,15 @@ std::vector<FoundPiece> AddUnexplainedWires(const WireSilhouettes& silhouettes,
       continue;
     const NodeId front = skeleton.AddNode(curve->front());
     const NodeId back = skeleton.AddNode(curve->back());
-    skeleton.AddEdge({{front, back}, *curve, std::vector<double>(curve->size(), radius), {}});
+    edges.push_back(
+        skeleton.AddEdge({{front, back}, *curve, std::vector<double>(curve->size(), radius), {}}));
     pieces.push_back({{front, back}, Length(*curve)});
   }
-  return pieces;
+  if (pieces.empty() || ShareLeftOver(silhouettes, skeleton) <= kMaxLeftOver) return pieces;
+  // Much else has the wires' colours, so that a place may look like wire in all images by chance.
+  for (const EdgeId edge : edges) skeleton.RemoveEdge(edge);
+  skeleton.RemoveIsolatedNodes();
+  return {};
 }
 
 }  // namespace curvefusion

@@ -269,6 +269,18 @@ TEST(SilhouetteSeeds, LeaveAPlateAlone) {
   EXPECT_TRUE(AddUnexplainedWires(scan.Silhouettes(), graph).empty());
 }
 
+TEST(SilhouetteSeeds, FindNothingWhereMuchElseHasTheWiresColours) {
+  const auto plate = [](double x, double y) {
+    return std::vector<Vec3>{
+        {x, y, 0}, {x + 0.02, y, 0}, {x + 0.02, y + 0.02, 0}, {x, y + 0.02, 0}};
+  };
+  const SilhouetteScan scan(With(kBars, kAcross), {plate(-0.05, -0.01), plate(0.03, -0.01)});
+  SkeletonGraph graph = BarsWithGap(true);
+  const double length = graph.TotalLength();
+  EXPECT_TRUE(AddUnexplainedWires(scan.Silhouettes(), graph).empty());
+  EXPECT_EQ(graph.TotalLength(), length);
+}
+
 TEST(SilhouetteTopology, CompletesAndPrunesAtOnce) {
   const SilhouetteScan scan(With(kBars, TestLine({0, -0.06, 0}, {0, 0.025, 0})));
   SkeletonGraph graph = BarsWithGap(false);

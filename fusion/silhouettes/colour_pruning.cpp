@@ -1,0 +1,27 @@
+#include "fusion/silhouettes/colour_pruning.h"
+
+#include <vector>
+
+#include "capture/frame_stream.h"
+#include "fusion/silhouettes/silhouette_pruning.h"
+#include "fusion/silhouettes/wire_silhouettes.h"
+#include "fusion/strips/wire_posterior.h"
+
+namespace curvefusion {
+
+double PruneByColour(const Sequence& sequence, const WireColours& colours,
+                     const SilhouetteOptions& options, SkeletonGraph& skeleton) {
+  const std::vector<int> frames = EvenlyThinned(AllFrames(sequence), options.max_frames);
+  std::vector<PosteriorImage> posteriors;
+  ForEachFrame(sequence, frames, {.depth = false, .color = true}, [&](const DecodedFrame& frame) {
+    posteriors.push_back(ApplyPosterior(BinColours(frame.color), colours.posterior));
+  });
+  Sequence shifted = sequence;
+  shifted.color_camera.cx += colours.shift_px.x();
+  shifted.color_camera.cy += colours.shift_px.y();
+  const WireSilhouettes silhouettes(shifted, frames, posteriors, options.max_frames);
+  if (!TellWires(silhouettes, skeleton)) return 0;
+  return DropRefutedParts(silhouettes, options.min_share, skeleton);
+}
+
+}  // namespace curvefusion
