@@ -9,7 +9,7 @@ std::vector<Ablation> OfSegmentation() {
   return {
       {"volume stride", {"volume.stride=1"}, "Time: large surfaces are seen often enough."},
       {"volume grid",
-       {"volume.voxel_size=0.005"},
+       {"volume.voxel_size=0.005", "volume.truncation_voxels=8"},
        "Time and memory: the volume holds large surfaces only."},
       {"coarse rendering",
        {"segmentation.render_divisor=1"},
