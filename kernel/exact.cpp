@@ -37,6 +37,11 @@ FT Dot(const Vector<FT>& a, const Vector<FT>& b) {
 }
 
 template <class FT>
+Vector<FT> Cross(const Vector<FT>& a, const Vector<FT>& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+template <class FT>
 Vector<FT> Difference(const Vec3& a, const Vec3& b) {
   return {FT(a[0]) - FT(b[0]), FT(a[1]) - FT(b[1]), FT(a[2]) - FT(b[2])};
 }
@@ -99,18 +104,18 @@ ParameterPolygon<FT> PolygonBeyond(const std::vector<LinearGap>& gaps, double mi
   return polygon;
 }
 
-// Where the lines of both segments are nearest, if they are not parallel.
+// Where the lines of both segments are nearest, if they are not parallel. The cross product loses
+// fewer digits between lines that nearly are than the determinant of their dot products, which has
+// the square of its error; and the second parameter comes from the first, so that what is off is so
+// on both (docs/graph.md).
 template <class FT>
 std::optional<Parameters<FT>> ClosestOnLines(const Offset<FT>& offset) {
-  const FT uu = Dot(offset.u, offset.u);
-  const FT uv = Dot(offset.u, offset.v);
-  const FT vv = Dot(offset.v, offset.v);
-  const FT determinant = uu * vv - uv * uv;
-  if (determinant <= FT(0)) return std::nullopt;
-  const FT uw = Dot(offset.u, offset.w);
-  const FT vw = Dot(offset.v, offset.w);
-  const FT s = (uv * vw - vv * uw) / determinant;
-  const FT t = (uu * vw - uv * uw) / determinant;
+  const auto& [w, u, v] = offset;
+  const Vector<FT> normal = Cross(u, v);
+  const FT squared_sine = Dot(normal, normal);
+  if (squared_sine <= FT(0)) return std::nullopt;
+  const FT s = Dot(Cross(v, w), normal) / squared_sine;
+  const FT t = (Dot(v, w) + s * Dot(u, v)) / Dot(v, v);
   return Parameters<FT>{s, t};
 }
 
@@ -261,18 +266,11 @@ bool AreWithinBeyond(const Segment& s, const Segment& t, double distance,
 }
 
 ClosestParameters ClosestPoints(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-  const Vec3 u = b - a;
-  const Vec3 v = d - c;
-  const Vec3 w = a - c;
-  const double uu = u.squaredNorm();
-  const double uv = u.dot(v);
-  const double vv = v.squaredNorm();
-  const double determinant = uu * vv - uv * uv;
+  const auto on_lines = ClosestOnLines(Offset<double>({a, b}, {c, d}));
   ClosestParameters nearest;
-  if (determinant > 1e-12 * uu * vv)
-    nearest.s = std::clamp((uv * v.dot(w) - vv * u.dot(w)) / determinant, 0.0, 1.0);
-  nearest.t = ClosestParameter(c, d, a + nearest.s * u);
-  nearest.s = ClosestParameter(a, b, c + nearest.t * v);
+  if (on_lines) nearest.s = std::clamp(on_lines->s, 0.0, 1.0);
+  nearest.t = ClosestParameter(c, d, a + nearest.s * (b - a));
+  nearest.s = ClosestParameter(a, b, c + nearest.t * (d - c));
   return nearest;
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -95,6 +96,42 @@ TEST(Exact, AgreesWithADenseSearch) {
     EXPECT_TRUE(AreWithin({a, b}, {c, d}, distance + 1e-12));
     EXPECT_FALSE(AreWithin({a, b}, {c, d}, distance - 1e-12));
   }
+}
+
+// Segments of one plane through the origin with a common point, nearly parallel ones too: integers
+// of 44 bits keep the third coordinate, and with it the plane, exact.
+struct PlanarPair {
+  Segment s;
+  Segment t;
+};
+PlanarPair CrossingPair(std::mt19937& random, double angle) {
+  std::uniform_real_distribution<double> coordinate(-0x1p44, 0x1p44);
+  std::uniform_real_distribution<double> share(0, 1);
+  const Eigen::Vector2d along(coordinate(random), coordinate(random));
+  const Eigen::Vector2d centre(coordinate(random), coordinate(random));
+  const Eigen::Vector2d turned = Eigen::Rotation2Dd(angle) * along;
+  const auto point = [&](const Eigen::Vector2d& direction, double at) -> Vec3 {
+    const Eigen::Vector2d p = (centre + at * direction).array().round();
+    return {p.x(), p.y(), 3 * p.x() - 2 * p.y()};
+  };
+  return {{point(along, -share(random)), point(along, share(random))},
+          {point(turned, -share(random)), point(turned, share(random))}};
+}
+
+// What places of a junction are apart (docs/graph.md): rounding of the lengths, whatever the angle.
+TEST(Exact, PlacesOfACommonPointAreApartByRoundingOnlyHoweverSmallTheAngle) {
+  std::mt19937 random(1);
+  int pairs = 0;
+  for (int round = 0; round < 20000; ++round) {
+    const auto [s, t] = CrossingPair(random, std::pow(10.0, -13.0 * round / 20000));
+    if (!Intersect(s, t)) continue;
+    ++pairs;
+    const ClosestParameters at = ClosestPoints(s.a, s.b, t.a, t.b);
+    const double apart = (s.a + at.s * (s.b - s.a) - t.a - at.t * (t.b - t.a)).norm();
+    const double size = (s.b - s.a).norm() + (t.b - t.a).norm() + s.a.norm();
+    EXPECT_LE(apart, 4 * kUlp * size) << "pair " << round;  // some ten roundings of half an ulp
+  }
+  EXPECT_GT(pairs, 5000);
 }
 
 }  // namespace
