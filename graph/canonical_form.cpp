@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kernel/morton_order.h"
+#include "kernel/radix_sort.h"
 
 namespace curvefusion {
 
@@ -54,10 +55,16 @@ std::vector<SortedNode> SortedNodes(const SkeletonGraph& graph) {
   sorted.reserve(graph.node_count());
   for (const NodeId node : graph.Nodes())
     if (graph.Degree(node) > 0) sorted.push_back({MortonCode(graph.position(node)), node});
-  std::sort(sorted.begin(), sorted.end(), [&graph](const SortedNode& a, const SortedNode& b) {
-    if (a.code != b.code) return a.code < b.code;
-    return ComesBefore(graph.position(a.node), graph.position(b.node));
-  });
+  RadixSort(sorted, [](const SortedNode& node) { return node.code; });
+  for (auto begin = sorted.begin(); begin != sorted.end();) {
+    const auto end = std::find_if(begin + 1, sorted.end(), [begin](const SortedNode& node) {
+      return node.code != begin->code;
+    });
+    std::sort(begin, end, [&graph](const SortedNode& a, const SortedNode& b) {
+      return ComesBefore(graph.position(a.node), graph.position(b.node));
+    });
+    begin = end;
+  }
   return sorted;
 }
 
@@ -125,9 +132,11 @@ struct CanonicalOrder {
   std::vector<DirectedEdge> edges;
 };
 
-CanonicalOrder OrderOf(const SkeletonGraph& graph) {
+// With room for so many times what the graph has.
+CanonicalOrder OrderOf(const SkeletonGraph& graph, int node_room = 1, int edge_room = 1) {
   CanonicalOrder order;
-  order.nodes.Reserve(graph.node_count(), graph.edge_count());
+  order.nodes.Reserve(static_cast<size_t>(node_room) * graph.node_count(),
+                      static_cast<size_t>(edge_room) * graph.edge_count());
   order.new_nodes = AddNodes(graph, order.nodes);
   order.edges = SortedEdges(graph, order.new_nodes, order.nodes.node_count());
   return order;
@@ -159,6 +168,12 @@ SkeletonGraph InCanonicalOrder(CanonicalOrder order, const At& at, const Take& t
   return std::move(order.nodes);
 }
 
+SkeletonGraph WithCurvesOf(std::vector<SkeletonEdge> edges, CanonicalOrder order) {
+  return InCanonicalOrder(
+      std::move(order), [&edges](EdgeId id) -> const SkeletonEdge& { return edges[id]; },
+      [&edges](EdgeId id) { return std::move(edges[id]); });
+}
+
 }  // namespace
 
 SkeletonGraph CanonicalForm(const SkeletonGraph& graph) {
@@ -168,10 +183,29 @@ SkeletonGraph CanonicalForm(const SkeletonGraph& graph) {
 
 SkeletonGraph CanonicalForm(SkeletonGraph&& graph) {
   CanonicalOrder order = OrderOf(graph);
-  std::vector<SkeletonEdge> edges = std::move(graph).TakeEdges();
-  return InCanonicalOrder(
-      std::move(order), [&edges](EdgeId id) -> const SkeletonEdge& { return edges[id]; },
-      [&edges](EdgeId id) { return std::move(edges[id]); });
+  return WithCurvesOf(graph.TakeEdges(), std::move(order));
+}
+
+LentCanonicalForm::LentCanonicalForm(SkeletonGraph& graph) : graph_(graph) {
+  CanonicalOrder order = OrderOf(graph, 2, 4);
+  origins_.reserve(order.edges.size());
+  for (const auto& [first, edge, reversed] : order.edges)
+    origins_.push_back({edge, reversed, graph.edge(edge).nodes});
+  std::vector<SkeletonEdge> edges = graph.TakeEdges();
+  slots_ = edges.size();
+  form_ = WithCurvesOf(std::move(edges), std::move(order));
+}
+
+void LentCanonicalForm::Return(SkeletonGraph form) {
+  std::vector<SkeletonEdge> edges = form.TakeEdges();
+  std::vector<SkeletonEdge> returned(slots_);
+  for (size_t i = 0; i < edges.size(); ++i) {
+    const auto& [edge, reversed, nodes] = origins_[i];
+    if (reversed) Reverse(edges[i]);
+    edges[i].nodes = nodes;
+    returned[edge] = std::move(edges[i]);
+  }
+  graph_.PutEdges(std::move(returned));
 }
 
 }  // namespace curvefusion

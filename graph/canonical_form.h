@@ -1,5 +1,9 @@
 #pragma once
 
+#include <array>
+#include <utility>
+#include <vector>
+
 #include "graph/skeleton_graph.h"
 
 namespace curvefusion {
@@ -13,5 +17,31 @@ namespace curvefusion {
 /// given up need not be copied.
 SkeletonGraph CanonicalForm(const SkeletonGraph& graph);
 SkeletonGraph CanonicalForm(SkeletonGraph&& graph);
+
+/// The canonical form of a graph that lends it its curves until it is known whether they are to
+/// change: nothing is copied. There is room for as many nodes and three times as many edges to be
+/// added.
+class LentCanonicalForm {
+ public:
+  explicit LentCanonicalForm(SkeletonGraph& graph);
+
+  /// The canonical form, once.
+  SkeletonGraph Take() { return std::move(form_); }
+
+  /// Gives the graph its curves back, from a form in which none has changed; but for the sign of
+  /// zeros it is as it was.
+  void Return(SkeletonGraph form);
+
+ private:
+  struct Origin {
+    EdgeId edge;
+    bool reversed;
+    std::array<NodeId, 2> nodes;
+  };
+  SkeletonGraph& graph_;
+  SkeletonGraph form_;
+  std::vector<Origin> origins_;  // of each edge of the form
+  size_t slots_ = 0;             // for edges of the graph, by their handles
+};
 
 }  // namespace curvefusion

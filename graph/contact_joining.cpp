@@ -69,15 +69,16 @@ double ExtentOf(const Contact& contact) {
 
 // Overlaps, the longest first, then crossings; contacts of equal rank in their order.
 std::vector<const Contact*> ByRank(const std::vector<Contact>& contacts) {
-  std::vector<std::pair<double, const Contact*>> ranked;
-  ranked.reserve(contacts.size());
+  std::vector<std::pair<double, const Contact*>> overlaps;
   for (const Contact& contact : contacts)
-    ranked.emplace_back(contact.overlap ? -ExtentOf(contact) : 1.0, &contact);
-  std::stable_sort(ranked.begin(), ranked.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
+    if (contact.overlap) overlaps.emplace_back(ExtentOf(contact), &contact);
+  std::stable_sort(overlaps.begin(), overlaps.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
   std::vector<const Contact*> sorted;
-  sorted.reserve(ranked.size());
-  for (const auto& entry : ranked) sorted.push_back(entry.second);
+  sorted.reserve(contacts.size());
+  for (const auto& [extent, contact] : overlaps) sorted.push_back(contact);
+  for (const Contact& contact : contacts)
+    if (!contact.overlap) sorted.push_back(&contact);
   return sorted;
 }
 

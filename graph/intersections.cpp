@@ -109,15 +109,19 @@ std::vector<Contact> ContactsBetweenComponents(const SkeletonGraph& graph,
 // The state of one resolution.
 class Resolution {
  public:
-  Resolution(SkeletonGraph graph, double threshold)
-      : graph_(std::move(graph)), threshold_(threshold), search_(threshold) {}
+  // Of a graph in canonical form; the original is emptied as soon as it is known that the graph
+  // changes, as its memory is needed.
+  Resolution(SkeletonGraph graph, SkeletonGraph& original, double threshold)
+      : graph_(std::move(graph)), original_(original), threshold_(threshold), search_(threshold) {}
 
   void Run() {
     double largest = LargestCoordinate(graph_);
     while (TidyAtScale(std::max(threshold_, ResolutionAt(largest)))) {
       for (std::vector<Contact> contacts = search_.Find(graph_); !contacts.empty();
-           contacts = search_.Find(graph_))
+           contacts = search_.Find(graph_)) {
+        original_ = SkeletonGraph();
         Step(contacts);
+      }
       largest = search_.largest_coordinate();
     }
   }
@@ -191,6 +195,7 @@ class Resolution {
   }
 
   SkeletonGraph graph_;
+  SkeletonGraph& original_;
   double threshold_;
   ContactSearch search_;
   double scale_ = -1;
@@ -213,10 +218,16 @@ void RequireThreshold(double threshold) {
 ResolutionRounds ResolveIntersections(SkeletonGraph& graph, double threshold) {
   RequireThreshold(threshold);
   RequireFinite(graph, "graph with intersections to resolve");
-  Resolution resolution(CanonicalForm(graph), threshold);
+  LentCanonicalForm lent(graph);
+  Resolution resolution(lent.Take(), graph, threshold);
   resolution.Run();
-  if (resolution.rounds().joining > 0 || CountsOf(resolution.graph()) != CountsOf(graph))
+  const bool has_changed =
+      resolution.rounds().joining > 0 || CountsOf(resolution.graph()) != CountsOf(graph);
+  if (has_changed) {
     graph = CanonicalForm(resolution.TakeGraph());
+  } else {
+    lent.Return(resolution.TakeGraph());
+  }
   return resolution.rounds();
 }
 

@@ -38,7 +38,9 @@ class EdgeCutter {
     if (places_.empty()) return {};
     SortPlaces();
     nodes_.resize(places_.size());
+    graph_.Reserve(places_.size(), 2 * places_.size());
     for (size_t i = 0; i < places_.size();) {
+      FetchAhead(i);
       size_t j = i;
       while (j < places_.size() && places_[j].edge == places_[i].edge) ++j;
       CutEdge(i, j);
@@ -75,6 +77,15 @@ class EdgeCutter {
       std::sort(sorted.begin() + by_edge.first[k], sorted.begin() + by_edge.first[k + 1],
                 [](const Place& a, const Place& b) { return a.arc_length < b.arc_length; });
     places_ = std::move(sorted);
+  }
+
+  // Fetches the edges that will be cut next, and what they need.
+  void FetchAhead(size_t i) const {
+    if (i + 2 * kLookahead < places_.size()) graph_.FetchEdge(places_[i + 2 * kLookahead].edge);
+    if (i + kLookahead >= places_.size()) return;
+    const EdgeId next = places_[i + kLookahead].edge;
+    graph_.FetchPoints(next);
+    for (const NodeId node : graph_.edge(next).nodes) graph_.FetchNode(node);
   }
 
   // Arc lengths at which an edge is split, and the nodes there.

@@ -35,13 +35,13 @@ std::vector<T> Slice(const std::vector<T>& values, size_t first, size_t last) {
           values.begin() + static_cast<std::ptrdiff_t>(last) + 1};
 }
 
-// The numbers of versions above one.
-std::vector<int> ChangedSince(const std::vector<int>& versions, int since, int live_count) {
-  std::vector<int> changed;
-  if (since == 0) changed.reserve(static_cast<size_t>(live_count));
-  for (size_t i = 0; i < versions.size(); ++i)
-    if (versions[i] > since) changed.push_back(static_cast<int>(i));
-  return changed;
+// Makes room for more values; a quarter more at least where values have to move for it, so that
+// many small calls cost no more than few large ones.
+template <class T>
+void ReserveMore(std::vector<T>& values, size_t more) {
+  const size_t needed = values.size() + more;
+  if (needed > values.capacity())
+    values.reserve(std::max(needed, values.capacity() + values.capacity() / 4));
 }
 
 }  // namespace
@@ -59,19 +59,48 @@ SkeletonEdge PartOf(const SkeletonEdge& edge, size_t first, size_t last,
           Slice(edge.observations, first, last)};
 }
 
+void SkeletonGraph::Versions::Reserve(size_t more) {
+  ReserveMore(of_items_, more);
+  ReserveMore(of_blocks_, more / kBlock + 1);
+}
+
+void SkeletonGraph::Versions::Set(int item, int version) {
+  of_items_[item] = version;
+  const size_t block = static_cast<size_t>(item) / kBlock;
+  if (block >= of_blocks_.size()) of_blocks_.resize(block + 1);
+  of_blocks_[block] = version;
+}
+
+bool SkeletonGraph::Versions::Has(int item) const {
+  return item >= 0 && static_cast<size_t>(item) < of_items_.size() && of_items_[item] > 0;
+}
+
+std::vector<int> SkeletonGraph::Versions::ChangedSince(int version, int live_count) const {
+  std::vector<int> changed;
+  if (version == 0) changed.reserve(static_cast<size_t>(live_count));
+  const auto count = static_cast<int>(of_items_.size());
+  for (int first = 0; first < count; first += kBlock) {
+    if (of_blocks_[first / kBlock] <= version) continue;
+    for (int item = first; item < std::min(first + kBlock, count); ++item)
+      if (of_items_[item] > version) changed.push_back(item);
+  }
+  return changed;
+}
+
 void SkeletonGraph::Reserve(size_t nodes, size_t edges) {
-  nodes_.reserve(nodes_.size() + nodes);
-  node_versions_.reserve(node_versions_.size() + nodes);
-  edges_.reserve(edges_.size() + edges);
-  edge_versions_.reserve(edge_versions_.size() + edges);
+  ReserveMore(nodes_, nodes);
+  node_versions_.Reserve(nodes);
+  ReserveMore(edges_, edges);
+  edge_versions_.Reserve(edges);
 }
 
 NodeId SkeletonGraph::AddNode(const Vec3& position) {
   const auto id = static_cast<NodeId>(nodes_.size());
-  nodes_.push_back({position, {}});
-  node_versions_.push_back(0);
+  nodes_.emplace_back().position = position;  // moving a node costs ten times as much
+  node_versions_.Add();
   TouchNode(id);
   ++node_count_;
+  ++isolated_count_;
   return id;
 }
 
@@ -83,12 +112,12 @@ EdgeId SkeletonGraph::AddEdge(SkeletonEdge edge) {
   assert(edge.observations.empty() || edge.observations.size() == edge.points.size());
   const EdgeId id = static_cast<EdgeId>(edges_.size());
   for (const NodeId node : edge.nodes) {
-    nodes_[node].edges.push_back(id);
+    Attach(node, id);
     TouchNode(node);
   }
   point_count_ += edge.points.size();
   edges_.push_back(std::move(edge));
-  edge_versions_.push_back(0);
+  edge_versions_.Add();
   TouchEdge(id);
   ++edge_count_;
   return id;
@@ -101,9 +130,15 @@ EdgeId SkeletonGraph::AddPolyline(Polyline points) {
   return AddEdge({{first, last}, std::move(points), {}, {}});
 }
 
+void SkeletonGraph::Attach(NodeId node, EdgeId edge) {
+  isolated_count_ -= nodes_[node].edges.empty() ? 1 : 0;
+  nodes_[node].edges.push_back(edge);
+}
+
 void SkeletonGraph::Detach(NodeId node, EdgeId edge) {
   auto& incident = nodes_[node].edges;
   incident.erase(std::find(incident.begin(), incident.end(), edge));
+  isolated_count_ += incident.empty() ? 1 : 0;
   TouchNode(node);
 }
 
@@ -111,7 +146,7 @@ SkeletonEdge SkeletonGraph::TakeEdge(EdgeId edge) {
   assert(HasEdge(edge));
   SkeletonEdge taken = std::move(edges_[edge]);
   for (const NodeId node : taken.nodes) Detach(node, edge);
-  edge_versions_[edge] = 0;
+  edge_versions_.SetRemoved(edge);
   --edge_count_;
   point_count_ -= taken.points.size();
   return taken;
@@ -119,11 +154,13 @@ SkeletonEdge SkeletonGraph::TakeEdge(EdgeId edge) {
 
 void SkeletonGraph::RemoveNode(NodeId node) {
   assert(HasNode(node) && Degree(node) == 0);
-  node_versions_[node] = 0;
+  node_versions_.SetRemoved(node);
   --node_count_;
+  --isolated_count_;
 }
 
 void SkeletonGraph::RemoveIsolatedNodes(int since) {
+  if (isolated_count_ == 0) return;
   for (const NodeId node : Nodes(since)) {
     if (Degree(node) == 0) RemoveNode(node);
   }
@@ -172,9 +209,10 @@ void SkeletonGraph::MergeNodes(NodeId kept, NodeId merged) {
     for (NodeId& node : edge.nodes) {
       if (node != merged) continue;
       node = kept;
-      nodes_[kept].edges.push_back(id);
+      Attach(kept, id);
     }
   }
+  isolated_count_ += moved.empty() ? 0 : 1;
   nodes_[merged].edges.clear();
   RemoveNode(merged);
   for (const EdgeId id : moved) {
@@ -232,13 +270,9 @@ void SkeletonGraph::DissolveDegree2Nodes(int since) {
     if (HasNode(node) && IsInsideCurve(node)) DissolveChainsFrom(node);
 }
 
-bool SkeletonGraph::HasNode(NodeId node) const {
-  return node >= 0 && static_cast<size_t>(node) < nodes_.size() && node_versions_[node] > 0;
-}
+bool SkeletonGraph::HasNode(NodeId node) const { return node_versions_.Has(node); }
 
-bool SkeletonGraph::HasEdge(EdgeId edge) const {
-  return edge >= 0 && static_cast<size_t>(edge) < edges_.size() && edge_versions_[edge] > 0;
-}
+bool SkeletonGraph::HasEdge(EdgeId edge) const { return edge_versions_.Has(edge); }
 
 const Vec3& SkeletonGraph::position(NodeId node) const {
   assert(HasNode(node));
@@ -251,11 +285,11 @@ const SkeletonEdge& SkeletonGraph::edge(EdgeId edge) const {
 }
 
 std::vector<NodeId> SkeletonGraph::Nodes(int since) const {
-  return ChangedSince(node_versions_, since, node_count_);
+  return node_versions_.ChangedSince(since, node_count_);
 }
 
 std::vector<EdgeId> SkeletonGraph::Edges(int since) const {
-  return ChangedSince(edge_versions_, since, edge_count_);
+  return edge_versions_.ChangedSince(since, edge_count_);
 }
 
 std::span<const EdgeId> SkeletonGraph::IncidentEdges(NodeId node) const {

@@ -36,7 +36,7 @@ SkeletonEdge PartOf(const SkeletonEdge& edge, size_t first, size_t last,
 /// Copyable; a value like any other.
 class SkeletonGraph {
  public:
-  /// Makes room for nodes and edges that are to be added.
+  /// Makes room for nodes and edges that are to be added, not much more than is asked for.
   void Reserve(size_t nodes, size_t edges);
 
   /// Adds an isolated node.
@@ -54,8 +54,10 @@ class SkeletonGraph {
   /// Removes an edge and returns it.
   SkeletonEdge TakeEdge(EdgeId edge);
 
-  /// All edges by their handles, those that were removed empty; of a graph that is given up.
-  std::vector<SkeletonEdge> TakeEdges() && { return std::move(edges_); }
+  /// All edges by their handles, those that were removed empty; of a graph that is given up, or not
+  /// used before it has got them back.
+  std::vector<SkeletonEdge> TakeEdges() { return std::move(edges_); }
+  void PutEdges(std::vector<SkeletonEdge> edges) { edges_ = std::move(edges); }
 
   /// Removes a node without edges.
   void RemoveNode(NodeId node);
@@ -131,20 +133,39 @@ class SkeletonGraph {
     Vec3 position;
     boost::container::small_vector<EdgeId, 4> edges;  // more meet at few nodes only
   };
+  void Attach(NodeId node, EdgeId edge);
   void Detach(NodeId node, EdgeId edge);
   bool IsInsideCurve(NodeId node) const;
   SkeletonEdge TakeChain(NodeId first, EdgeId next);
   void DissolveChainsFrom(NodeId node);
 
-  void TouchNode(NodeId node) { node_versions_[node] = ++version_; }
-  void TouchEdge(EdgeId edge) { edge_versions_[edge] = ++version_; }
+  // At which version each of many items changed last, and which have since some version.
+  class Versions {
+   public:
+    void Reserve(size_t more);
+    void Add() { of_items_.push_back(0); }
+    void Set(int item, int version);
+    void SetRemoved(int item) { of_items_[item] = 0; }
+    int operator[](int item) const { return of_items_[item]; }
+    bool Has(int item) const;
+    std::vector<int> ChangedSince(int version, int live_count) const;
+
+   private:
+    static constexpr int kBlock = 64;
+    std::vector<int> of_items_;   // 0 where the item is no more
+    std::vector<int> of_blocks_;  // of so many items, no earlier than any of them
+  };
+
+  void TouchNode(NodeId node) { node_versions_.Set(node, ++version_); }
+  void TouchEdge(EdgeId edge) { edge_versions_.Set(edge, ++version_); }
 
   std::vector<Node> nodes_;  // removed ones have no edges
   std::vector<SkeletonEdge> edges_;
-  std::vector<int> node_versions_;  // of the last change; 0 where the node is no more
-  std::vector<int> edge_versions_;
+  Versions node_versions_;
+  Versions edge_versions_;
   int version_ = 0;
   int node_count_ = 0;
+  int isolated_count_ = 0;  // of nodes without edges
   int edge_count_ = 0;
   size_t point_count_ = 0;
 };
