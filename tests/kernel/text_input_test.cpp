@@ -84,6 +84,15 @@ TEST(ParseJson, RefusesWhatIsMalformedOrDeep) {
   EXPECT_NO_THROW(ParseJson(nested(16), "a.json"));
   EXPECT_THAT(Rejection([&] { ParseJson(nested(17), "a.json"); }), HasSubstr("deeper than 16"));
   EXPECT_THAT(Rejection([&] { ParseJson(nested(1000000), "a.json"); }), HasSubstr("deeper"));
+  EXPECT_NO_THROW(
+      ParseJson('"' + std::string(100, '[') + "\\\"" + std::string(100, '{') + '"', "a.json"));
+}
+
+// In quadratic time this would take hours.
+TEST(ParseJson, TakesLinearTime) {
+  std::string text = "[[0]";
+  for (int i = 1; i < 1000000; ++i) text += ",[0]";
+  EXPECT_EQ(ParseJson(text + "]", "a.json").size(), 1000000u);
 }
 
 }  // namespace
