@@ -128,8 +128,9 @@ class SkeletonGraph {
   int CycleRank() const;
 
  private:
-  // One cache line each: what is asked of a node is asked in no order of memory.
-  struct alignas(64) Node {
+  // One cache line each: what is asked of a node is asked in no order of memory. Moving one does
+  // not throw, as there is room for as many edges where they come to.
+  struct alignas(64) Node {  // NOLINT(bugprone-exception-escape)
     Vec3 position;
     boost::container::small_vector<EdgeId, 4> edges;  // more meet at few nodes only
   };
