@@ -1,54 +1,43 @@
 #include "kernel/cell_order.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cstdint>
-#include <numeric>
+#include <ranges>
+
+#include "kernel/radix_sort.h"
 
 namespace curvefusion {
 
 namespace {
-
-// The counts of so many bits stay in the cache.
-constexpr int kBitsPerDigit = 11;
-constexpr uint32_t kDigitMask = (uint32_t{1} << kBitsPerDigit) - 1;
 
 struct IndexedCell {
   VoxelKey cell;
   int index;
 };
 
-// Sorts by some bits of one coordinate, keeping the order of what is equal in them.
-template <class Digit>
-void SortByDigit(const Digit& digit, std::vector<IndexedCell>& items,
-                 std::vector<IndexedCell>& sorted) {
-  std::array<int, kDigitMask + 2> firsts{};
-  for (const IndexedCell& item : items) ++firsts[digit(item) + 1];
-  std::partial_sum(firsts.begin(), firsts.end(), firsts.begin());
-  for (const IndexedCell& item : items) sorted[firsts[digit(item)]++] = item;
-  items.swap(sorted);
-}
-
 }  // namespace
 
 std::vector<int> OrderByCell(const std::vector<VoxelKey>& cells) {
+  if (cells.empty()) return {};
   std::vector<IndexedCell> items(cells.size());
   for (size_t i = 0; i < cells.size(); ++i) items[i] = {cells[i], static_cast<int>(i)};
-  std::vector<IndexedCell> sorted(cells.size());
-  for (int VoxelKey::*axis : {&VoxelKey::z, &VoxelKey::y, &VoxelKey::x}) {
-    if (cells.empty()) break;
-    const auto [least, greatest] = std::ranges::minmax(cells, {}, axis);
-    const auto offset = static_cast<uint32_t>(least.*axis);
-    const int bits = std::bit_width(static_cast<uint32_t>(greatest.*axis) - offset);
-    for (int shift = 0; shift < bits; shift += kBitsPerDigit) {
-      SortByDigit(
-          [=](const IndexedCell& item) {
-            return (static_cast<uint32_t>(item.cell.*axis) - offset) >> shift & kDigitMask;
-          },
-          items, sorted);
-    }
-  }
+  // Coordinates from the least on, so that they differ in few bits.
+  const auto range = [&cells](int VoxelKey::*axis) {
+    const auto [least, greatest] = std::ranges::minmax(cells | std::views::transform(axis));
+    return std::pair(static_cast<uint32_t>(least), static_cast<uint32_t>(greatest));
+  };
+  const uint32_t least_x = range(&VoxelKey::x).first;
+  const auto [least_y, greatest_y] = range(&VoxelKey::y);
+  const uint32_t least_z = range(&VoxelKey::z).first;
+  const int bits_y = std::bit_width(greatest_y - least_y);
+  RadixSort(items, [least_z](const IndexedCell& item) {
+    return uint64_t{static_cast<uint32_t>(item.cell.z) - least_z};
+  });
+  RadixSort(items, [=](const IndexedCell& item) {
+    return uint64_t{static_cast<uint32_t>(item.cell.x) - least_x} << bits_y |
+           (static_cast<uint32_t>(item.cell.y) - least_y);
+  });
   std::vector<int> order(cells.size());
   std::ranges::transform(items, order.begin(), &IndexedCell::index);
   return order;
