@@ -150,7 +150,7 @@ class NormalEquations {
     Eigen::SparseMatrix<double> matrix(n, n);
     matrix.setFromTriplets(lower.begin(), lower.end());
     solver.Factorise(matrix);  // positive definite: every vertex has a data term
-    const Eigen::MatrixX3d smooth = solver.Solve(RightHandSide(start_));
+    Eigen::MatrixX3d smooth = solver.Solve(RightHandSide(start_));
     if (!twicing) return smooth;
     const Eigen::MatrixX3d lost = start_ - smooth;
     return smooth + solver.Solve(RightHandSide(lost));
