@@ -20,6 +20,16 @@ constexpr double kReach = 1.1;
 // Tubes are clear of each other from this gap on, in radii of the thinner one. What comes closer is
 // united exactly, so the gap only has to outlast the rounding and cleaning of unions.
 constexpr double kClearance = 0.1;
+// Tubes graze where their axes pass through this range of distances, of the sum of the radii: up to
+// where they are clear, with what axes err, and down to where the hole among three or four tubes
+// closes.
+constexpr double kLeastGrazing = 0.8;
+constexpr double kGreatestGrazing = 1.1;
+// The cosine of the angle between a tube and the shortest way to the other one: 0 where they pass
+// each other, more where they come together at a node (.5 for two that enclose 60 degrees).
+constexpr double kGreatestSlant = 0.3;
+// In radii, to either side: noise does not turn a chord of that length.
+constexpr double kDirectionReach = 1.5;
 // A tube may come back to itself only after it has turned by more than this in total.
 constexpr double kTurnOfReturn = 2.0 * std::numbers::pi / 3;
 
@@ -182,6 +192,39 @@ std::vector<TubeStretch> StretchesOfPath(int path, bool closed, const int* group
   return stretches;
 }
 
+// The direction of each segment of a path, noise averaged out.
+std::vector<Vec3> DirectionsAlong(const TubePath& path) {
+  Polyline points = path.axis.points;
+  if (path.closed) points.push_back(points.front());
+  const std::vector<double> along = CumulativeLength(points);
+  std::vector<Vec3> directions;
+  for (int i = 0; i < path.segment_count(); ++i) {
+    const double reach = kDirectionReach * path.axis.radii[i];
+    const double middle = (along[i] + along[i + 1]) / 2;
+    const Vec3 chord =
+        PointAt(points, along, middle + reach) - PointAt(points, along, middle - reach);
+    directions.push_back(chord.normalized());
+  }
+  return directions;
+}
+
+// Whether s passes t side by side, at a distance at which they touch, at its nearest point or at
+// one of its ends.
+bool Grazes(const TubeSegment& s, const TubeSegment& t, const Vec3& along_s, const Vec3& along_t) {
+  const double touch = s.radius() + t.radius();
+  const double nearest = ClosestPoints(s.line.a, s.line.b, t.line.a, t.line.b).s;
+  for (const double at : {0.0, nearest, 1.0}) {
+    const Vec3 p = s.line.a + at * (s.line.b - s.line.a);
+    const double on_t = ClosestParameter(t.line.a, t.line.b, p);
+    const Vec3 way = t.line.a + on_t * (t.line.b - t.line.a) - p;
+    const double distance = way.norm();
+    if (distance < kLeastGrazing * touch || distance > kGreatestGrazing * touch) continue;
+    const double slant = std::max(std::abs(way.dot(along_s)), std::abs(way.dot(along_t)));
+    if (slant < kGreatestSlant * distance) return true;
+  }
+  return false;
+}
+
 std::vector<std::vector<std::pair<int, int>>> SelfContacts(const std::vector<TubePath>& paths) {
   const std::vector<TubeSegment> segments = SegmentsOf(paths);
   const std::vector<std::vector<double>> turn_sums = TurnSums(paths);
@@ -231,6 +274,27 @@ std::vector<std::vector<TubeStretch>> GroupContacts(const std::vector<TubePath>&
   std::vector<std::vector<TubeStretch>> groups;
   for (auto& [root, members] : stretches) groups.push_back(std::move(members));
   return groups;
+}
+
+std::vector<std::vector<char>> FindGrazingSegments(const std::vector<TubePath>& paths) {
+  const std::vector<TubeSegment> segments = SegmentsOf(paths);
+  const std::vector<std::vector<double>> turn_sums = TurnSums(paths);
+  std::vector<std::vector<char>> grazing;
+  std::vector<std::vector<Vec3>> directions;
+  for (const TubePath& path : paths) {
+    grazing.emplace_back(path.segment_count(), 0);
+    directions.push_back(DirectionsAlong(path));
+  }
+  for (const auto& [i, j] : NearPairs(segments)) {
+    const TubeSegment& s = segments[i];
+    const TubeSegment& t = segments[j];
+    if (FollowEachOther(paths, turn_sums, s, t)) continue;
+    const Vec3& along_s = directions[s.path][s.index];
+    const Vec3& along_t = directions[t.path][t.index];
+    if (Grazes(s, t, along_s, along_t)) grazing[s.path][s.index] = 1;
+    if (Grazes(t, s, along_t, along_s)) grazing[t.path][t.index] = 1;
+  }
+  return grazing;
 }
 
 }  // namespace curvefusion

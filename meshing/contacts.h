@@ -25,4 +25,9 @@ std::vector<TubePath> CutSelfContacts(std::vector<TubePath> paths);
 /// for a tree of boxes.
 std::vector<std::vector<TubeStretch>> GroupContacts(const std::vector<TubePath>& paths);
 
+/// Of each segment of each path, whether it passes another tube, or its own after a turn, at about
+/// the distance at which tubes touch or close a hole: there a small error of the surface decides
+/// what is joined. Near-linear, as GroupContacts.
+std::vector<std::vector<char>> FindGrazingSegments(const std::vector<TubePath>& paths);
+
 }  // namespace curvefusion

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "kernel/disjoint_sets.h"
 #include "kernel/geometry.h"
 #include "meshing/hashed_number.h"
 #include "meshing/junction_union.h"
@@ -23,6 +24,7 @@ constexpr double kPerturbation = 2e-3;  // each further attempt adds as much aga
 constexpr double kMinEdge = 0.06;
 constexpr double kMinHeight = 0.02;
 constexpr double kZoneRadius = 0.2;
+constexpr double kTinyHollow = 0.05;  // across; radii larger by a fortieth close it
 
 constexpr int kCleaningRounds = 7;
 constexpr std::array<double, 5> kZoneFactors = {0.3, 0.03, 0.7, 0.1, 0.01};
@@ -154,10 +156,30 @@ void Roughen(UnionMesh& united, double amplitude, const std::map<Place, int>& ri
   }
 }
 
+// Drops hollows so small that whether they are there is chance: between ends of tubes that nearly
+// coincide in a node.
+void CloseTinyHollows(UnionMesh& united, double size) {
+  DisjointSets shells(united.vertices.size());
+  for (const auto& [a, b, c] : united.triangles) {
+    shells.Unite(a, b);
+    shells.Unite(b, c);
+  }
+  std::map<int, Eigen::AlignedBox3d> boxes;
+  for (const auto& triangle : united.triangles) {
+    Eigen::AlignedBox3d& box = boxes[shells.Root(triangle[0])];
+    for (const int v : triangle) box.extend(united.vertices[v]);
+  }
+  if (boxes.size() == 1) return;
+  std::erase_if(united.triangles, [&](const std::array<int, 3>& triangle) {
+    return boxes.at(shells.Root(triangle[0])).sizes().maxCoeff() < size;
+  });
+}
+
 // What is left to do for the union of a junction's stubs.
 std::optional<TriangleMesh> Finished(std::optional<UnionMesh> united, const Junction& junction,
                                      const std::map<Place, int>& rings) {
   if (!united) return std::nullopt;
+  CloseTinyHollows(*united, kTinyHollow * junction.radius);
   Roughen(*united, kSurfaceRoughness * junction.radius, rings);
   std::optional<TriangleMesh> clean = CleanSoundly(*united, junction);
   if (!clean) return std::nullopt;

@@ -2,23 +2,38 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <utility>
 
+#include "meshing/ball_rings.h"
 #include "meshing/hashed_number.h"
 
 namespace curvefusion {
 
 namespace {
 
-constexpr int kDomeRings = 4;  // of 16 sides: steps of 22.5 degrees in both directions
-// Of the radius: a dome of so few rings has the volume of a hemisphere when its pole lies so high
-// and its inner rings are so wide.
-constexpr double kDomeHeight = 1.0214;
-constexpr double kDomeWidth = 1.0125;
-constexpr double kTaperLength = 0.35;  // of the radius
-constexpr double kTaperPart = 0.3;     // at most, of the segment
+// A dome has a ring for every four sides: steps of the same angle in both directions.
+constexpr int kSidesPerDomeRing = 4;
+constexpr int kLeastDomeRings = 4;
+// Of the radius: a dome of four rings has the volume of a hemisphere when its pole lies so high
+// and its inner rings are so wide; with more rings the excess falls with the square of their
+// number.
+struct DomeShape {
+  double height, width;
+};
+constexpr DomeShape kFreeDome = {1.0214, 1.0125};
+// A dome that stood out of the tubes joined to it would leave a groove beside it, and what touches
+// there would bridge the groove.
+constexpr DomeShape kJoinedDome = {1, 1};
+
+const DomeShape& ShapeOf(const TubeEnd& end) { return end.joined ? kJoinedDome : kFreeDome; }
+
+// Of the radius: longer, it leaves a groove beside the disc; it must meet the ball at an angle.
+constexpr double kTaperLength = 0.12;
+// At its pole a dome that stays within balls lies so deep in them, in radii, that it does not
+// coincide with another tube that follows the same balls.
+constexpr double kSunk = 0.015;
+constexpr double kTaperPart = 0.3;  // at most, of the segment
 
 int PreviousPoint(const TubePath& path, int i) {
   const int n = static_cast<int>(path.axis.points.size());
@@ -95,162 +110,155 @@ class RingWriter {
     rings_.sides = sides;
   }
 
-  void AddRing(const RingFrame& frame, double radius) {
+  // The circle in a frame, as the corners of a polygon.
+  Ring Circle(const RingFrame& frame, double radius) const {
+    Ring ring{frame.centre, radius, {}};
     for (int k = 0; k < rings_.sides; ++k) {
       const double angle = phase_ + 2 * std::numbers::pi * k / rings_.sides;
-      const double noise = 2 * HashedNumber(rings_.vertices.size()) - 1;
-      Vec3 offset = radius * corner_radius_ * (1 + kSurfaceRoughness * noise) *
-                    (std::cos(angle) * frame.normal + std::sin(angle) * frame.binormal);
+      Vec3 offset = radius * (std::cos(angle) * frame.normal + std::sin(angle) * frame.binormal);
       offset += frame.mitre_stretch * offset.dot(frame.mitre_direction) * frame.mitre_direction;
-      rings_.vertices.push_back((frame.centre + offset).cast<float>());
+      ring.offsets.push_back(offset);
+    }
+    return ring;
+  }
+
+  void Add(const Ring& ring) {
+    for (const Vec3& offset : ring.offsets) {
+      const double noise = 2 * HashedNumber(rings_.vertices.size()) - 1;
+      const double scale = corner_radius_ * (1 + kSurfaceRoughness * noise);
+      rings_.vertices.push_back((ring.centre + scale * offset).cast<float>());
     }
     ++rings_.ring_count;
   }
 
-  // The rings of a hemisphere from latitude index `first` to `last` (0 = the rim, excluded).
-  void AddDome(const RingFrame& rim, const Vec3& outward, double radius, bool towards_pole) {
-    for (int step = 1; step < kDomeRings; ++step) {
-      const int ring = towards_pole ? step : kDomeRings - step;
-      const double latitude = std::numbers::pi / 2 * ring / kDomeRings;
-      RingFrame frame = rim;
-      frame.centre += radius * kDomeHeight * std::sin(latitude) * outward;
-      AddRing(frame, radius * kDomeWidth * std::cos(latitude));
+  void AddRing(const RingFrame& frame, double radius) { Add(Circle(frame, radius)); }
+
+  // The inner rings of a hemisphere, which stays within the balls if there are any.
+  void AddDome(const RingFrame& rim, const Vec3& outward, double radius, bool towards_pole,
+               const DomeShape& shape, const TubeAxis& balls) {
+    const int count = DomeRings();
+    for (int step = 1; step < count; ++step) {
+      const double latitude = std::numbers::pi / 2 * (towards_pole ? step : count - step) / count;
+      Ring ring = Circle(rim, radius * Swollen(shape.width) * std::cos(latitude));
+      const Vec3 up =
+          radius * Swollen(shape.height) * std::sin(latitude) / corner_radius_ * outward;
+      for (Vec3& offset : ring.offsets) offset += up;
+      if (!balls.points.empty()) {
+        ring = OntoBalls(ring, balls, radius);
+        for (Vec3& offset : ring.offsets) offset *= 1 - kSunk * std::sin(latitude);
+      }
+      Add(ring);
     }
   }
 
-  static Vec3f Pole(const RingFrame& rim, const Vec3& outward, double radius) {
-    return (rim.centre + radius * kDomeHeight * outward).cast<float>();
+  Vec3f Pole(const RingFrame& rim, const Vec3& outward, double radius, const DomeShape& shape,
+             const TubeAxis& balls) const {
+    const double height =
+        balls.points.empty()
+            ? radius
+            : (1 - kSunk) * std::min(radius, ExtentOfBalls(balls, rim.centre, outward));
+    return (rim.centre + height * Swollen(shape.height) * outward).cast<float>();
   }
 
   void MarkPoint() { rings_.ring_of_point.push_back(rings_.ring_count); }
   TubeRings& rings() { return rings_; }
 
  private:
+  int DomeRings() const { return std::max(kLeastDomeRings, rings_.sides / kSidesPerDomeRing); }
+
+  // What the factor for a dome of the least number of rings is for this one.
+  double Swollen(double factor) const {
+    const double share = static_cast<double>(kLeastDomeRings) / DomeRings();
+    return 1 + (factor - 1) * share * share;
+  }
+
   TubeRings rings_;
   double corner_radius_;
   double phase_;
 };
 
-// The full ring a little before a flat end that is thinner than the tube.
-void AddTaper(const TubePath& path, int end_point, const RingFrame& frame, RingWriter& writer) {
-  const int neighbour = end_point == 0 ? 1 : end_point - 1;
-  const double radius = path.axis.radii[end_point];
-  const Vec3 inward = path.axis.points[neighbour] - path.axis.points[end_point];
-  const double length = std::min(kTaperLength * radius, kTaperPart * inward.norm());
-  RingFrame tapered = frame;
-  tapered.centre += length * inward.normalized();
-  writer.AddRing(tapered, radius);
+bool Tapers(const TubePath& path, int side) {
+  const TubeEnd& end = path.ends[side];
+  return !end.rounded &&
+         end.radius < (side == 0 ? path.axis.radii.front() : path.axis.radii.back());
 }
 
-void AddStart(const TubePath& path, const RingFrame& frame, RingWriter& writer) {
+// Where the side of a tube begins at a point: before a flat end that is thinner than the tube a
+// little farther on.
+RingFrame FrameOfSide(const TubePath& path, int i, RingFrame frame) {
+  const int last = static_cast<int>(path.axis.points.size()) - 1;
+  if (path.closed || (i != 0 && i != last) || !Tapers(path, i == 0 ? 0 : 1)) return frame;
+  const Vec3 inward = path.axis.points[i == 0 ? 1 : i - 1] - path.axis.points[i];
+  const double length = std::min(kTaperLength * path.axis.radii[i], kTaperPart * inward.norm());
+  frame.centre += length * inward.normalized();
+  return frame;
+}
+
+using SegmentBalls = std::vector<TubeAxis>;
+
+// The balls beside a segment, none where there is no such segment.
+const TubeAxis& BallsOf(const SegmentBalls& balls, int segment) {
+  static const TubeAxis none;
+  return segment < static_cast<int>(balls.size()) ? balls[segment] : none;
+}
+
+void AddStart(const TubePath& path, const RingFrame& frame, const Ring& side,
+              const SegmentBalls& balls, RingWriter& writer) {
   const TubeEnd& end = path.ends[0];
   const double radius = path.axis.radii.front();
   if (end.rounded) {
-    writer.AddDome(frame, -DirectionAfter(path, 0), radius, false);
+    writer.AddDome(frame, -DirectionAfter(path, 0), radius, false, ShapeOf(end), BallsOf(balls, 0));
     writer.MarkPoint();
-    writer.AddRing(frame, radius);
+    writer.Add(side);
     return;
   }
   writer.MarkPoint();
   writer.AddRing(frame, end.radius);
-  if (end.radius < radius) AddTaper(path, 0, frame, writer);
+  if (Tapers(path, 0)) writer.Add(side);
 }
 
-void AddFinish(const TubePath& path, const RingFrame& frame, RingWriter& writer) {
+void AddFinish(const TubePath& path, const RingFrame& frame, const Ring& side,
+               const SegmentBalls& balls, RingWriter& writer) {
   const TubeEnd& end = path.ends[1];
   const int last = static_cast<int>(path.axis.points.size()) - 1;
-  const double radius = path.axis.radii.back();
-  if (!end.rounded && end.radius < radius) AddTaper(path, last, frame, writer);
+  if (Tapers(path, 1)) writer.Add(side);
   writer.MarkPoint();
-  writer.AddRing(frame, end.rounded ? radius : end.radius);
-  if (end.rounded) writer.AddDome(frame, DirectionBefore(path, last), radius, true);
+  if (end.rounded) {
+    writer.Add(side);
+    writer.AddDome(frame, DirectionBefore(path, last), path.axis.radii.back(), true, ShapeOf(end),
+                   BallsOf(balls, last - 1));
+  } else {
+    writer.AddRing(frame, end.radius);
+  }
 }
 
-void AddPoles(const TubePath& path, const std::vector<RingFrame>& frames, RingWriter& writer) {
+void AddPoles(const TubePath& path, const std::vector<RingFrame>& frames, const SegmentBalls& balls,
+              RingWriter& writer) {
   const int last = static_cast<int>(path.axis.points.size()) - 1;
   const std::array<int, 2> points = {0, last};
+  const std::array<int, 2> segments = {0, last - 1};
   const std::array<Vec3, 2> outward = {-DirectionAfter(path, 0), DirectionBefore(path, last)};
   for (int side = 0; side < 2; ++side) {
     if (!path.ends[side].rounded) continue;
     writer.rings().poles[side] = static_cast<int>(writer.rings().vertices.size());
     writer.rings().vertices.push_back(
-        writer.Pole(frames[points[side]], outward[side], path.axis.radii[points[side]]));
+        writer.Pole(frames[points[side]], outward[side], path.axis.radii[points[side]],
+                    ShapeOf(path.ends[side]), BallsOf(balls, segments[side])));
   }
 }
 
-void AddBand(const TubeRings& rings, int ring, std::vector<std::array<int, 3>>& triangles) {
-  const int sides = rings.sides;
-  const int next = (ring + 1) % rings.ring_count;
-  for (int k = 0; k < sides; ++k) {
-    const int a = ring * sides + k;
-    const int b = ring * sides + (k + 1) % sides;
-    const int c = next * sides + k;
-    const int d = next * sides + (k + 1) % sides;
-    triangles.push_back({a, b, d});
-    triangles.push_back({a, d, c});
+// The rings at the points of a path, with the shape of the balls of the segments to both sides.
+std::vector<Ring> ShapedRings(const TubePath& path, const std::vector<Ring>& circles,
+                              const SegmentBalls& balls) {
+  std::vector<Ring> shaped = circles;
+  for (int i = 0; i < static_cast<int>(circles.size()); ++i) {
+    TubeAxis beside = BallsOf(balls, i);
+    const int before = PreviousPoint(path, i);
+    if (before != i) AppendAxis(BallsOf(balls, before), beside);
+    const double greatest = kGreatestExtent * circles[i].radius;
+    if (!beside.points.empty()) shaped[i] = OntoBalls(circles[i], beside, greatest);
   }
-}
-
-void AddPoleFan(const TubeRings& rings, int side, std::vector<std::array<int, 3>>& triangles) {
-  const int first = side == 0 ? 0 : (rings.ring_count - 1) * rings.sides;
-  for (int k = 0; k < rings.sides; ++k) {
-    const int a = first + k;
-    const int b = first + (k + 1) % rings.sides;
-    triangles.push_back(side == 0 ? std::array<int, 3>{b, a, rings.poles[0]}
-                                  : std::array<int, 3>{a, b, rings.poles[1]});
-  }
-}
-
-// A disc over a ring without new vertices, as a zigzag; `backwards` faces the start of the tube.
-void AddDisc(const TubeRings& rings, int ring, bool backwards,
-             std::vector<std::array<int, 3>>& triangles) {
-  const int base = ring * rings.sides;
-  int low = 0;
-  int high = rings.sides - 1;
-  for (bool raise_low = true; high - low > 1; raise_low = !raise_low) {
-    const int middle = raise_low ? low + 1 : high - 1;
-    std::array<int, 3> triangle = {base + low, base + middle, base + high};
-    if (backwards) std::swap(triangle[1], triangle[2]);
-    triangles.push_back(triangle);
-    (raise_low ? low : high) = middle;
-  }
-}
-
-int SegmentCount(const TubeRings& rings) {
-  return static_cast<int>(rings.ring_of_point.size()) - (rings.closed ? 0 : 1);
-}
-
-// One past the last band of a segment.
-int BandsEnd(const TubeRings& rings, int segment) {
-  return segment + 1 < static_cast<int>(rings.ring_of_point.size())
-             ? rings.ring_of_point[segment + 1]
-             : rings.ring_count;
-}
-
-std::vector<std::array<int, 3>> SideTriangles(const TubeRings& rings, int first_segment,
-                                              int last_segment) {
-  std::vector<std::array<int, 3>> triangles;
-  for (int segment = first_segment; segment < last_segment; ++segment) {
-    const auto side = SegmentTriangles(rings, segment % SegmentCount(rings));
-    triangles.insert(triangles.end(), side.begin(), side.end());
-  }
-  return triangles;
-}
-
-TriangleMesh WithUsedVertices(const TubeRings& rings, std::vector<std::array<int, 3>> triangles) {
-  TriangleMesh mesh;
-  // A map, not a table: the stub of a long tube uses few of its vertices.
-  std::map<int, int> compact;
-  for (std::array<int, 3>& triangle : triangles) {
-    for (int& vertex : triangle) {
-      const auto [entry, is_new] =
-          compact.try_emplace(vertex, static_cast<int>(mesh.vertices.size()));
-      if (is_new) mesh.vertices.push_back(rings.vertices[vertex]);
-      vertex = entry->second;
-    }
-  }
-  mesh.triangles = std::move(triangles);
-  return mesh;
+  return shaped;
 }
 
 }  // namespace
@@ -269,63 +277,37 @@ std::vector<Vec3> RotationMinimisingNormals(const TubePath& path) {
   return normals;
 }
 
-TubeRings SweepRings(const TubePath& path, int sides, double phase) {
+TubeRings SweepRings(const TubePath& path, int sides, double phase,
+                     const std::vector<TubeAxis>& balls) {
   const int n = static_cast<int>(path.axis.points.size());
   const std::vector<Vec3> normals = RotationMinimisingNormals(path);
-  std::vector<RingFrame> frames;
-  for (int i = 0; i < n; ++i) frames.push_back(FrameAt(path, i, normals[i]));
   RingWriter writer(sides, phase);
   writer.rings().closed = path.closed;
+  std::vector<RingFrame> frames;
+  std::vector<Ring> circles;
+  for (int i = 0; i < n; ++i) {
+    frames.push_back(FrameAt(path, i, normals[i]));
+    circles.push_back(writer.Circle(FrameOfSide(path, i, frames[i]), path.axis.radii[i]));
+  }
+  const std::vector<Ring> shaped = ShapedRings(path, circles, balls);
   for (int i = 0; i < n; ++i) {
     if (!path.closed && i == 0) {
-      AddStart(path, frames[i], writer);
+      AddStart(path, frames[i], shaped[i], balls, writer);
     } else if (!path.closed && i == n - 1) {
-      AddFinish(path, frames[i], writer);
+      AddFinish(path, frames[i], shaped[i], balls, writer);
     } else {
       writer.MarkPoint();
-      writer.AddRing(frames[i], path.axis.radii[i]);
+      writer.Add(shaped[i]);
+    }
+    if (BallsOf(balls, i).points.empty()) continue;
+    const int next = NextPoint(path, i);
+    for (const Ring& ring :
+         RingsBetween(circles[i], circles[next], shaped[i], shaped[next], balls[i])) {
+      writer.Add(ring);
     }
   }
-  if (!path.closed) AddPoles(path, frames, writer);
+  if (!path.closed) AddPoles(path, frames, balls, writer);
   return writer.rings();
-}
-
-std::vector<std::array<int, 3>> SegmentTriangles(const TubeRings& rings, int segment) {
-  std::vector<std::array<int, 3>> triangles;
-  const bool starts = !rings.closed && segment == 0;
-  const bool finishes = !rings.closed && segment + 1 == SegmentCount(rings);
-  const int first = starts ? 0 : rings.ring_of_point[segment];
-  const int end = finishes ? rings.ring_count - 1 : BandsEnd(rings, segment);
-  for (int ring = first; ring < end; ++ring) AddBand(rings, ring, triangles);
-  for (int side = 0; side < 2; ++side) {
-    if (!(side == 0 ? starts : finishes)) continue;
-    if (rings.poles[side] >= 0) {
-      AddPoleFan(rings, side, triangles);
-    } else {
-      AddDisc(rings, side == 0 ? 0 : rings.ring_count - 1, side == 0, triangles);
-    }
-  }
-  return triangles;
-}
-
-TriangleMesh SideOfStub(const TubeRings& rings, int first_segment, int last_segment) {
-  return WithUsedVertices(rings, SideTriangles(rings, first_segment, last_segment));
-}
-
-TriangleMesh CloseStub(const TubeRings& rings, int first_segment, int last_segment) {
-  const int count = SegmentCount(rings);
-  std::vector<std::array<int, 3>> triangles = SideTriangles(rings, first_segment, last_segment);
-  const bool whole_ring = rings.closed && last_segment - first_segment == count;
-  const auto ring_at = [&](int point) {
-    return rings.ring_of_point[point % (count + !rings.closed)];
-  };
-  if (!whole_ring && (rings.closed || first_segment > 0)) {
-    AddDisc(rings, ring_at(first_segment), true, triangles);
-  }
-  if (!whole_ring && (rings.closed || last_segment < count)) {
-    AddDisc(rings, ring_at(last_segment), false, triangles);
-  }
-  return WithUsedVertices(rings, std::move(triangles));
 }
 
 }  // namespace curvefusion

@@ -34,20 +34,10 @@ std::vector<Vec3> RotationMinimisingNormals(const TubePath& path);
 
 /// The rings of a path: at every point of the axis a regular polygon of the circle's area, mitred
 /// to the bisecting plane; rounded ends get a hemisphere, flat ones that are thinner than the tube
-/// a short taper. `phase` turns all rings about the axis (radians).
-TubeRings SweepRings(const TubePath& path, int sides, double phase);
-
-/// The open mesh of the segments first..last-1 of a tube, with the tube's own ends where they
-/// belong to it; the segments of a closed tube are counted on over its start.
-TriangleMesh SideOfStub(const TubeRings& rings, int first_segment, int last_segment);
-
-/// The closed mesh of the segments first..last-1 of a tube (counted on over the start of a closed
-/// one): at the tube's own ends its caps, where
-/// it is cut through a flat disc that uses only the vertices of the ring.
-TriangleMesh CloseStub(const TubeRings& rings, int first_segment, int last_segment);
-
-/// The triangles of the side of a segment, with the cap where the tube ends there; indices into
-/// rings.vertices.
-std::vector<std::array<int, 3>> SegmentTriangles(const TubeRings& rings, int segment);
+/// a short taper. `phase` turns all rings about the axis (radians). Segments of which `balls` holds
+/// any (empty for none at all) get more rings, which have the shape of the balls
+/// (FindRoughStretches).
+TubeRings SweepRings(const TubePath& path, int sides, double phase,
+                     const std::vector<TubeAxis>& balls = {});
 
 }  // namespace curvefusion

@@ -205,21 +205,6 @@ TubeAxis FittedAxis(const TubeAxis& axis, const std::vector<size_t>& kept) {
   return fitted;
 }
 
-// Appends what follows a point that both have.
-void AppendStretch(const TubeAxis& stretch, TubeAxis& axis) {
-  for (size_t i = 0; i < stretch.points.size(); ++i) {
-    if (!axis.points.empty() && axis.points.back() == stretch.points[i]) continue;
-    axis.points.push_back(stretch.points[i]);
-    axis.radii.push_back(stretch.radii[i]);
-  }
-}
-
-TubeAxis SimplifyStretch(const TubeAxis& axis, const AxisOptions& options) {
-  std::vector<size_t> kept = PointsWithinTolerance(axis, options.tolerance);
-  kept = SmoothKinks(axis, ThinOut(axis, kept, options.min_spacing), options);
-  return FittedAxis(axis, kept);
-}
-
 }  // namespace
 
 double ChordDeviation(const TubeAxis& axis, size_t a, size_t k, size_t b) {
@@ -230,29 +215,27 @@ double ChordDeviation(const TubeAxis& axis, size_t a, size_t k, size_t b) {
   return std::max(offset, std::abs(axis.radii[k] - radius_on_chord)) / axis.radii[k];
 }
 
+void AppendAxis(const TubeAxis& tail, TubeAxis& axis) {
+  axis.points.insert(axis.points.end(), tail.points.begin(), tail.points.end());
+  axis.radii.insert(axis.radii.end(), tail.radii.begin(), tail.radii.end());
+}
+
 TubeAxis WithoutRepeatedPoints(const TubeAxis& axis) {
   TubeAxis distinct;
-  AppendStretch(axis, distinct);
+  for (size_t i = 0; i < axis.points.size(); ++i) {
+    if (i > 0 && distinct.points.back() == axis.points[i]) continue;
+    distinct.points.push_back(axis.points[i]);
+    distinct.radii.push_back(axis.radii[i]);
+  }
   return distinct;
 }
 
 TubeAxis SmoothAxis(const TubeAxis& axis) { return FitToEnvelope(WithoutRepeatedPoints(axis)); }
 
-TubeAxis SimplifyAxis(const TubeAxis& axis, const std::vector<Vec3>& grazing_ways,
-                      const AxisOptions& options) {
-  AxisOptions close = options;
-  close.tolerance = std::min(options.tolerance, options.grazing_tolerance);
-  close.kink_tolerance = std::min(options.kink_tolerance, options.grazing_tolerance);
-  const auto grazes = [&](size_t segment) { return !grazing_ways[segment].isZero(); };
-  TubeAxis simple;
-  for (size_t first = 0; first < grazing_ways.size();) {
-    size_t last = first + 1;
-    while (last < grazing_ways.size() && grazes(last) == grazes(first)) ++last;
-    const TubeAxis stretch = Slice(axis, static_cast<int>(first), static_cast<int>(last));
-    AppendStretch(SimplifyStretch(stretch, grazes(first) ? close : options), simple);
-    first = last;
-  }
-  return simple;
+TubeAxis SimplifyAxis(const TubeAxis& axis, const AxisOptions& options) {
+  std::vector<size_t> kept = PointsWithinTolerance(axis, options.tolerance);
+  kept = SmoothKinks(axis, ThinOut(axis, kept, options.min_spacing), options);
+  return FittedAxis(axis, kept);
 }
 
 double TurnAngle(const Vec3& before, const Vec3& after) {

@@ -15,16 +15,18 @@ struct TubeAxis {
 
 /// How a noisy polyline becomes the axis of a tube; lengths in local radii.
 struct AxisOptions {
-  double tolerance = 0.02;           ///< the simplified axis follows the given one within this
-  double min_spacing = 0.15;         ///< least distance of consecutive points
-  double kink_tolerance = 0.05;      ///< the same where a tube could not be swept otherwise
-  double max_turn = 0.785;           ///< radians, at one point of a swept tube
-  double grazing_tolerance = 0.005;  ///< instead of both tolerances where tubes graze
+  double tolerance = 0.02;       ///< the simplified axis follows the given one within this
+  double min_spacing = 0.15;     ///< least distance of consecutive points
+  double kink_tolerance = 0.05;  ///< the same where a tube could not be swept otherwise
+  double max_turn = 0.785;       ///< radians, at one point of a swept tube
 };
 
 /// How far point k lies from the chord between points a and b, in radii of point k; the radius
 /// counts like a coordinate.
 double ChordDeviation(const TubeAxis& axis, size_t a, size_t k, size_t b);
+
+/// Lets the points of another axis follow those of `axis`.
+void AppendAxis(const TubeAxis& tail, TubeAxis& axis);
 
 /// `axis` without points equal to their predecessor.
 TubeAxis WithoutRepeatedPoints(const TubeAxis& axis);
@@ -36,11 +38,9 @@ TubeAxis SmoothAxis(const TubeAxis& axis);
 /// The fewest points that follow `axis` (position and radius) within the tolerance
 /// (Douglas-Peucker), thinned to the least spacing and, within the wider tolerance, until no tube
 /// along them has to be cut for a kink; then moved half way to where they fit it best, so that
-/// bends do not get shorter. Segments that graze another tube (those of which FindGrazingWays gives
-/// a way) are followed more closely. Both ends are kept bit for bit, and those of stretches of such
-/// segments. No two consecutive points may be equal.
-TubeAxis SimplifyAxis(const TubeAxis& axis, const std::vector<Vec3>& grazing_ways,
-                      const AxisOptions& options);
+/// bends do not get shorter. Both ends are kept bit for bit. No two consecutive points may be
+/// equal.
+TubeAxis SimplifyAxis(const TubeAxis& axis, const AxisOptions& options);
 
 /// The angle in radians by which a curve turns between two directions (any length > 0).
 double TurnAngle(const Vec3& before, const Vec3& after);

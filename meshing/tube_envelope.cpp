@@ -6,6 +6,8 @@
 #include <numbers>
 #include <optional>
 
+#include "meshing/ball_rings.h"
+
 namespace curvefusion {
 
 namespace {
@@ -19,24 +21,9 @@ constexpr double kLeastReach = 0.7;    // ... at least, next to an end
 // Radians along which the direction is measured. A tube of less turning differs from its envelope
 // by less than .01.
 constexpr double kLeastTurning = 0.15;
-// An arc turns by 2.7 times the bend measured between its halves; noise turns by more than that.
-constexpr double kTurningOfBend = 4;
 // A curve that turns by more on the whole is a bend and not noise.
 constexpr double kGreatestBend = 0.7;
 constexpr int kRays = 16;
-// An axis is moved by that much at most to reach as far as it should, ...
-constexpr double kGreatestMove = 0.1;
-// ... as measured so far to either side: half the distance of cross-sections.
-constexpr double kReachWindow = 0.2;
-// Of the sum of two directions: less is no common direction across the tube.
-constexpr double kLeastAgreement = 0.5;
-// Radians: cross-sections at a sharper corner are wider than the tube by .06 and more; what turns
-// less is noise.
-constexpr double kCornerTurn = 0.7;
-constexpr double kCornerBend = 0.25;  // what is measured between the halves of such a corner
-// A corner is the sharpest turn so far to either side.
-constexpr double kCornerReach = 0.7;
-
 // Balls along an axis, with their positions along it.
 struct BallRow {
   TubeAxis axis;
@@ -62,13 +49,6 @@ struct BallRow {
     return std::min(static_cast<size_t>(found - along.begin()), size() - 1);
   }
 
-  double GreatestTurn(size_t first, size_t last) const {
-    double greatest = 0;
-    for (size_t i = first; i < last; ++i)
-      greatest = std::max(greatest, turning[i + 1] - turning[i]);
-    return greatest;
-  }
-
   Vec3 MeanOf(size_t first, size_t last) const {
     Vec3 sum = Vec3::Zero();
     for (size_t i = first; i <= last; ++i) sum += axis.points[i];
@@ -79,7 +59,6 @@ struct BallRow {
 // Where the envelope is wanted: rough, away from the ends, straight on the whole.
 struct Station {
   bool is_rough = false;
-  bool is_noisy = false;  // rough by more than a bend and a corner
   Vec3 tangent = Vec3::Zero();
 };
 
@@ -121,22 +100,7 @@ Station ExamineStation(const BallRow& row, size_t i) {
   const Directions directions = DirectionsAt(row, i, *window);
   const double bend = directions.bend();
   if (bend > kGreatestBend) return {};
-  const double noise =
-      turning - row.GreatestTurn(window->first, window->last) - kTurningOfBend * bend;
-  return {true, noise > kLeastTurning, (directions.before + directions.after).normalized()};
-}
-
-// How far a ray from `from` runs within the balls first..last.
-double Extent(const BallRow& row, size_t first, size_t last, const Vec3& from, const Vec3& ray) {
-  double extent = 0;
-  for (size_t i = first; i <= last; ++i) {
-    const Vec3 to_centre = row.axis.points[i] - from;
-    const double middle = to_centre.dot(ray);
-    const double radius = row.axis.radii[i];
-    const double square = radius * radius - to_centre.squaredNorm() + middle * middle;
-    if (square > 0) extent = std::max(extent, middle + std::sqrt(square));
-  }
-  return extent;
+  return {true, (directions.before + directions.after).normalized()};
 }
 
 // The common cross-section of the balls: its centroid and the radius of a circle of its area.
@@ -153,12 +117,13 @@ CrossSection CrossSectionAt(const BallRow& row, size_t i, const Vec3& tangent) {
   const Vec3 from = middle + (row.axis.points[i] - middle).dot(tangent) * tangent;
   const Vec3 u = tangent.unitOrthogonal();
   const Vec3 v = tangent.cross(u);
+  const TubeAxis balls = Slice(row.axis, static_cast<int>(first), static_cast<int>(last));
   double squares = 0;
   Vec3 cubes = Vec3::Zero();
   for (int k = 0; k < kRays; ++k) {
     const double angle = 2 * std::numbers::pi * k / kRays;
     const Vec3 ray = std::cos(angle) * u + std::sin(angle) * v;
-    const double extent = Extent(row, first, last, from, ray);
+    const double extent = ExtentOfBalls(balls, from, ray);
     squares += extent * extent;
     cubes += extent * extent * extent * ray;
   }
@@ -214,72 +179,11 @@ bool IsRough(const TubeAxis& axis) {
   return turning >= kLeastTurning;
 }
 
-// How far the balls beside a point of the fitted axis reach in a direction perpendicular to the
-// tangent.
-double ReachOf(const BallRow& row, const Vec3& from, double radius, const Vec3& tangent,
-               const Vec3& way) {
-  double reach = 0;
-  for (size_t k = 0; k < row.size(); ++k) {
-    const Vec3 offset = row.axis.points[k] - from;
-    if (offset.norm() > radius || std::abs(offset.dot(tangent)) > kReachWindow * radius) continue;
-    reach = std::max(reach, offset.dot(way) + row.axis.radii[k]);
-  }
-  return reach;
-}
-
 }  // namespace
 
 TubeAxis FitToEnvelope(const TubeAxis& axis) {
   if (!IsRough(axis)) return axis;
   return Smoothed(FitCrossSections(BallRow(axis)));
-}
-
-bool IsNoisy(const TubeAxis& axis) {
-  if (!IsRough(axis)) return false;
-  const BallRow row(axis);
-  for (size_t i = 0; i < row.size(); ++i) {
-    if (ExamineStation(row, i).is_noisy) return true;
-  }
-  return false;
-}
-
-std::vector<int> FindCorners(const TubeAxis& axis) {
-  std::vector<int> corners;
-  if (!IsRough(axis)) return corners;
-  const BallRow row(axis);
-  const std::vector<double> along = CumulativeLength(axis.points);
-  double corner_turn = 0;
-  for (size_t i = 1; i + 1 < axis.points.size(); ++i) {
-    const double turn = TurnAngleAt(axis.points, i);
-    if (turn < kCornerTurn) continue;
-    const size_t ball = row.At(along[i]);
-    const std::optional<Window> window = WindowAt(row, ball);
-    if (!window || DirectionsAt(row, ball, *window).bend() < kCornerBend) continue;
-    const bool is_apart =
-        corners.empty() || along[i] - along[corners.back()] > kCornerReach * axis.radii[i];
-    if (!is_apart && turn <= corner_turn) continue;
-    if (!is_apart) corners.pop_back();
-    corners.push_back(static_cast<int>(i));
-    corner_turn = turn;
-  }
-  return corners;
-}
-
-TubeAxis ReachAsFar(const TubeAxis& axis, TubeAxis fitted, const std::vector<Vec3>& ways) {
-  const BallRow row(axis);
-  const Polyline points = fitted.points;
-  for (size_t i = 1; i + 1 < points.size(); ++i) {
-    const Vec3 tangent = (points[i + 1] - points[i - 1]).normalized();
-    Vec3 way = ways[i - 1] + ways[i];
-    way -= way.dot(tangent) * tangent;
-    if (way.norm() < kLeastAgreement) continue;
-    way.normalize();
-    const double radius = fitted.radii[i];
-    const double most = kGreatestMove * radius;
-    const double excess = ReachOf(row, points[i], radius, tangent, way) - radius;
-    fitted.points[i] += std::clamp(excess, -most, most) * way;
-  }
-  return fitted;
 }
 
 }  // namespace curvefusion

@@ -13,18 +13,4 @@ namespace curvefusion {
 /// length over radius.
 TubeAxis FitToEnvelope(const TubeAxis& axis);
 
-/// Whether FitToEnvelope finds noise anywhere along the axis.
-bool IsNoisy(const TubeAxis& axis);
-
-/// Indices of the inner points, ascending, at which a curve has a corner: it turns by more than .7
-/// radians at the point and as a whole. No circle is the cross-section of a tube there. Points next
-/// to an end are none.
-std::vector<int> FindCorners(const TubeAxis& axis);
-
-/// `fitted`, made of `axis` by FitToEnvelope, with points moved so that its tube reaches as far as
-/// the rough one in certain directions: circles of the same area stand out by some hundredths of a
-/// radius in one direction and back in another. `ways` holds a unit vector or zero for each segment
-/// of `fitted`. Both ends stay. O(points that move times length over radius).
-TubeAxis ReachAsFar(const TubeAxis& axis, TubeAxis fitted, const std::vector<Vec3>& ways);
-
 }  // namespace curvefusion

@@ -7,7 +7,9 @@
 
 #include "kernel/parallel.h"
 #include "meshing/hashed_number.h"
+#include "meshing/rough_stretches.h"
 #include "meshing/self_intersections.h"
+#include "meshing/stubs.h"
 #include "meshing/tube_network.h"
 #include "meshing/tubes.h"
 
@@ -16,30 +18,42 @@ namespace curvefusion {
 namespace {
 
 constexpr double kMaxTurn = std::numbers::pi / 4;  // at a mitred ring
+// Polygons of tubes that follow the shape of their curves have so many times more sides.
+constexpr int kRoughSides = 2;
 constexpr double kGentle = 2;  // strips are so many times longer than what would fold
 
 // Rings of different tubes are turned against each other, so that their facets do not lie in one
 // plane where the tubes meet.
-double PhaseOf(uint64_t path, int sides, uint64_t seed) {
-  return 2 * std::numbers::pi / sides * HashedNumber((seed << 32) + path);
+double PhaseOf(double turn, int sides) { return 2 * std::numbers::pi / sides * turn; }
+
+// A whole tube, and the segment of each of its triangles.
+struct WholeTube {
+  TriangleMesh mesh;
+  std::vector<int> segment_of_face;
+
+  WholeTube(const TubePath& path, const TubeRings& rings) : mesh{rings.vertices, {}} {
+    for (int segment = 0; segment < path.segment_count(); ++segment) {
+      const auto side = SegmentTriangles(rings, segment);
+      mesh.triangles.insert(mesh.triangles.end(), side.begin(), side.end());
+      segment_of_face.resize(mesh.triangles.size(), segment);
+    }
+  }
+};
+
+bool IsSound(const TubePath& path, const TubeRings& rings) {
+  return FindSelfIntersections(WholeTube(path, rings).mesh, 1).empty();
 }
 
 // The point at which a path that intersects itself is best cut: the sharpest turn between the first
 // two segments found to meet. Nothing where the tube is sound.
 std::optional<int> CutAgainstSelfIntersection(const TubePath& path, const TubeRings& rings) {
-  TriangleMesh tube{rings.vertices, {}};
-  std::vector<int> segment_of_face;
-  for (int segment = 0; segment < path.segment_count(); ++segment) {
-    const auto side = SegmentTriangles(rings, segment);
-    tube.triangles.insert(tube.triangles.end(), side.begin(), side.end());
-    segment_of_face.resize(tube.triangles.size(), segment);
-  }
-  const auto hits = FindSelfIntersections(tube, 1);
+  const WholeTube tube(path, rings);
+  const auto hits = FindSelfIntersections(tube.mesh, 1);
   if (hits.empty()) return std::nullopt;
   const int n = static_cast<int>(path.axis.points.size());
   const int last_cut = path.closed ? n - 1 : n - 2;
-  const int from = std::max(segment_of_face[hits[0].first], path.closed ? 0 : 1);
-  const int to = std::min(segment_of_face[hits[0].second] + 1, last_cut);
+  const int from = std::max(tube.segment_of_face[hits[0].first], path.closed ? 0 : 1);
+  const int to = std::min(tube.segment_of_face[hits[0].second] + 1, last_cut);
   int best = -1;
   double sharpest = -1;
   for (int i = from; i <= to; ++i) {
@@ -73,14 +87,28 @@ bool IsGentle(const TubePath& path) {
   return true;
 }
 
+// A tube with the shape of the balls along its curve where there are any, or of its axis only.
+TubeRings Sweep(const TubePath& path, int sides, double turn, const std::vector<TubeAxis>& balls) {
+  const bool is_rough =
+      std::any_of(balls.begin(), balls.end(), [](const TubeAxis& b) { return !b.points.empty(); });
+  const int count = is_rough ? kRoughSides * sides : sides;
+  return SweepRings(path, count, PhaseOf(turn, count), balls);
+}
+
 // Sweeps all paths; those that intersect themselves are cut until none does.
-void SweepSoundly(int sides, uint64_t seed, TubeLayout& layout) {
+void SweepSoundly(int sides, uint64_t seed, const std::vector<TubeAxis>& curves,
+                  TubeLayout& layout) {
   for (bool all_sound = false; !all_sound;) {
     std::vector<std::optional<int>> cuts(layout.paths.size());
+    const std::vector<std::vector<TubeAxis>> balls = FindRoughStretches(layout.paths, curves);
     layout.rings.resize(layout.paths.size());
     ParallelFor(0, static_cast<int64_t>(layout.paths.size()), 1, [&](int64_t i) {
       const TubePath& path = layout.paths[i];
-      layout.rings[i] = SweepRings(path, sides, PhaseOf(static_cast<uint64_t>(i), sides, seed));
+      const double turn = HashedNumber((seed << 32) + static_cast<uint64_t>(i));
+      layout.rings[i] = Sweep(path, sides, turn, balls[i]);
+      if (layout.rings[i].sides > sides && !IsSound(path, layout.rings[i])) {
+        layout.rings[i] = Sweep(path, sides, turn, {});
+      }
       if (!IsGentle(path)) cuts[i] = CutAgainstSelfIntersection(path, layout.rings[i]);
     });
     all_sound = std::none_of(cuts.begin(), cuts.end(), [](const auto& cut) { return cut; });
@@ -106,7 +134,7 @@ TubeLayout LayOutTubes(const SkeletonGraph& graph, const TubeOptions& options, u
   axis.max_turn = kMaxTurn;
   const TubeNetwork network = PrepareTubes(graph, options.default_radius, axis);
   layout.paths = CutSelfContacts(ChainTubes(network, kMaxTurn, options.ring_spacing));
-  SweepSoundly(options.sides, seed, layout);
+  SweepSoundly(options.sides, seed, network.curves, layout);
   layout.groups = GroupContacts(layout.paths);
   return layout;
 }

@@ -11,8 +11,6 @@
 #include <utility>
 
 #include "kernel/error.h"
-#include "meshing/grazing_ways.h"
-#include "meshing/tube_envelope.h"
 
 namespace curvefusion {
 
@@ -28,8 +26,6 @@ constexpr double kLeastLength = 0.05;
 constexpr double kSameRadius = 0.9;
 // A branch may stick out of the one that swallows it by so much of the radius.
 constexpr double kContainment = 1.02;
-// How near a corner tubes must graze for it to be cut: fitted cross-sections reach as far.
-constexpr double kCornerReach = 1.5;
 // One step of float32 coordinates must be finer than this part of the radius.
 constexpr double kFinestFloatStep = 2e-3;
 
@@ -218,72 +214,24 @@ void CutBranches(const std::vector<std::vector<int>>& cuts, TubeNetwork& network
     int first = 0;
     int first_node = branch.nodes[0];
     for (const int cut : cuts[i]) {
-      pieces.push_back({{first_node, network.node_count}, Slice(branch.axis, first, cut)});
+      pieces.push_back(
+          {{first_node, network.node_count}, Slice(branch.axis, first, cut), branch.curve});
       first = cut;
       first_node = network.node_count++;
     }
     const int last = static_cast<int>(branch.axis.points.size()) - 1;
-    pieces.push_back({{first_node, branch.nodes[1]}, Slice(branch.axis, first, last)});
+    pieces.push_back(
+        {{first_node, branch.nodes[1]}, Slice(branch.axis, first, last), branch.curve});
   }
   network.branches = std::move(pieces);
 }
 
-using Ways = std::vector<std::vector<Vec3>>;
-
-std::vector<TubeAxis> SmoothAxes(const TubeNetwork& network) {
-  std::vector<TubeAxis> smooth;
-  for (const TubeBranch& branch : network.branches) smooth.push_back(SmoothAxis(branch.axis));
-  return smooth;
-}
-
-bool Grazes(const std::vector<Vec3>& ways) {
-  return std::any_of(ways.begin(), ways.end(), [](const Vec3& way) { return !way.isZero(); });
-}
-
-// Whether a tube grazes another one so near that a corner at this place matters.
-bool GrazesNear(const TubeAxis& smooth, const std::vector<Vec3>& ways, const Vec3& corner) {
-  for (size_t i = 0; i < ways.size(); ++i) {
-    if (ways[i].isZero()) continue;
-    const Polyline segment = {smooth.points[i], smooth.points[i + 1]};
-    if (Project(segment, corner).distance < kCornerReach * smooth.radii[i]) return true;
-  }
-  return false;
-}
-
-// Cuts tubes at corners where they graze: the tube fitted to a corner, and a mitred ring, stand out
-// there. Returns whether there are any.
-bool CutAtGrazingCorners(const std::vector<TubeAxis>& smooth, const Ways& ways,
-                         TubeNetwork& network) {
-  const int first_corner = network.node_count;
-  std::vector<std::vector<int>> cuts(smooth.size());
-  for (size_t i = 0; i < smooth.size(); ++i) {
-    if (!Grazes(ways[i])) continue;
-    TubeAxis& axis = network.branches[i].axis;
-    axis = WithoutRepeatedPoints(axis);
-    for (const int corner : FindCorners(axis)) {
-      if (GrazesNear(smooth[i], ways[i], axis.points[corner])) cuts[i].push_back(corner);
-    }
-  }
-  CutBranches(cuts, network);
-  for (int node = first_corner; node < network.node_count; ++node) network.corners.push_back(node);
-  return !network.corners.empty();
-}
-
-// Only what is fitted to noise or corners errs so much that it matters where tubes graze.
+// Keeps every curve as it was given, for the branches made of it.
 void SimplifyBranches(const AxisOptions& options, TubeNetwork& network) {
-  std::vector<TubeAxis> smooth = SmoothAxes(network);
-  Ways ways = FindGrazingWays(smooth);
-  if (CutAtGrazingCorners(smooth, ways, network)) {
-    smooth = SmoothAxes(network);
-    ways = FindGrazingWays(smooth);
-  }
-  for (size_t i = 0; i < smooth.size(); ++i) {
-    TubeAxis& axis = network.branches[i].axis;
-    if (Grazes(ways[i]) && IsNoisy(axis)) {
-      axis = SimplifyAxis(ReachAsFar(axis, std::move(smooth[i]), ways[i]), ways[i], options);
-    } else {
-      axis = SimplifyAxis(smooth[i], std::vector<Vec3>(ways[i].size(), Vec3::Zero()), options);
-    }
+  for (TubeBranch& branch : network.branches) {
+    branch.curve = static_cast<int>(network.curves.size());
+    network.curves.push_back(WithoutRepeatedPoints(branch.axis));
+    branch.axis = SimplifyAxis(SmoothAxis(branch.axis), options);
   }
 }
 

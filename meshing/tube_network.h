@@ -12,6 +12,7 @@ namespace curvefusion {
 struct TubeBranch {
   std::array<int, 2> nodes{};
   TubeAxis axis;  ///< runs from nodes[0] to nodes[1]
+  int curve = 0;  ///< of TubeNetwork::curves, of which it is a simplified part
 };
 
 /// One end of a branch: side 0 is axis.points.front(), side 1 the back.
@@ -24,7 +25,7 @@ struct BranchEnd {
 struct TubeNetwork {
   int node_count = 0;
   std::vector<TubeBranch> branches;
-  std::vector<int> corners;  ///< nodes, ascending, that no tube runs through in one piece
+  std::vector<TubeAxis> curves;  ///< as given, without repeated points
 
   /// The branch ends at every node; a loop stands there twice.
   std::vector<std::vector<BranchEnd>> EndsAtNodes() const;
@@ -32,10 +33,9 @@ struct TubeNetwork {
 
 /// Prepares a skeleton for sweeping: nodes at the same place, or joined by an edge shorter than
 /// 0.15 radii, become one; degree-2 nodes are dissolved; curves are simplified and cut where they
-/// turn by more than `max_turn` or more tightly than the tube is thick, and at corners that graze
-/// another tube (FindGrazingWays); a branch that lies inside another between the same nodes is
-/// dropped. Edges without radii get `default_radius`. Throws Error(kBadInput) for coordinates or
-/// radii that are not finite, radii that are not positive, or
+/// turn by more than `max_turn` or more tightly than the tube is thick; a branch that lies inside
+/// another between the same nodes is dropped. Edges without radii get `default_radius`. Throws
+/// Error(kBadInput) for coordinates or radii that are not finite, radii that are not positive, or
 /// ones too thin for float32 coordinates at their distance from the origin.
 TubeNetwork PrepareTubes(const SkeletonGraph& graph, double default_radius,
                          const AxisOptions& options);

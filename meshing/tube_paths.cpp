@@ -114,7 +114,8 @@ void FinishEnds(const TubeNetwork& network, const std::vector<BranchEnd>& ends,
   for (const BranchEnd& end : ends) {
     const double radius = EndRadius(network.branches[end.branch].axis, end.side);
     const bool rounded = ball && ball->branch == end.branch && ball->side == end.side;
-    chaining.ends[end.branch][end.side] = {rounded, std::min(radius, kCoveredPart * ball_radius)};
+    chaining.ends[end.branch][end.side] = {rounded, std::min(radius, kCoveredPart * ball_radius),
+                                           ends.size() > 1};
   }
 }
 
@@ -125,8 +126,7 @@ Chaining LinkBranches(const TubeNetwork& network, double max_turn) {
                     std::vector<std::array<TubeEnd, 2>>(n)};
   const std::vector<std::vector<BranchEnd>> ends = network.EndsAtNodes();
   for (int node = 0; node < network.node_count; ++node) {
-    const bool is_corner = std::binary_search(network.corners.begin(), network.corners.end(), node);
-    const double through = is_corner ? 0.0 : LinkAtNode(network, ends[node], max_turn, chaining);
+    const double through = LinkAtNode(network, ends[node], max_turn, chaining);
     FinishEnds(network, ends[node], through, chaining);
   }
   return chaining;
@@ -154,8 +154,7 @@ void AppendBranch(const TubeNetwork& network, BranchEnd from, double ring_spacin
     piece.points.erase(piece.points.begin());
     piece.radii.erase(piece.radii.begin());
   }
-  axis.points.insert(axis.points.end(), piece.points.begin(), piece.points.end());
-  axis.radii.insert(axis.radii.end(), piece.radii.begin(), piece.radii.end());
+  AppendAxis(piece, axis);
   DropStraightJoint(joint, axis);
 }
 
@@ -167,6 +166,7 @@ TubePath FollowLinks(const TubeNetwork& network, const Chaining& chaining, Branc
   while (true) {
     used[entry.branch] = 1;
     AppendBranch(network, entry, ring_spacing, path.axis);
+    path.curves.push_back(network.branches[entry.branch].curve);
     const BranchEnd exit{entry.branch, 1 - entry.side};
     entry = chaining.next[exit.branch][exit.side];
     if (entry.branch < 0) {
@@ -206,10 +206,10 @@ std::vector<TubePath> ChainTubes(const TubeNetwork& network, double max_turn, do
 std::vector<TubePath> CutPath(const TubePath& path, int point_index) {
   const int n = static_cast<int>(path.axis.points.size());
   const double radius = path.axis.radii[point_index];
-  const TubeEnd rounded{true, radius};
+  const TubeEnd rounded{true, radius, true};
   const TubeEnd flat{false, kCoveredPart * radius};
   if (path.closed) {
-    TubePath open{path.axis, false, {flat, rounded}};
+    TubePath open{path.axis, false, {flat, rounded}, path.curves};
     std::rotate(open.axis.points.begin(), open.axis.points.begin() + point_index,
                 open.axis.points.end());
     std::rotate(open.axis.radii.begin(), open.axis.radii.begin() + point_index,
@@ -219,8 +219,8 @@ std::vector<TubePath> CutPath(const TubePath& path, int point_index) {
     return {open};
   }
   assert(point_index > 0 && point_index + 1 < n);
-  return {{Slice(path.axis, 0, point_index), false, {path.ends[0], rounded}},
-          {Slice(path.axis, point_index, n - 1), false, {flat, path.ends[1]}}};
+  return {{Slice(path.axis, 0, point_index), false, {path.ends[0], rounded}, path.curves},
+          {Slice(path.axis, point_index, n - 1), false, {flat, path.ends[1]}, path.curves}};
 }
 
 }  // namespace curvefusion

@@ -12,6 +12,7 @@ namespace curvefusion {
 struct TubeEnd {
   bool rounded = true;  ///< by a hemisphere; otherwise flat, inside a thicker or equal tube
   double radius = 0;    ///< of the flat disc
+  bool joined = false;  ///< to other tubes, so that little is seen of a dome
 };
 
 /// A tube to be swept in one piece: at every inner point of the axis a mitred ring.
@@ -19,6 +20,7 @@ struct TubePath {
   TubeAxis axis;        ///< a closed path does not repeat its first point
   bool closed = false;  ///< a ring without ends
   std::array<TubeEnd, 2> ends;
+  std::vector<int> curves = {};  ///< of the network, along which it runs (TubeNetwork::curves)
 
   int segment_count() const { return static_cast<int>(axis.points.size()) - (closed ? 0 : 1); }
 };

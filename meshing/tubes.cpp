@@ -11,6 +11,7 @@
 #include "kernel/error.h"
 #include "kernel/parallel.h"
 #include "meshing/junction_mesh.h"
+#include "meshing/stubs.h"
 #include "meshing/tube_layout.h"
 
 namespace curvefusion {

@@ -13,6 +13,7 @@
 
 #include "kernel/disjoint_sets.h"
 #include "meshing/junction_union.h"
+#include "meshing/stubs.h"
 #include "meshing/sweep.h"
 
 namespace curvefusion {

@@ -26,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // The networks of the test are those from this seed on; others were looked at during development.
-constexpr uint64_t kFirstSeed = 5000;
+constexpr uint64_t kFirstSeed = 90000;
 // A contact that appears or vanishes when radii change by this part may come out either way: the
 // corners of the polygons stand out by 1.3 %, and axes are simplified.
 constexpr double kGrazing = 0.02;
@@ -158,8 +158,10 @@ TEST(Tubes, RandomHardNetworks) {
   }
 }
 
-// Holes that close when all radii grow by 2.1 to 3.5 %: axes fitted to noise and to corners closed
-// them.
+// Networks in which tubes fitted to noise and corners closed holes that all radii must grow by 2.1
+// to 3.5 % to close, a tube bridged the groove beside the dome of a joint (60137 and 70028), a
+// hollow of a hundredth of a radius was left in a node (40030), and a tight loop was cut into
+// pieces that followed the same balls (5119).
 TEST(Tubes, RoughCurvesThatNearlyTouch) {
   struct Network {
     const char* kind;
@@ -168,7 +170,9 @@ TEST(Tubes, RoughCurvesThatNearlyTouch) {
   Tally tally;
   for (const auto& [kind, seed] :
        {Network{"noisy", 5048}, Network{"noisy", 5050}, Network{"noisy", 5098},
-        Network{"noisy", 20040}, Network{"self_loops", 5038}}) {
+        Network{"noisy", 20040}, Network{"noisy", 30033}, Network{"noisy", 40030},
+        Network{"noisy", 60137}, Network{"noisy", 70028}, Network{"self_loops", 5038},
+        Network{"self_loops", 5119}}) {
     SCOPED_TRACE(std::string(kind) + " " + std::to_string(seed));
     Examine(RandomHardGraph(kind, seed), {kind}, tally);
   }

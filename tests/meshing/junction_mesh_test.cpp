@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "kernel/geometry.h"
+#include "meshing/stubs.h"
 #include "meshing/sweep.h"
 #include "meshing/watertight.h"
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "meshing/stubs.h"
 #include "meshing/watertight.h"
 
 namespace curvefusion {

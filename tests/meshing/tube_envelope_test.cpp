@@ -59,28 +59,5 @@ TEST(FitToEnvelope, KeepsTheVolumeOfTheBalls) {
   EXPECT_NEAR(volume / VolumeOfTubes(rough, 200000).volume, 1, 0.02);
 }
 
-TEST(ReachAsFar, MovesTheTubeOutToTheTipsOfTheZigzag) {
-  const TubeAxis rough = AxisOf(Zigzag());
-  const TubeAxis fitted = FitToEnvelope(rough);
-  for (const double side : {-1.0, 1.0}) {
-    const std::vector<Vec3> ways(fitted.points.size() - 1, side * Vec3::UnitY());
-    const TubeAxis moved = ReachAsFar(rough, fitted, ways);
-    double farthest = 0;
-    for (size_t i = 1; i + 1 < moved.points.size(); ++i) {
-      farthest = std::max(farthest, side * moved.points[i].y() + moved.radii[i]);
-    }
-    EXPECT_EQ(moved.radii, fitted.radii);
-    EXPECT_EQ(moved.points.front(), fitted.points.front());
-    // Tips stand out by .15 radii; what a cross-section gains by leaning against the axis is .01.
-    EXPECT_NEAR(farthest / kRadius, 1.15, 0.01);
-  }
-}
-
-TEST(ReachAsFar, WithoutDirectionsNothingMoves) {
-  const TubeAxis fitted = FitToEnvelope(AxisOf(Zigzag()));
-  const std::vector<Vec3> ways(fitted.points.size() - 1, Vec3::Zero());
-  EXPECT_EQ(ReachAsFar(AxisOf(Zigzag()), fitted, ways).points, fitted.points);
-}
-
 }  // namespace
 }  // namespace curvefusion

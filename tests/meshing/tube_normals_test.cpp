@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "meshing/stubs.h"
 #include "meshing/sweep.h"
 #include "meshing/tubes.h"
 #include "tests/meshing/tube_graphs.h"
