@@ -18,7 +18,7 @@ struct IndexedCell {
 
 }  // namespace
 
-std::vector<int> OrderByCell(const std::vector<VoxelKey>& cells) {
+std::vector<int> SortCells(std::vector<VoxelKey>& cells) {
   if (cells.empty()) return {};
   std::vector<IndexedCell> items(cells.size());
   for (size_t i = 0; i < cells.size(); ++i) items[i] = {cells[i], static_cast<int>(i)};
@@ -38,9 +38,12 @@ std::vector<int> OrderByCell(const std::vector<VoxelKey>& cells) {
     return uint64_t{static_cast<uint32_t>(item.cell.x) - least_x} << bits_y |
            (static_cast<uint32_t>(item.cell.y) - least_y);
   });
-  std::vector<int> order(cells.size());
-  std::ranges::transform(items, order.begin(), &IndexedCell::index);
-  return order;
+  std::vector<int> indices(cells.size());
+  for (size_t i = 0; i < cells.size(); ++i) {
+    cells[i] = items[i].cell;
+    indices[i] = items[i].index;
+  }
+  return indices;
 }
 
 }  // namespace curvefusion

@@ -6,8 +6,8 @@
 
 namespace curvefusion {
 
-/// The indices of cells in ascending order of x, then y, then z; equal ones in ascending order of
-/// index. A radix sort over the bits in which the cells differ: linear.
-std::vector<int> OrderByCell(const std::vector<VoxelKey>& cells);
+/// Sorts cells by x, then y, then z. Returns the index that each had, ascending among equal ones. A
+/// radix sort: linear.
+std::vector<int> SortCells(std::vector<VoxelKey>& cells);
 
 }  // namespace curvefusion

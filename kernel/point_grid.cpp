@@ -26,11 +26,11 @@ PointGrid::PointGrid(const std::vector<Vec3>& points, double radius)
     cells[i] = {static_cast<int>(Coordinate(p.x())), static_cast<int>(Coordinate(p.y())),
                 static_cast<int>(Coordinate(p.z()))};
   });
-  indices_ = OrderByCell(cells);
+  indices_ = SortCells(cells);
   points_.resize(points.size());
   for (int i = 0; i < static_cast<int>(indices_.size()); ++i) {
     points_[i] = points[indices_[i]];
-    const VoxelKey& cell = cells[indices_[i]];
+    const VoxelKey& cell = cells[i];
     const uint64_t column = ColumnKey(cell.x, cell.y);
     const uint64_t key = Key(cell.x, cell.y, cell.z);
     if (columns_.empty() || columns_.back().key != column) {

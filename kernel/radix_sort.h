@@ -1,7 +1,7 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -10,23 +10,23 @@
 namespace curvefusion {
 
 /// Sorts values by the 64-bit number key(value), those of equal number in their order. Linear: one
-/// pass for each byte in which the numbers differ, so that it pays from some hundred values on.
+/// pass for every eleven bits in which the numbers differ, so that it pays from some thousand
+/// values on.
 template <class T, class Key>
 void RadixSort(std::vector<T>& values, const Key& key) {
-  constexpr int kBytes = 8;
-  constexpr std::size_t kDigits = 256;
-  std::array<std::array<std::size_t, kDigits>, kBytes> counts{};
-  for (const T& value : values) {
-    const uint64_t number = key(value);
-    for (int byte = 0; byte < kBytes; ++byte) ++counts[byte][number >> (8 * byte) & 0xff];
-  }
+  constexpr int kBits = 11;  // of a digit; its counts stay in the cache
+  constexpr uint64_t kMask = (uint64_t{1} << kBits) - 1;
+  uint64_t different = 0;
+  for (const T& value : values) different |= key(value) ^ key(values.front());
   std::vector<T> sorted(values.size());
-  for (int byte = 0; byte < kBytes; ++byte) {
-    std::array<std::size_t, kDigits>& next = counts[byte];
-    if (std::find(next.begin(), next.end(), values.size()) != next.end()) continue;
+  const int end = static_cast<int>(std::bit_width(different));
+  for (int shift = std::countr_zero(different); shift < end; shift += kBits) {
+    if ((different >> shift & kMask) == 0) continue;
+    std::array<std::size_t, kMask + 1> next{};
+    for (const T& value : values) ++next[key(value) >> shift & kMask];
     std::size_t begin = 0;
     for (std::size_t& count : next) begin += std::exchange(count, begin);
-    for (T& value : values) sorted[next[key(value) >> (8 * byte) & 0xff]++] = std::move(value);
+    for (T& value : values) sorted[next[key(value) >> shift & kMask]++] = std::move(value);
     std::swap(values, sorted);
   }
 }

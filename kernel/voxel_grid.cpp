@@ -58,10 +58,9 @@ Buckets GroupByCell(const std::vector<Vec3>& places, double voxel_size) {
   ParallelFor(0, static_cast<int64_t>(places.size()), kPointsPerChunk,
               [&](int64_t i) { cells[i] = VoxelOf(places[i], voxel_size); });
   Buckets buckets;
-  buckets.members = OrderByCell(cells);
+  buckets.members = SortCells(cells);
   for (size_t k = 0; k < places.size(); ++k) {
-    const bool is_same = k > 0 && cells[buckets.members[k]] == cells[buckets.members[k - 1]];
-    if (!is_same) buckets.first.push_back(static_cast<int>(k));
+    if (k == 0 || cells[k] != cells[k - 1]) buckets.first.push_back(static_cast<int>(k));
   }
   buckets.first.push_back(static_cast<int>(places.size()));
   return buckets;

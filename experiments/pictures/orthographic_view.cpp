@@ -17,7 +17,7 @@ namespace {
 constexpr int kShift = 4;                // fractional bits of drawing coordinates
 constexpr double kHaloShare = 0.9;       // width of the white halo, relative to the line's
 constexpr double kScaleBarShare = 0.22;  // of the panel's width, at most
-constexpr size_t kMostDots = 400000;
+constexpr size_t kMostDots = 100000;
 
 cv::Scalar Ink(const Rgb& color) { return {double(color[0]), double(color[1]), double(color[2])}; }
 
