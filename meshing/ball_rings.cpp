@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "meshing/douglas_peucker.h"
+
 namespace curvefusion {
 
 namespace {
@@ -33,29 +35,6 @@ double DeviationFromStrip(const std::vector<Ring>& rings, size_t a, size_t k, si
     deviation = std::max(deviation, (rings[k].offsets[corner] - offset).squaredNorm());
   }
   return std::sqrt(deviation) / rings[k].radius;
-}
-
-// Douglas-Peucker between the first and last of evenly spaced rings.
-std::vector<char> RingsToKeep(const std::vector<Ring>& rings) {
-  std::vector<char> keep(rings.size(), 0);
-  std::vector<std::pair<size_t, size_t>> open = {{0, rings.size() - 1}};
-  while (!open.empty()) {
-    const auto [a, b] = open.back();
-    open.pop_back();
-    size_t farthest = a;
-    double deviation = kTolerance;
-    for (size_t k = a + 1; k < b; ++k) {
-      const double d = DeviationFromStrip(rings, a, k, b);
-      if (d <= deviation) continue;
-      deviation = d;
-      farthest = k;
-    }
-    if (farthest == a) continue;
-    keep[farthest] = 1;
-    open.push_back({a, farthest});
-    open.push_back({farthest, b});
-  }
-  return keep;
 }
 
 }  // namespace
@@ -91,11 +70,11 @@ std::vector<Ring> RingsBetween(const Ring& first, const Ring& last, const Ring& 
     rings.push_back(OntoBalls(ring, balls, kGreatestExtent * ring.radius));
   }
   rings.push_back(shaped_last);
-  const std::vector<char> keep = RingsToKeep(rings);
+  const std::vector<size_t> enough = DouglasPeucker(
+      rings.size(), kTolerance,
+      [&rings](size_t a, size_t k, size_t b) { return DeviationFromStrip(rings, a, k, b); });
   std::vector<Ring> kept;
-  for (size_t i = 1; i + 1 < rings.size(); ++i) {
-    if (keep[i]) kept.push_back(std::move(rings[i]));
-  }
+  for (size_t i = 1; i + 1 < enough.size(); ++i) kept.push_back(std::move(rings[enough[i]]));
   return kept;
 }
 

@@ -15,18 +15,15 @@ namespace {
 // A dome has a ring for every four sides: steps of the same angle in both directions.
 constexpr int kSidesPerDomeRing = 4;
 constexpr int kLeastDomeRings = 4;
+// A dome stands out of its ball to make up for its volume, and where tubes are joined to it what
+// touches there would bridge the groove beside it: such a dome has more rings, which stand out
+// less.
+constexpr int kRingsOfJoinedDome = 2;
 // Of the radius: a dome of four rings has the volume of a hemisphere when its pole lies so high
 // and its inner rings are so wide; with more rings the excess falls with the square of their
 // number.
-struct DomeShape {
-  double height, width;
-};
-constexpr DomeShape kFreeDome = {1.0214, 1.0125};
-// A dome that stood out of the tubes joined to it would leave a groove beside it, and what touches
-// there would bridge the groove.
-constexpr DomeShape kJoinedDome = {1, 1};
-
-const DomeShape& ShapeOf(const TubeEnd& end) { return end.joined ? kJoinedDome : kFreeDome; }
+constexpr double kDomeHeight = 1.0214;
+constexpr double kDomeWidth = 1.0125;
 
 // Of the radius: longer, it leaves a groove beside the disc; it must meet the ball at an angle.
 constexpr double kTaperLength = 0.12;
@@ -135,13 +132,13 @@ class RingWriter {
 
   // The inner rings of a hemisphere, which stays within the balls if there are any.
   void AddDome(const RingFrame& rim, const Vec3& outward, double radius, bool towards_pole,
-               const DomeShape& shape, const TubeAxis& balls) {
-    const int count = DomeRings();
+               bool joined, const TubeAxis& balls) {
+    const int count = DomeRings(joined);
     for (int step = 1; step < count; ++step) {
       const double latitude = std::numbers::pi / 2 * (towards_pole ? step : count - step) / count;
-      Ring ring = Circle(rim, radius * Swollen(shape.width) * std::cos(latitude));
+      Ring ring = Circle(rim, radius * Swollen(kDomeWidth, count) * std::cos(latitude));
       const Vec3 up =
-          radius * Swollen(shape.height) * std::sin(latitude) / corner_radius_ * outward;
+          radius * Swollen(kDomeHeight, count) * std::sin(latitude) / corner_radius_ * outward;
       for (Vec3& offset : ring.offsets) offset += up;
       if (!balls.points.empty()) {
         ring = OntoBalls(ring, balls, radius);
@@ -151,24 +148,27 @@ class RingWriter {
     }
   }
 
-  Vec3f Pole(const RingFrame& rim, const Vec3& outward, double radius, const DomeShape& shape,
+  Vec3f Pole(const RingFrame& rim, const Vec3& outward, double radius, bool joined,
              const TubeAxis& balls) const {
     const double height =
         balls.points.empty()
             ? radius
             : (1 - kSunk) * std::min(radius, ExtentOfBalls(balls, rim.centre, outward));
-    return (rim.centre + height * Swollen(shape.height) * outward).cast<float>();
+    return (rim.centre + height * Swollen(kDomeHeight, DomeRings(joined)) * outward).cast<float>();
   }
 
   void MarkPoint() { rings_.ring_of_point.push_back(rings_.ring_count); }
   TubeRings& rings() { return rings_; }
 
  private:
-  int DomeRings() const { return std::max(kLeastDomeRings, rings_.sides / kSidesPerDomeRing); }
+  int DomeRings(bool joined) const {
+    const int count = std::max(kLeastDomeRings, rings_.sides / kSidesPerDomeRing);
+    return joined ? kRingsOfJoinedDome * count : count;
+  }
 
-  // What the factor for a dome of the least number of rings is for this one.
-  double Swollen(double factor) const {
-    const double share = static_cast<double>(kLeastDomeRings) / DomeRings();
+  // What the factor for a dome of the least number of rings is for one of so many.
+  static double Swollen(double factor, int rings) {
+    const double share = static_cast<double>(kLeastDomeRings) / rings;
     return 1 + (factor - 1) * share * share;
   }
 
@@ -207,7 +207,7 @@ void AddStart(const TubePath& path, const RingFrame& frame, const Ring& side,
   const TubeEnd& end = path.ends[0];
   const double radius = path.axis.radii.front();
   if (end.rounded) {
-    writer.AddDome(frame, -DirectionAfter(path, 0), radius, false, ShapeOf(end), BallsOf(balls, 0));
+    writer.AddDome(frame, -DirectionAfter(path, 0), radius, false, end.joined, BallsOf(balls, 0));
     writer.MarkPoint();
     writer.Add(side);
     return;
@@ -225,7 +225,7 @@ void AddFinish(const TubePath& path, const RingFrame& frame, const Ring& side,
   writer.MarkPoint();
   if (end.rounded) {
     writer.Add(side);
-    writer.AddDome(frame, DirectionBefore(path, last), path.axis.radii.back(), true, ShapeOf(end),
+    writer.AddDome(frame, DirectionBefore(path, last), path.axis.radii.back(), true, end.joined,
                    BallsOf(balls, last - 1));
   } else {
     writer.AddRing(frame, end.radius);
@@ -243,7 +243,7 @@ void AddPoles(const TubePath& path, const std::vector<RingFrame>& frames, const 
     writer.rings().poles[side] = static_cast<int>(writer.rings().vertices.size());
     writer.rings().vertices.push_back(
         writer.Pole(frames[points[side]], outward[side], path.axis.radii[points[side]],
-                    ShapeOf(path.ends[side]), BallsOf(balls, segments[side])));
+                    path.ends[side].joined, BallsOf(balls, segments[side])));
   }
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "meshing/douglas_peucker.h"
 #include "meshing/tube_envelope.h"
 
 namespace curvefusion {
@@ -16,34 +17,10 @@ constexpr double kFoldMargin = 1.15;
 // Where the radius changes faster than this per length, the tube is a jump and no cone.
 constexpr double kMaxRadiusSlope = 0.5;
 
-// Douglas-Peucker: the indices to keep, ascending.
 std::vector<size_t> PointsWithinTolerance(const TubeAxis& axis, double tolerance) {
-  const size_t n = axis.points.size();
-  std::vector<char> keep(n, 0);
-  keep.front() = keep.back() = 1;
-  std::vector<std::pair<size_t, size_t>> open = {{0, n - 1}};
-  while (!open.empty()) {
-    const auto [a, b] = open.back();
-    open.pop_back();
-    size_t farthest = a;
-    double deviation = tolerance;
-    for (size_t k = a + 1; k < b; ++k) {
-      const double d = ChordDeviation(axis, a, k, b);
-      if (d > deviation) {
-        deviation = d;
-        farthest = k;
-      }
-    }
-    if (farthest == a) continue;
-    keep[farthest] = 1;
-    open.push_back({a, farthest});
-    open.push_back({farthest, b});
-  }
-  std::vector<size_t> kept;
-  for (size_t i = 0; i < n; ++i) {
-    if (keep[i]) kept.push_back(i);
-  }
-  return kept;
+  return DouglasPeucker(axis.points.size(), tolerance, [&axis](size_t a, size_t k, size_t b) {
+    return ChordDeviation(axis, a, k, b);
+  });
 }
 
 // Drops points nearer than min_spacing radii to their neighbour, the less telling of two first.

@@ -68,6 +68,7 @@ double ShareLeftOver(const WireSilhouettes& silhouettes, const SkeletonGraph& sk
     const cv::Mat no_wire = NoWire(*view.posterior);
     cv::Mat explained = no_wire.clone();
     const cv::Rect box = DrawCurves(skeleton, view, silhouettes.color_camera(), explained);
+    if (box.empty()) return;
     const auto wire = [&](const cv::Mat& mask) { return box.area() - cv::countNonZero(mask(box)); };
     shares[i] = wire(explained) / std::max(1.0, static_cast<double>(wire(no_wire)));
   });
