@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
-#include <ranges>
+#include <utility>
 
 #include "kernel/radix_sort.h"
 
@@ -24,13 +24,14 @@ std::vector<int> SortCells(std::vector<VoxelKey>& cells) {
   for (size_t i = 0; i < cells.size(); ++i) items[i] = {cells[i], static_cast<int>(i)};
   // Coordinates from the least on, so that they differ in few bits.
   const auto range = [&cells](int VoxelKey::*axis) {
-    const auto [least, greatest] = std::ranges::minmax(cells | std::views::transform(axis));
-    return std::pair(static_cast<uint32_t>(least), static_cast<uint32_t>(greatest));
+    const auto [least, greatest] = std::ranges::minmax(cells, {}, axis);
+    return std::pair(static_cast<uint32_t>(least.*axis), static_cast<uint32_t>(greatest.*axis));
   };
   const uint32_t least_x = range(&VoxelKey::x).first;
-  const auto [least_y, greatest_y] = range(&VoxelKey::y);
+  const auto range_y = range(&VoxelKey::y);
+  const uint32_t least_y = range_y.first;
   const uint32_t least_z = range(&VoxelKey::z).first;
-  const int bits_y = std::bit_width(greatest_y - least_y);
+  const int bits_y = std::bit_width(range_y.second - least_y);
   RadixSort(items, [least_z](const IndexedCell& item) {
     return uint64_t{static_cast<uint32_t>(item.cell.z) - least_z};
   });
