@@ -93,7 +93,8 @@ void AddMissedWires(RunContext& run, Reconstruction& result) {
 // Deviation: without an adjustment, what the images look past is dropped by the colours first
 // learned.
 void PruneUnadjusted(RunContext& run, Reconstruction& result) {
-  if (run.colours.posterior.empty() || run.options.silhouettes.max_frames == 0) return;
+  const bool is_told = !run.colours.posterior.empty() && !result.skeleton.empty();
+  if (!is_told || run.options.silhouettes.max_frames == 0) return;
   const char* stage = "silhouettes";
   const StageLog::Timer timer(run.log, stage);
   const double removed =

@@ -30,6 +30,8 @@ constexpr double kLevelRatio = 1.4142135623730951;
 constexpr double kCellPerSigma = 0.7;
 // A ridge point comes from several seeds, so these may be farther apart than the ridge points.
 constexpr double kCellPerSpacing = 1.6;
+// What is usual nearby hardly changes within this part of the radius in which it is.
+constexpr double kCellPerRadius = 0.35;
 // After so many steps most seeds have come together and need not all be followed to the end.
 constexpr int kGatheringIterations = 3;
 
@@ -65,9 +67,6 @@ double TypicalStrength(std::vector<double> strengths) {
   }
   return 0;
 }
-
-// What is usual hardly changes within this part of the radius.
-constexpr double kCellPerRadius = 0.35;
 
 // Divides the counts by what is usual nearby, the count-weighted mean within the radius: wires seen
 // often and seldom become equally strong, while their profile across stays.

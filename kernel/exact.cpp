@@ -274,6 +274,11 @@ ClosestParameters ClosestPoints(const Vec3& a, const Vec3& b, const Vec3& c, con
   return nearest;
 }
 
+double ClosestDistance(const Segment& s, const Segment& t) {
+  const ClosestParameters at = ClosestPoints(s.a, s.b, t.a, t.b);
+  return (s.a + at.s * (s.b - s.a) - t.a - at.t * (t.b - t.a)).norm();
+}
+
 ClosestParameters ClosestPointsBeyond(const Segment& s, const Segment& t,
                                       const std::vector<LinearGap>& gaps, double min_gap) {
   const ParameterPolygon<double> polygon = PolygonBeyond<double>(gaps, min_gap);

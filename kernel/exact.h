@@ -45,6 +45,9 @@ struct ClosestParameters {
 };
 ClosestParameters ClosestPoints(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
+/// How far apart those points are, likewise not for decisions.
+double ClosestDistance(const Segment& s, const Segment& t);
+
 /// The nearest points among those for which every gap is at least `min_gap`, in floating point.
 /// Where there are none, the nearest points of all.
 ClosestParameters ClosestPointsBeyond(const Segment& s, const Segment& t,

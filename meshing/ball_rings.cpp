@@ -14,12 +14,16 @@ namespace {
 constexpr double kStep = 0.05;  // rings to choose from
 constexpr double kTolerance = 0.003;
 
+Vec3 OffsetBetween(const Ring& first, const Ring& last, double t, size_t corner) {
+  return first.offsets[corner] + t * (last.offsets[corner] - first.offsets[corner]);
+}
+
 Ring Between(const Ring& first, const Ring& last, double t) {
   Ring ring = first;
   ring.centre += t * (last.centre - first.centre);
   ring.radius += t * (last.radius - first.radius);
   for (size_t k = 0; k < ring.offsets.size(); ++k) {
-    ring.offsets[k] += t * (last.offsets[k] - first.offsets[k]);
+    ring.offsets[k] = OffsetBetween(first, last, t, k);
   }
   return ring;
 }
@@ -27,11 +31,9 @@ Ring Between(const Ring& first, const Ring& last, double t) {
 // How far the corners of ring k are from where the strip between rings a and b has them, in radii.
 double DeviationFromStrip(const std::vector<Ring>& rings, size_t a, size_t k, size_t b) {
   const double t = static_cast<double>(k - a) / static_cast<double>(b - a);
-  const Ring& first = rings[a];
-  const Ring& last = rings[b];
   double deviation = 0;
   for (size_t corner = 0; corner < rings[k].offsets.size(); ++corner) {
-    const Vec3 offset = first.offsets[corner] + t * (last.offsets[corner] - first.offsets[corner]);
+    const Vec3 offset = OffsetBetween(rings[a], rings[b], t, corner);
     deviation = std::max(deviation, (rings[k].offsets[corner] - offset).squaredNorm());
   }
   return std::sqrt(deviation) / rings[k].radius;

@@ -56,13 +56,8 @@ double ClearDistance(double radius, double other_radius) {
   return kReach * (radius + other_radius) + kClearance * std::min(radius, other_radius);
 }
 
-double DistanceBetween(const Segment& s, const Segment& t) {
-  const ClosestParameters at = ClosestPoints(s.a, s.b, t.a, t.b);
-  return (s.a + at.s * (s.b - s.a) - t.a - at.t * (t.b - t.a)).norm();
-}
-
 bool ComeNear(const TubeSegment& s, const TubeSegment& t) {
-  return DistanceBetween(s.line, t.line) < ClearDistance(s.radius(), t.radius());
+  return ClosestDistance(s.line, t.line) < ClearDistance(s.radius(), t.radius());
 }
 
 std::vector<std::pair<int, int>> NearPairs(const std::vector<TubeSegment>& segments) {
@@ -137,10 +132,10 @@ std::vector<TubePath> CutOpenPath(TubePath path, const std::vector<int>& cuts) {
 void MarkCrowdedRings(const std::vector<TubePath>& paths, const TubeSegment& s,
                       const TubeSegment& t, std::vector<std::vector<char>>& crowded) {
   const size_t next = (s.index + 1) % paths[s.path].axis.points.size();
-  if (DistanceBetween({s.line.a, s.line.a}, t.line) < ClearDistance(s.radius_a, t.radius())) {
+  if (ClosestDistance({s.line.a, s.line.a}, t.line) < ClearDistance(s.radius_a, t.radius())) {
     crowded[s.path][s.index] = 1;
   }
-  if (DistanceBetween({s.line.b, s.line.b}, t.line) < ClearDistance(s.radius_b, t.radius())) {
+  if (ClosestDistance({s.line.b, s.line.b}, t.line) < ClearDistance(s.radius_b, t.radius())) {
     crowded[s.path][next] = 1;
   }
 }

@@ -35,11 +35,6 @@ struct Stretch {
     return (a + ClosestParameter(a, b, p) * (b - a) - p).norm();
   }
 
-  double DistanceTo(const Vec3& p, const Vec3& q) const {
-    const ClosestParameters at = ClosestPoints(a, b, p, q);
-    return (a + at.s * (b - a) - p - at.t * (q - p)).norm();
-  }
-
   // Whether a point of a curve lies on the line through the segment, with its radius.
   bool Holds(const Vec3& p, double radius_there) const {
     const Vec3 way = (b - a).normalized();
@@ -59,7 +54,8 @@ std::vector<TubeAxis> PartsBeside(const Stretch& segment, const TubeAxis& curve)
     int last = first;
     double nearest = std::numeric_limits<double>::infinity();
     for (; last < count; ++last) {
-      const double distance = segment.DistanceTo(curve.points[last], curve.points[last + 1]);
+      const double distance =
+          ClosestDistance({segment.a, segment.b}, {curve.points[last], curve.points[last + 1]});
       if (distance > reach) break;
       nearest = std::min(nearest, distance);
     }

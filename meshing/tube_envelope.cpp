@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <optional>
 
 #include "meshing/ball_rings.h"
 
@@ -62,45 +61,21 @@ struct Station {
   Vec3 tangent = Vec3::Zero();
 };
 
-// The balls to either side along which the direction of the tube is measured.
-struct Window {
-  double back, ahead;  // m
-  size_t first, last;
-};
-
-// Nothing next to an end.
-std::optional<Window> WindowAt(const BallRow& row, size_t i) {
+Station ExamineStation(const BallRow& row, size_t i) {
   const double radius = row.axis.radii[i];
   const double place = row.along[i];
   const double back = std::min(kTangentReach * radius, place);
   const double ahead = std::min(kTangentReach * radius, row.along.back() - place);
-  if (std::min(back, ahead) < kLeastReach * radius) return std::nullopt;
-  return Window{back, ahead, row.At(place - back), row.At(place + ahead)};
-}
-
-// Directions of the tube, noise averaged out.
-struct Directions {
-  Vec3 before, after;
-  double bend() const { return TurnAngle(before, after); }
-};
-
-Directions DirectionsAt(const BallRow& row, size_t i, const Window& window) {
-  const double place = row.along[i];
-  const double core = std::min(window.back, window.ahead) / 3;
+  if (std::min(back, ahead) < kLeastReach * radius) return {};
+  const size_t first = row.At(place - back);
+  const size_t last = row.At(place + ahead);
+  if (row.turning[last] - row.turning[first] < kLeastTurning) return {};
+  const double core = std::min(back, ahead) / 3;
   const Vec3 middle = row.MeanOf(row.At(place - core), row.At(place + core));
-  return {middle - row.MeanOf(window.first, row.At(place - window.back / 2)),
-          row.MeanOf(row.At(place + window.ahead / 2), window.last) - middle};
-}
-
-Station ExamineStation(const BallRow& row, size_t i) {
-  const std::optional<Window> window = WindowAt(row, i);
-  if (!window) return {};
-  const double turning = row.turning[window->last] - row.turning[window->first];
-  if (turning < kLeastTurning) return {};
-  const Directions directions = DirectionsAt(row, i, *window);
-  const double bend = directions.bend();
-  if (bend > kGreatestBend) return {};
-  return {true, (directions.before + directions.after).normalized()};
+  const Vec3 before = middle - row.MeanOf(first, row.At(place - back / 2));
+  const Vec3 after = row.MeanOf(row.At(place + ahead / 2), last) - middle;
+  if (TurnAngle(before, after) > kGreatestBend) return {};
+  return {true, (before + after).normalized()};
 }
 
 // The common cross-section of the balls: its centroid and the radius of a circle of its area.

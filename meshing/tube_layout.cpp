@@ -106,7 +106,8 @@ void SweepSoundly(int sides, uint64_t seed, const std::vector<TubeAxis>& curves,
       const TubePath& path = layout.paths[i];
       const double turn = HashedNumber((seed << 32) + static_cast<uint64_t>(i));
       layout.rings[i] = Sweep(path, sides, turn, balls[i]);
-      if (layout.rings[i].sides > sides && !IsSound(path, layout.rings[i])) {
+      if (layout.rings[i].sides > sides) {
+        if (IsSound(path, layout.rings[i])) return;
         layout.rings[i] = Sweep(path, sides, turn, {});
       }
       if (!IsGentle(path)) cuts[i] = CutAgainstSelfIntersection(path, layout.rings[i]);

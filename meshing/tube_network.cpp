@@ -206,26 +206,6 @@ void DissolveDegree2Nodes(TubeNetwork& network) {
   RemoveMarked(gone, network);
 }
 
-// Cuts every branch at the inner points given for it, ascending.
-void CutBranches(const std::vector<std::vector<int>>& cuts, TubeNetwork& network) {
-  std::vector<TubeBranch> pieces;
-  for (size_t i = 0; i < cuts.size(); ++i) {
-    const TubeBranch& branch = network.branches[i];
-    int first = 0;
-    int first_node = branch.nodes[0];
-    for (const int cut : cuts[i]) {
-      pieces.push_back(
-          {{first_node, network.node_count}, Slice(branch.axis, first, cut), branch.curve});
-      first = cut;
-      first_node = network.node_count++;
-    }
-    const int last = static_cast<int>(branch.axis.points.size()) - 1;
-    pieces.push_back(
-        {{first_node, branch.nodes[1]}, Slice(branch.axis, first, last), branch.curve});
-  }
-  network.branches = std::move(pieces);
-}
-
 // Keeps every curve as it was given, for the branches made of it.
 void SimplifyBranches(const AxisOptions& options, TubeNetwork& network) {
   for (TubeBranch& branch : network.branches) {
@@ -236,11 +216,21 @@ void SimplifyBranches(const AxisOptions& options, TubeNetwork& network) {
 }
 
 void CutAtTightBends(TubeNetwork& network, double max_turn) {
-  std::vector<std::vector<int>> cuts;
+  std::vector<TubeBranch> pieces;
   for (const TubeBranch& branch : network.branches) {
-    cuts.push_back(FindCuts(branch.axis, max_turn));
+    int first = 0;
+    int first_node = branch.nodes[0];
+    for (const int cut : FindCuts(branch.axis, max_turn)) {
+      pieces.push_back(
+          {{first_node, network.node_count}, Slice(branch.axis, first, cut), branch.curve});
+      first = cut;
+      first_node = network.node_count++;
+    }
+    const int last = static_cast<int>(branch.axis.points.size()) - 1;
+    pieces.push_back(
+        {{first_node, branch.nodes[1]}, Slice(branch.axis, first, last), branch.curve});
   }
-  CutBranches(cuts, network);
+  network.branches = std::move(pieces);
 }
 
 // Whether the tube along `inner` lies inside the tube along `outer`, judged at the points of

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 namespace curvefusion {
@@ -85,6 +86,13 @@ ColorImage DrawStrip(int width, int height, double left, double right, const Rgb
     for (int v = 0; v < height; ++v) linear.at<cv::Vec3f>(v, u) = color;
   }
   return BlurAndRound(linear, blur_px);
+}
+
+void WriteImage(const std::filesystem::path& path, ColorImage image) {
+  cv::Mat bgr;
+  cv::cvtColor(cv::Mat(image.height(), image.width(), CV_8UC3, image.data()), bgr,
+               cv::COLOR_RGB2BGR);
+  cv::imwrite(path.string(), bgr);
 }
 
 }  // namespace curvefusion

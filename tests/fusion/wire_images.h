@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <vector>
 
 #include "kernel/camera.h"
@@ -24,5 +25,8 @@ ColorImage RenderWires(const std::vector<RenderedWire>& wires, const PinholeCame
 /// integers) on a flat background, blurred.
 ColorImage DrawStrip(int width, int height, double left, double right, const Rgb& strip,
                      const Rgb& background, double blur_px);
+
+/// Writes an image in the format of the path's extension.
+void WriteImage(const std::filesystem::path& path, ColorImage image);
 
 }  // namespace curvefusion

@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
 
 #include "fusion/registration/pose_correction.h"
 #include "kernel/parallel.h"
@@ -49,11 +48,8 @@ class ColourAdjustmentTest : public testing::Test {
   static PinholeCamera Camera() { return {320, 240, 480, 480, 159.5, 119.5}; }
 
   static void WriteFrame(int i, const std::vector<RenderedWire>& wires, const std::string& name) {
-    ColorImage image = RenderWires(wires, Camera(), TruePose(i), 0.8);
-    cv::Mat bgr;
-    cv::cvtColor(cv::Mat(image.height(), image.width(), CV_8UC3, image.data()), bgr,
-                 cv::COLOR_RGB2BGR);
-    cv::imwrite((folder_ / fmt::format("{}{}.jpg", name, i)).string(), bgr);
+    WriteImage(folder_ / fmt::format("{}{}.jpg", name, i),
+               RenderWires(wires, Camera(), TruePose(i), 0.8));
   }
 
   // Poses zig-zag by 2 mm and 2 mrad (2 px together) around the true ones.

@@ -7,7 +7,6 @@
 #include <array>
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
 
 #include "fusion/strips/wire_posterior.h"
 #include "tests/fusion/wire_images.h"
@@ -51,9 +50,10 @@ class ColourPruningTest : public testing::Test {
     folder_ = std::filesystem::temp_directory_path() /
               fmt::format("curvefusion_colour_pruning_{}", getpid());
     std::filesystem::create_directories(folder_);
+    cv::imwrite((folder_ / "depth.png").string(), cv::Mat::zeros(240, 320, CV_16U));
     WireColourModel model;
     for (int i = 0; i < kFrames; ++i) {
-      ColorImage image = RenderWires(Grille(), kCamera, Pose(i), 0.8);
+      const ColorImage image = RenderWires(Grille(), kCamera, Pose(i), 0.8);
       const ColourBins bins = BinColours(image);
       for (int v = 0; v < image.height(); ++v) {
         for (int u = 0; u < image.width(); ++u) {
@@ -65,11 +65,7 @@ class ColourPruningTest : public testing::Test {
           }
         }
       }
-      cv::Mat bgr;
-      cv::cvtColor(cv::Mat(image.height(), image.width(), CV_8UC3, image.data()), bgr,
-                   cv::COLOR_RGB2BGR);
-      cv::imwrite((folder_ / fmt::format("{}.png", i)).string(), bgr);
-      cv::imwrite((folder_ / "depth.png").string(), cv::Mat::zeros(240, 320, CV_16U));
+      WriteImage(folder_ / fmt::format("{}.png", i), image);
     }
     colours_.posterior = model.Posterior();
   }

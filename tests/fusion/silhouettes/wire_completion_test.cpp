@@ -4,9 +4,6 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
-
 #include "kernel/parallel.h"
 #include "tests/fusion/wire_images.h"
 
@@ -68,11 +65,7 @@ class CompleteWiresTest : public testing::Test {
     std::filesystem::create_directories(folder_);
     for (int i = 0; i < kFrames; ++i) {
       for (const bool whole : {false, true}) {
-        ColorImage image = RenderWires(Ladder(whole), Camera(), Pose(i), 0.8);
-        cv::Mat bgr;
-        cv::cvtColor(cv::Mat(image.height(), image.width(), CV_8UC3, image.data()), bgr,
-                     cv::COLOR_RGB2BGR);
-        cv::imwrite(ImagePath(i, whole).string(), bgr);
+        WriteImage(ImagePath(i, whole), RenderWires(Ladder(whole), Camera(), Pose(i), 0.8));
       }
     }
   }

@@ -7,8 +7,6 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
 
 #include "capture/trajectory.h"
 #include "kernel/parallel.h"
@@ -52,11 +50,8 @@ class RadiusTest : public testing::Test {
   static void WriteFrames(const Sequence& sequence, const std::vector<RenderedWire>& wires) {
     std::filesystem::create_directories(Folder());
     for (const SequenceFrame& frame : sequence.frames) {
-      ColorImage image = RenderWires(wires, sequence.color_camera, frame.T_world_camera, 0.8);
-      cv::Mat bgr;
-      cv::cvtColor(cv::Mat(image.height(), image.width(), CV_8UC3, image.data()), bgr,
-                   cv::COLOR_RGB2BGR);
-      cv::imwrite(frame.color_path.string(), bgr);
+      WriteImage(frame.color_path,
+                 RenderWires(wires, sequence.color_camera, frame.T_world_camera, 0.8));
     }
   }
 
