@@ -165,8 +165,9 @@ RegisteredBundles RegisterBundles(const SegmentedScan& scan, RunContext& run) {
   std::vector<RigidTransform> T_registered_bundle;
   for (size_t i = 0; i < scan.bundles.size(); ++i) {
     T_registered_bundle.push_back(carried
-                                      .AddBundle(scan.bundles[i], ridge_of_bundle[i], ridges,
-                                                 run.options.registration, run.row_spacing)
+                                      .AddBundle(scan.bundles[i], ridge_of_bundle[i],
+                                                 ridges.spacing, run.options.registration,
+                                                 run.row_spacing)
                                       .T_target_source);
     run.observer.OnProgress("bundle registration", static_cast<int64_t>(T_registered_bundle.size()),
                             static_cast<int64_t>(scan.bundles.size()));
@@ -175,7 +176,8 @@ RegisteredBundles RegisterBundles(const SegmentedScan& scan, RunContext& run) {
   for (const int bundle : scan.bundle_of_frame) {
     T_registered_frame.push_back(T_registered_bundle[bundle]);
   }
-  return {carried.points(), carried.ridges(), T_registered_frame};
+  return {carried.points(), FollowRidges(carried.points(), carried.ridges(), ridges),
+          T_registered_frame};
 }
 
 // Registers single frames, whose points were moved to the axes of a first skeleton.
@@ -183,12 +185,12 @@ RegisteredFrames RegisterFramesToCurves(const SegmentedScan& scan, const Registe
                                         const std::vector<Vec3>& cameras,
                                         const SkeletonGraph& first, RunContext& run) {
   const StageLog::Timer timer(run.log, "registration");
-  std::vector<ObservedPoints> on_axis;
-  for (size_t i = 0; i < scan.frames.size(); ++i) {
+  const AxisCorrection correction(first, run.options.axis_depth);
+  std::vector<ObservedPoints> on_axis(scan.frames.size());
+  ParallelFor(0, static_cast<int64_t>(on_axis.size()), 1, [&](int64_t i) {
     const RigidTransform& T = bundles.T_registered_frame[i];
-    on_axis.push_back(Transformed(
-        MoveToAxis(Transformed(scan.frames[i], T), first, run.options.axis_depth), T.inverse()));
-  }
+    on_axis[i] = Transformed(correction.Apply(Transformed(scan.frames[i], T)), T.inverse());
+  });
   RegisteredFrames registered =
       RegisterFrames(on_axis, bundles.T_registered_frame, cameras, bundles.ridge,
                      ForCloseWires(run.options.ridge.projection, run.magnification),
@@ -232,7 +234,7 @@ void ContractCarriedPoints(const SegmentedScan& scan, RunContext& run, Reconstru
   AssignRadii(MeasureRadii(first, result.sequence, run), run.options.radius, first);
   if (run.ray_noise_ratio > 1) {
     CorrectPoses(bundles.T_registered_frame, result.sequence);
-    result.points = MoveToAxis(bundles.points, first, run.options.axis_depth);
+    result.points = AxisCorrection(first, run.options.axis_depth).Apply(bundles.points);
   } else {
     RegisteredFrames registered =
         RegisterFramesToCurves(scan, bundles, CameraCenters(result.sequence), first, run);

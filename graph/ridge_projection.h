@@ -60,7 +60,9 @@ RidgePoints ProjectToRidges(const ObservedPoints& points, const RidgeProjectionO
 RidgePoints FollowRidges(const ObservedPoints& points, const RidgePoints& before,
                          const RidgeProjectionOptions& options);
 
-/// Adds the ridge points `more`, after a motion, behind `ridge`.
-void Append(RidgePoints& ridge, const RidgePoints& more, const RigidTransform& T);
+/// The ridge points of both; of those nearer than `spacing` to each other the strongest.
+RidgePoints Merged(const RidgePoints& a, const RidgePoints& b, double spacing);
+
+RidgePoints Transformed(RidgePoints ridge, const RigidTransform& T);
 
 }  // namespace curvefusion

@@ -1,15 +1,28 @@
 #pragma once
 
+#include <vector>
+
 #include "graph/skeleton_graph.h"
 #include "kernel/observed_points.h"
+#include "kernel/spatial_search.h"
 
 namespace curvefusion {
 
-/// Moves points on the visible side of wires onto their axes: each along its viewing ray by
-/// axis_depth times the radius of the nearest curve. A depth camera sees only the near side, so the
-/// mean of what it measures lies pi/4 (uniform pixels) to 0.84 (measured) radii before the axis.
-/// Curves without radii move nothing. O(n log m).
-ObservedPoints MoveToAxis(const ObservedPoints& points, const SkeletonGraph& skeleton,
-                          double axis_depth);
+/// Moves points on the visible side of wires onto their axes. A depth camera sees only the near
+/// side, so the mean of what it measures lies pi/4 (uniform pixels) to 0.84 (measured) radii before
+/// the axis.
+class AxisCorrection {
+ public:
+  /// To the curves of a skeleton, where they have radii, by `axis_depth` radii. O(m log m).
+  AxisCorrection(const SkeletonGraph& skeleton, double axis_depth);
+
+  /// The points, each moved along its viewing ray by what the nearest curve says; as they are where
+  /// no curve has a radius. O(n log m).
+  ObservedPoints Apply(const ObservedPoints& points) const;
+
+ private:
+  std::vector<double> distances_;  ///< by which points of the curves say to move, metres
+  PointIndex curve_points_;
+};
 
 }  // namespace curvefusion

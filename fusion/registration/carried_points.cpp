@@ -25,8 +25,8 @@ void VisitOptions(CarriedPointsOptions& options, OptionVisitor& visitor) {
 }
 
 AlignmentResult CarriedPoints::AddBundle(const ObservedPoints& bundle, const RidgePoints& found,
-                                         const RidgeProjectionOptions& ridges,
-                                         const AlignmentOptions& alignment, double row_spacing) {
+                                         double spacing, const AlignmentOptions& alignment,
+                                         double row_spacing) {
   AlignmentResult result;
   if (!points_.empty() && !bundle.empty()) {
     AlignmentOptions patient = alignment;
@@ -39,8 +39,7 @@ AlignmentResult CarriedPoints::AddBundle(const ObservedPoints& bundle, const Rid
   }
   Append(points_, Transformed(bundle, result.T_target_source));
   points_ = ResampleOnGrid(points_, options_.voxel_size);
-  Append(ridges_, found, result.T_target_source);
-  ridges_ = FollowRidges(points_, ridges_, ridges);
+  ridges_ = Merged(ridges_, Transformed(found, result.T_target_source), spacing);
   return result;
 }
 

@@ -22,17 +22,17 @@ class CarriedPoints {
  public:
   explicit CarriedPoints(const CarriedPointsOptions& options) : options_(options) {}
 
-  /// Registers the ridges of a bundle (world frame), found with the options `ridges`, to those of
-  /// the points carried so far and adds it; where wires are dense, most points lie between them and
-  /// say nothing. The returned alignment is the identity for the first bundle and where too few
-  /// points fit. `row_spacing` is that of AlignRows.
-  AlignmentResult AddBundle(const ObservedPoints& bundle, const RidgePoints& found,
-                            const RidgeProjectionOptions& ridges, const AlignmentOptions& alignment,
-                            double row_spacing = 0);
+  /// Registers the ridges found in a bundle (world frame) to those of the bundles before and adds
+  /// both its points and its ridges; where wires are dense, most points lie between them and say
+  /// nothing. Ridge points nearer than `spacing` to stronger ones are left out. The returned
+  /// alignment is the identity for the first bundle and where too few points fit. `row_spacing` is
+  /// that of AlignRows.
+  AlignmentResult AddBundle(const ObservedPoints& bundle, const RidgePoints& found, double spacing,
+                            const AlignmentOptions& alignment, double row_spacing = 0);
 
   const ObservedPoints& points() const { return points_; }
 
-  /// The ridges of the points, as found with the options of the last bundle.
+  /// Those of single bundles: where these overlap, FollowRidges leads to those of all points.
   const RidgePoints& ridges() const { return ridges_; }
 
  private:

@@ -12,7 +12,7 @@ namespace curvefusion {
 
 /// How single frames are registered to the curves.
 struct FrameRegistrationOptions {
-  int rounds = 2;
+  int rounds = 1;
   double min_inliers = 0.5;
   int min_points = 100;
   double max_motion = 0.01;

@@ -14,12 +14,16 @@ constexpr double kSidePx = 4;   // of background compared on either side
 constexpr double kMinWidthPx = 2;
 constexpr std::array<double, 5> kWidths = {0.7, 0.85, 1, 1.2, 1.45};  // of the expected
 constexpr int kMaxJump = 3;                                           // steps between neighbours
-constexpr float kJumpCost = 0.02f;                                    // times squared steps
+// By jumps from -kMaxJump to kMaxJump: .02 times squared steps.
+constexpr std::array<float, 2 * kMaxJump + 1> kJumpCosts = {0.18f, 0.08f, 0.02f, 0,
+                                                            0.02f, 0.08f, 0.18f};
 constexpr float kMinScore = 0.35f;
 constexpr float kMaxSecond = 0.7f;     // of the best score
 constexpr double kClearWidths = 0.85;  // 1.2 leaves a tenth more of some curves unmeasured
 constexpr double kClearPx = 2;
 constexpr int kMaxRunGap = 1;  // samples left out within a run
+// So many samples before and behind those clear of other strands take part in the path.
+constexpr size_t kLead = 8;
 
 // Posterior, 0 to 1, at a place of the image.
 float Bilinear(const PosteriorImage& image, double u, double v) {
@@ -31,7 +35,7 @@ float Bilinear(const PosteriorImage& image, double u, double v) {
   const uint8_t* bottom = image.row(v0 + 1) + u0;
   const float upper = static_cast<float>(top[0]) + a * static_cast<float>(top[1] - top[0]);
   const float lower = static_cast<float>(bottom[0]) + a * static_cast<float>(bottom[1] - bottom[0]);
-  return (upper + b * (lower - upper)) / 255;
+  return (upper + b * (lower - upper)) * (1 / 255.0f);
 }
 
 // Posterior across a curve and its running sum.
@@ -40,10 +44,8 @@ struct Profile {
   std::vector<float> values;  // 2 half_count + 1
   std::vector<float> sums;    // one more
 
-  // Mean over [begin, end), in steps from the middle; must lie inside.
-  float Mean(int begin, int end) const {
-    return (sums[end + half_count] - sums[begin + half_count]) / static_cast<float>(end - begin);
-  }
+  // Over [begin, end), in steps from the middle; must lie inside.
+  float Sum(int begin, int end) const { return sums[end + half_count] - sums[begin + half_count]; }
 };
 
 void ReadProfile(const PosteriorImage& image, const ProjectedSample& sample, int half_count,
@@ -91,13 +93,14 @@ void ScoreCentres(const Profile& profile, double width_px, size_t row, Scores& s
     const int width = WidthSteps(factor * width_px) | 1;  // odd: centres lie on steps
     if (width == last_width) continue;
     last_width = width;
+    const float per_width = 1 / static_cast<float>(width);
     for (int c = -scores.half_count; c <= scores.half_count; ++c) {
       const int begin = c - width / 2;
       const int end = begin + width;
-      const float inside = profile.Mean(begin, end);
-      const float left = profile.Mean(begin - kGuard - kSide, begin - kGuard);
-      const float right = profile.Mean(end + kGuard, end + kGuard + kSide);
-      const float score = inside - std::max(left, right);
+      const float inside = profile.Sum(begin, end) * per_width;
+      const float left = profile.Sum(begin - kGuard - kSide, begin - kGuard);
+      const float right = profile.Sum(end + kGuard, end + kGuard + kSide);
+      const float score = inside - std::max(left, right) * (1.0f / kSide);
       float& best = values[c + scores.half_count];
       if (score <= best) continue;
       best = score;
@@ -109,26 +112,28 @@ void ScoreCentres(const Profile& profile, double width_px, size_t row, Scores& s
 // The sequence of centres, one a row of [begin, end), of the greatest sum of scores minus jumps.
 void BestPath(const Scores& scores, size_t begin, size_t end, std::vector<int>& path) {
   const int n = scores.columns();
-  std::vector<float> total(scores.Row(begin), scores.Row(begin) + n);
+  // Beyond both ends nothing comes from.
+  constexpr float kNowhere = -1e9f;
+  std::vector<float> padded(static_cast<size_t>(n) + 2 * kMaxJump, kNowhere);
+  float* total = padded.data() + kMaxJump;
+  std::copy_n(scores.Row(begin), n, total);
   std::vector<float> next(n);
   std::vector<int8_t> came_by((end - begin) * static_cast<size_t>(n), 0);
   for (size_t row = begin + 1; row < end; ++row) {
     int8_t* jumps = came_by.data() + (row - begin) * static_cast<size_t>(n);
     for (int c = 0; c < n; ++c) {
-      float best = -1e9f;
+      float best = kNowhere;
       for (int jump = -kMaxJump; jump <= kMaxJump; ++jump) {
-        const int from = c - jump;
-        if (from < 0 || from >= n) continue;
-        const float value = total[from] - kJumpCost * static_cast<float>(jump * jump);
+        const float value = total[c - jump] - kJumpCosts[jump + kMaxJump];
         if (value <= best) continue;
         best = value;
         jumps[c] = static_cast<int8_t>(jump);
       }
       next[c] = best + scores.Row(row)[c];
     }
-    total.swap(next);
+    std::ranges::copy(next, total);
   }
-  int c = static_cast<int>(std::max_element(total.begin(), total.end()) - total.begin());
+  int c = static_cast<int>(std::max_element(total, total + n) - total);
   for (size_t row = end; row-- > begin;) {
     path[row] = c;
     c -= came_by[(row - begin) * static_cast<size_t>(n) + c];
@@ -158,8 +163,8 @@ double Centroid(const Profile& profile, double centre_px, double width_px) {
   const int width = WidthSteps(width_px) | 1;
   const int reach = width / 2 + kGuard;
   const int middle = static_cast<int>(std::lround(centre_px / kStep));
-  const float left = profile.Mean(middle - reach - kSide, middle - reach);
-  const float right = profile.Mean(middle + reach + 1, middle + reach + 1 + kSide);
+  const float left = profile.Sum(middle - reach - kSide, middle - reach) / kSide;
+  const float right = profile.Sum(middle + reach + 1, middle + reach + 1 + kSide) / kSide;
   double mass = 0;
   double moment = 0;
   for (int i = middle - reach; i <= middle + reach; ++i) {
@@ -180,40 +185,58 @@ bool FollowsOn(const ProjectedSample& before, const ProjectedSample& sample) {
   return sample.edge == before.edge && sample.index - before.index <= 1 + kMaxRunGap;
 }
 
+// Whether each sample is clear of other strands or so near to one that is that it leads the way
+// there.
+std::vector<char> MarkLeading(const std::vector<char>& is_clear) {
+  std::vector<char> leads(is_clear.size(), 0);
+  for (size_t i = 0; i < is_clear.size(); ++i) {
+    if (!is_clear[i]) continue;
+    const size_t first = i - std::min(i, kLead);
+    const size_t last = std::min(i + kLead, is_clear.size() - 1);
+    std::fill(leads.begin() + static_cast<std::ptrdiff_t>(first),
+              leads.begin() + static_cast<std::ptrdiff_t>(last) + 1, 1);
+  }
+  return leads;
+}
+
 }  // namespace
 
 std::vector<TrackedStrip> TrackStrips(const PosteriorImage& posterior,
                                       const std::vector<ProjectedSample>& samples,
                                       const std::vector<double>& radii, double search_px) {
+  const auto expected_px = [&](size_t i) { return 2 * radii[i] / samples[i].metres_per_px; };
+  std::vector<char> is_clear(samples.size());
+  for (size_t i = 0; i < samples.size(); ++i) is_clear[i] = IsClear(samples[i], expected_px(i));
+  const std::vector<char> leads = MarkLeading(is_clear);
   Scores scores;
   scores.half_count = static_cast<int>(search_px / kStep);
   scores.values.resize(samples.size() * static_cast<size_t>(scores.columns()));
   scores.widths_px.resize(scores.values.size());
   std::vector<Profile> profiles(samples.size());
   for (size_t i = 0; i < samples.size(); ++i) {
-    const double width_px = 2 * radii[i] / samples[i].metres_per_px;
-    const int reach = WidthSteps(kWidths.back() * width_px) / 2 + 2 + kGuard + kSide;
+    if (!leads[i]) continue;
+    const int reach = WidthSteps(kWidths.back() * expected_px(i)) / 2 + 2 + kGuard + kSide;
     ReadProfile(posterior, samples[i], scores.half_count + reach, profiles[i]);
-    ScoreCentres(profiles[i], width_px, i, scores);
-    if (IsClear(samples[i], width_px)) LeaveToNeighbour(samples[i].clearance_px, i, scores);
+    ScoreCentres(profiles[i], expected_px(i), i, scores);
+    if (is_clear[i]) LeaveToNeighbour(samples[i].clearance_px, i, scores);
   }
   std::vector<int> path(samples.size());
   for (size_t begin = 0, end = 0; begin < samples.size(); begin = end) {
-    for (end = begin + 1; end < samples.size() && FollowsOn(samples[end - 1], samples[end]);) ++end;
+    end = begin + 1;
+    if (!leads[begin]) continue;
+    while (end < samples.size() && leads[end] && FollowsOn(samples[end - 1], samples[end])) ++end;
     BestPath(scores, begin, end, path);
   }
-  std::vector<TrackedStrip> tracked;
+  std::vector<TrackedStrip> tracked(samples.size());
   for (size_t i = 0; i < samples.size(); ++i) {
-    TrackedStrip strip;
+    TrackedStrip& strip = tracked[i];
     strip.sample = static_cast<int>(i);
+    if (!is_clear[i]) continue;
     strip.score = scores.Row(i)[path[i]];
     strip.width_px = scores.WidthRow(i)[path[i]];
     const double centre_px = (path[i] - scores.half_count) * kStep;
     strip.offset_px = Centroid(profiles[i], centre_px, strip.width_px);
-    const double expected_px = 2 * radii[i] / samples[i].metres_per_px;
-    strip.accepted = strip.score >= kMinScore && !HasRival(scores, i, path[i]) &&
-                     IsClear(samples[i], expected_px);
-    tracked.push_back(strip);
+    strip.accepted = strip.score >= kMinScore && !HasRival(scores, i, path[i]);
   }
   return tracked;
 }

@@ -22,7 +22,8 @@ struct TrackedStrip {
 /// that do not jump (Viterbi). What lies nearer to another strand than to this one is left to that:
 /// wires of a row look all the same. `samples` must be in order along their edges, `radii` holds
 /// one value per sample. Not accepted are strips that stand out too little, those with a second
-/// centre nearly as good, and those with another strand within .85 widths + 2 px.
+/// centre nearly as good, and those with another strand within .85 widths + 2 px, of which nothing
+/// else is told.
 std::vector<TrackedStrip> TrackStrips(const PosteriorImage& posterior,
                                       const std::vector<ProjectedSample>& samples,
                                       const std::vector<double>& radii, double search_px);

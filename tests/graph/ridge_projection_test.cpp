@@ -187,13 +187,28 @@ TEST(FollowRidges, FindsTheRidgesOfMovedPointsAgain) {
 
 TEST(FollowRidges, TakesWhatSeveralCloudsShowTogether) {
   const Polyline other{{0, 0.03, 0}, {0.1, 0.03, 0}};
-  RidgePoints before = ProjectToRidges(NoisyWires({kWire}), {});
-  const size_t ridge_points = before.size();
-  Append(before, ProjectToRidges(NoisyWires({other}), {}), RigidTransform::Identity());
+  const RidgePoints one = ProjectToRidges(NoisyWires({kWire}), {});
+  const RidgePoints before = Merged(one, ProjectToRidges(NoisyWires({other}), {}), 0.0015);
   const ObservedPoints both = NoisyWires({kWire, other});
   const RidgePoints after = FollowRidges(both, before, {});
-  EXPECT_GT(after.size(), 1.8 * static_cast<double>(ridge_points));
+  EXPECT_GT(after.size(), 1.8 * static_cast<double>(one.size()));
   EXPECT_LT(GreatestDistanceInside(after, {kWire, other}, 0.005, 0.095), 1e-3);
+}
+
+// Two bundles that saw the same wire, one moved by less than the spacing.
+TEST(MergedRidges, WhereTwoRunTogetherTheStrongerStays) {
+  const RidgePoints one = ProjectToRidges(NoisyWires({kWire}), {});
+  RidgePoints weaker = Transformed(one, RigidTransform(Eigen::Translation3d(0, 0.0005, 0)));
+  for (double& strength : weaker.strengths) strength /= 2;
+  const RidgePoints merged = Merged(weaker, one, 0.0015);
+  EXPECT_EQ(merged.size(), one.size());
+  EXPECT_EQ(std::count_if(merged.strengths.begin(), merged.strengths.end(),
+                          [&](double s) {
+                            return std::find(one.strengths.begin(), one.strengths.end(), s) !=
+                                   one.strengths.end();
+                          }),
+            static_cast<int64_t>(one.size()));
+  EXPECT_EQ(Merged(one, {}, 0.0015).size(), one.size());
 }
 
 TEST(FollowRidges, NothingIsFoundWhereNothingWas) {
