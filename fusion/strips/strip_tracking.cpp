@@ -112,7 +112,7 @@ void ScoreCentres(const Profile& profile, double width_px, size_t row, Scores& s
 // The sequence of centres, one a row of [begin, end), of the greatest sum of scores minus jumps.
 void BestPath(const Scores& scores, size_t begin, size_t end, std::vector<int>& path) {
   const int n = scores.columns();
-  // Beyond both ends nothing comes from.
+  // Beyond both ends, from where no path comes.
   constexpr float kNowhere = -1e9f;
   std::vector<float> padded(static_cast<size_t>(n) + 2 * kMaxJump, kNowhere);
   float* total = padded.data() + kMaxJump;
