@@ -1,5 +1,6 @@
 #include "graph/ridge_skeleton.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>
 #include <cmath>
 #include <vector>
@@ -111,8 +112,18 @@ SkeletonGraph ExtractRidgeSkeleton(const ObservedPoints& points, const RidgePoin
 
 SkeletonGraph ExtractRidgeSkeleton(const ObservedPoints& points, const RidgeOptions& options,
                                    const AffineTransform& T_space_world) {
-  return Transformed(ExtractRidgeSkeleton(Transformed(points, T_space_world), options),
-                     T_space_world.inverse());
+  const AffineTransform T_world_space = T_space_world.inverse();
+  SkeletonGraph skeleton =
+      Transformed(ExtractRidgeSkeleton(Transformed(points, T_space_world), options), T_world_space);
+  // Noise that turns ends aside is stretched with them.
+  const double stretch = T_world_space.linear().operatorNorm();
+  if (stretch > 1) {
+    FreeEndOptions free_ends = options.free_ends;
+    free_ends.tip_length *= stretch;
+    StraightenTips(skeleton, free_ends);
+    ResolveIntersections(skeleton, 0);
+  }
+  return skeleton;
 }
 
 void TidyRidgeSkeleton(SkeletonGraph& graph, const RidgeOptions& options) {

@@ -36,7 +36,8 @@ SkeletonGraph ExtractRidgeSkeleton(const ObservedPoints& points, const RidgeOpti
 SkeletonGraph ExtractRidgeSkeleton(const ObservedPoints& points, const RidgePoints& ridge,
                                    const RidgeOptions& options);
 
-/// The same in a space of other lengths: the points are moved there and the curves back.
+/// The same in a space of other lengths: the points are moved there and the curves back. Where that
+/// stretches them, the tips that are straightened are so much longer.
 SkeletonGraph ExtractRidgeSkeleton(const ObservedPoints& points, const RidgeOptions& options,
                                    const AffineTransform& T_space_world);
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <random>
 #include <set>
 #include <string>
 
@@ -195,6 +196,33 @@ TEST(RidgeOptions, DefaultsAreWithinTheirRanges) {
   RidgeOptions options;
   VisitOptions(options, checker);
   EXPECT_GT(checker.names.size(), 20U);
+}
+
+// Of a wire along x, with depth noise of 6 mm along the rays and its last 8 mm 30 mm too far away:
+// the angle at which the curve ends towards or away from the camera.
+double AngleAtTheEnd(const RidgeOptions& options) {
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal;
+  ObservedPoints points;
+  for (int i = 0; i < 6000; ++i) {
+    const double x = 0.00005 * i;
+    const double depth = 0.006 * normal(random) + (x > 0.292 ? 0.03 : 0);
+    points.Add({x, 0.001 * normal(random), depth}, Vec3::UnitZ(), 1);
+  }
+  const AffineTransform T_space_world(Eigen::Scaling(1.0, 1.0, 1.0 / 8));
+  const SkeletonGraph skeleton = ExtractRidgeSkeleton(points, options, T_space_world);
+  EXPECT_EQ(skeleton.edge_count(), 1);
+  const Polyline& curve = skeleton.edge(skeleton.Edges().front()).points;
+  const std::vector<Vec3> tangents = Tangents(curve);
+  const Vec3& end = curve.back().x() > curve.front().x() ? tangents.back() : tangents.front();
+  return std::asin(std::abs(end.z()));
+}
+
+TEST(ExtractRidgeSkeleton, EndsDoNotTurnAlongTheRays) {
+  RidgeOptions options;
+  EXPECT_LT(AngleAtTheEnd(options), 0.3);
+  options.free_ends.tip_length = 0;
+  EXPECT_GT(AngleAtTheEnd(options), 1.0);
 }
 
 }  // namespace
