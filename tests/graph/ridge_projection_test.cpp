@@ -188,7 +188,8 @@ TEST(FollowRidges, FindsTheRidgesOfMovedPointsAgain) {
 TEST(FollowRidges, TakesWhatSeveralCloudsShowTogether) {
   const Polyline other{{0, 0.03, 0}, {0.1, 0.03, 0}};
   const RidgePoints one = ProjectToRidges(NoisyWires({kWire}), {});
-  const RidgePoints before = Merged(one, ProjectToRidges(NoisyWires({other}), {}), 0.0015);
+  const RidgePoints before =
+      Merged(one, ProjectToRidges(NoisyWires({other}), {}), RidgeProjectionOptions().spacing);
   const ObservedPoints both = NoisyWires({kWire, other});
   const RidgePoints after = FollowRidges(both, before, {});
   EXPECT_GT(after.size(), 1.8 * static_cast<double>(one.size()));

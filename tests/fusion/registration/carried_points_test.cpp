@@ -12,7 +12,8 @@ const std::vector<Polyline> kWires{
     {{0, 0, 0}, {0.15, 0, 0}}, {{0, 0, 0}, {0, 0.15, 0}}, {{0.15, 0, 0}, {0.15, 0, 0.15}}};
 
 AlignmentResult Add(const ObservedPoints& bundle, CarriedPoints& carried) {
-  return carried.AddBundle(bundle, ProjectToRidges(bundle, {}), 0.0015, {});
+  return carried.AddBundle(bundle, ProjectToRidges(bundle, {}), RidgeProjectionOptions().spacing,
+                           {});
 }
 
 RigidTransform Drift() {
