@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "graph/ridge_contrast.h"
+#include "graph/ridge_points.h"
 #include "kernel/geometry.h"
 #include "kernel/observed_points.h"
 #include "kernel/options.h"
@@ -29,16 +30,6 @@ struct RidgeProjectionOptions {
 };
 void VisitOptions(RidgeProjectionOptions& options, OptionVisitor& visitor);
 
-/// Points on the one-dimensional ridges of a density, about evenly spaced. Arrays of one length.
-struct RidgePoints {
-  std::vector<Vec3> positions;    ///< metres
-  std::vector<Vec3> directions;   ///< unit tangents of the ridge, of either sign
-  std::vector<double> strengths;  ///< kernel-weighted number of observations around the point
-  std::vector<int> levels;        ///< of the kernel's width, 0 the thinnest
-
-  size_t size() const { return positions.size(); }
-};
-
 /// Moves every point `distance` along its viewing ray: a depth camera sees only the near side of a
 /// wire, so its points lie in front of the axis by pi/4 radii on average. Points without a ray
 /// stay.
@@ -59,10 +50,5 @@ RidgePoints ProjectToRidges(const ObservedPoints& points, const RidgeProjectionO
 /// not found. A fifth of the time of ProjectToRidges.
 RidgePoints FollowRidges(const ObservedPoints& points, const RidgePoints& before,
                          const RidgeProjectionOptions& options);
-
-/// The ridge points of both; of those nearer than `spacing` to each other the strongest.
-RidgePoints Merged(const RidgePoints& a, const RidgePoints& b, double spacing);
-
-RidgePoints Transformed(RidgePoints ridge, const RigidTransform& T);
 
 }  // namespace curvefusion
