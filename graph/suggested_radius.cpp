@@ -49,16 +49,6 @@ std::vector<Vec3> Probes(const std::vector<Vec3>& points) {
   return probes;
 }
 
-double BoundingBoxDiagonal(const std::vector<Vec3>& points) {
-  Vec3 low = points[0];
-  Vec3 high = points[0];
-  for (const Vec3& p : points) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  return (high - low).norm();
-}
-
 // The radius that holds kLeastNeighbours points around most probes.
 double LeastRadius(const std::vector<Vec3>& probes, const std::vector<Vec3>& points,
                    const PointIndex& index) {
@@ -88,7 +78,7 @@ double SuggestedRadius(const ObservedPoints& cloud) {
   const std::vector<Vec3>& points = cloud.positions;
   RequireFinitePositions(cloud);
   if (points.empty()) return 0;
-  const double diagonal = BoundingBoxDiagonal(points);
+  const double diagonal = RobustExtent(cloud).norm();
   const PointIndex index(points);
   const std::vector<Vec3> probes = Probes(points);
   double best_elongation = kElongated;

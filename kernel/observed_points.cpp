@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "kernel/error.h"
+#include "kernel/quantile.h"
 
 namespace curvefusion {
 
@@ -18,6 +19,18 @@ void Append(ObservedPoints& points, const ObservedPoints& more) {
   points.viewing_rays.insert(points.viewing_rays.end(), more.viewing_rays.begin(),
                              more.viewing_rays.end());
   points.counts.insert(points.counts.end(), more.counts.begin(), more.counts.end());
+}
+
+Vec3 RobustExtent(const ObservedPoints& points) {
+  constexpr double kOutliers = 0.01;
+  if (points.empty()) return Vec3::Zero();
+  Vec3 extent;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<double> coordinates;
+    for (const Vec3& p : points.positions) coordinates.push_back(p[axis]);
+    extent[axis] = Quantile(coordinates, 1 - kOutliers) - Quantile(coordinates, kOutliers);
+  }
+  return extent;
 }
 
 void RequireFinitePositions(const ObservedPoints& points) {

@@ -38,6 +38,10 @@ ObservedPoints Transformed(const ObservedPoints& points, const AffineTransform& 
 /// Adds `more` behind `points`.
 void Append(ObservedPoints& points, const ObservedPoints& more);
 
+/// Sides of the box that leaves out a hundredth of the points to either side of each axis, so that
+/// outliers do not count; zero for no points.
+Vec3 RobustExtent(const ObservedPoints& points);
+
 /// Throws Error(kBadInput) naming the first point whose position is not finite.
 void RequireFinitePositions(const ObservedPoints& points);
 

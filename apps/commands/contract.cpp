@@ -46,9 +46,7 @@ constexpr double kRidgeSizeRange = 2.5;
 
 // Metres per unit: millimetres where the cloud would be too large for metres.
 double GuessedScale(const ObservedPoints& points) {
-  Eigen::AlignedBox3d box;
-  for (const Vec3& position : points.positions) box.extend(position);
-  return box.isEmpty() || box.sizes().maxCoeff() <= kLargestObject ? 1 : kMillimetre;
+  return RobustExtent(points).maxCoeff() <= kLargestObject ? 1 : kMillimetre;
 }
 
 bool HasUsualSize(const ObservedPoints& points) {

@@ -39,8 +39,16 @@ TEST(SuggestedRadius, ABallHasTheSpacingOfItsPoints) {
     const Vec3 p(coordinate(random), coordinate(random), coordinate(random));
     if (p.norm() <= 1) points.Add(p, Vec3::Zero(), 1);
   }
-  // 2 diagonals over the cube root of 4096, the diagonal being that of a cube of side 2.
-  EXPECT_NEAR(SuggestedRadius(points), 2 * std::sqrt(12.0) / 16, 0.01);
+  // 2 diagonals over the cube root of 4096. A hundredth of a ball lies farther than .882 radii to
+  // one side.
+  EXPECT_NEAR(SuggestedRadius(points), 2 * 2 * 0.882 * std::sqrt(3.0) / 16, 0.01);
+}
+
+TEST(SuggestedRadius, OutliersDoNotCount) {
+  ObservedPoints points = HelixTube();
+  const double radius = SuggestedRadius(points);
+  points.Add(Vec3(1e6, 0, 0), Vec3::Zero(), 1);
+  EXPECT_NEAR(SuggestedRadius(points), radius, 0.2 * radius);
 }
 
 TEST(SuggestedRadius, NoExtentNoRadius) {
