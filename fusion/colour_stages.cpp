@@ -6,10 +6,14 @@
 
 #include "capture/frame_stream.h"
 #include "fusion/silhouettes/colour_pruning.h"
+#include "graph/parallel_edges.h"
 
 namespace curvefusion {
 
 namespace {
+
+constexpr const char* kImagesDoNotTell =
+    "skipped: the images do not show the curves as wire throughout";
 
 void AssignMeasuredRadii(RunContext& run, Reconstruction& result) {
   result.radii = MeasureRadii(result.skeleton, result.sequence, run);
@@ -38,9 +42,11 @@ void CorrectBySilhouettes(const ColourAdjustment& adjusted, RunContext& run,
   const WireSilhouettes silhouettes(result.sequence, adjusted.frames, adjusted.posteriors,
                                     run.options.silhouettes.max_frames);
   if (!TellWires(silhouettes, result.skeleton)) {
-    run.log.Remark(stage, "skipped: the images do not show the curves as wire throughout");
+    run.log.Remark(stage, kImagesDoNotTell);
     return;
   }
+  // Two strands of noise that the adjustment has led into one wire.
+  MergeParallelEdges(result.skeleton, 2 * result.radii.global_radius);
   const SilhouetteChanges changes =
       CorrectTopology(silhouettes, run.options.silhouettes, result.skeleton);
   TidyRidgeSkeleton(result.skeleton, run.options.ridge);
@@ -97,9 +103,13 @@ void PruneUnadjusted(RunContext& run, Reconstruction& result) {
   if (!is_told || run.options.silhouettes.max_frames == 0) return;
   const char* stage = "silhouettes";
   const StageLog::Timer timer(run.log, stage);
-  const double removed =
+  const std::optional<double> removed =
       PruneByColour(result.sequence, run.colours, run.options.silhouettes, result.skeleton);
-  run.log.Count(stage, "removed, m", removed);
+  if (!removed) {
+    run.log.Remark(stage, kImagesDoNotTell);
+    return;
+  }
+  run.log.Count(stage, "removed, m", *removed);
   run.observer.OnProgress(stage, 1, 1);
   run.observer.OnGraph("corrected", result.skeleton);
 }

@@ -16,9 +16,9 @@ constexpr size_t kPlaces = 1000;
 constexpr double kNeighbourhood = 0.010;
 constexpr size_t kMinNeighbours = 8;
 constexpr double kMaxRatio = 8;
-// Compression makes noise along the rays 2.9 times as curve-like (the real cable); structures that
-// are dense, thick or smeared by drift gain 1.4 times at most.
-constexpr double kLeastGain = 2;
+// Compression makes noise along the rays 2.0 to 3.2 times as curve-like (the real cable in bundles
+// of 16 to 48 frames); structures that are dense, thick or smeared by drift gain 1.4 times at most.
+constexpr double kLeastGain = 1.7;
 
 double LinearityAt(const std::vector<Vec3>& points, const std::vector<int>& neighbours) {
   Vec3 mean = Vec3::Zero();

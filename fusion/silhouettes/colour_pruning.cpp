@@ -1,5 +1,6 @@
 #include "fusion/silhouettes/colour_pruning.h"
 
+#include <optional>
 #include <vector>
 
 #include "capture/frame_stream.h"
@@ -9,8 +10,8 @@
 
 namespace curvefusion {
 
-double PruneByColour(const Sequence& sequence, const WireColours& colours,
-                     const SilhouetteOptions& options, SkeletonGraph& skeleton) {
+std::optional<double> PruneByColour(const Sequence& sequence, const WireColours& colours,
+                                    const SilhouetteOptions& options, SkeletonGraph& skeleton) {
   const std::vector<int> frames = EvenlyThinned(AllFrames(sequence), options.max_frames);
   std::vector<PosteriorImage> posteriors;
   ForEachFrame(sequence, frames, {.depth = false, .color = true}, [&](const DecodedFrame& frame) {
@@ -20,7 +21,7 @@ double PruneByColour(const Sequence& sequence, const WireColours& colours,
   shifted.color_camera.cx += colours.shift_px.x();
   shifted.color_camera.cy += colours.shift_px.y();
   const WireSilhouettes silhouettes(shifted, frames, posteriors, options.max_frames);
-  if (!TellWires(silhouettes, skeleton)) return 0;
+  if (!TellWires(silhouettes, skeleton)) return std::nullopt;
   return DropRefutedParts(silhouettes, options.min_share, skeleton);
 }
 

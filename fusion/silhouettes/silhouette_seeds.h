@@ -17,7 +17,8 @@ struct FoundPiece {
 /// Adds curves where the images show wire that no curve of the skeleton accounts for: places around
 /// the skeleton that (nearly) all images show as wire and some of them beside all projected curves.
 /// What hangs together of them becomes a straight piece with free ends, where it is as thin as a
-/// wire; JoinEndsToSides and BridgeOpenEnds carry the pieces on. Needs radii.
+/// wire; JoinEndsToSides and BridgeOpenEnds carry the pieces on. Nothing where all images look from
+/// about the same side, which tells no depth. Needs radii.
 std::vector<FoundPiece> AddUnexplainedWires(const WireSilhouettes& silhouettes,
                                             SkeletonGraph& skeleton);
 

@@ -7,6 +7,7 @@
 #include <array>
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
+#include <optional>
 
 #include "fusion/strips/wire_posterior.h"
 #include "tests/fusion/wire_images.h"
@@ -115,8 +116,9 @@ class ColourPruningTest : public testing::Test {
 
 TEST_F(ColourPruningTest, DropsWhatCrossesGapsAndKeepsTheCrossbar) {
   SkeletonGraph graph = Row({-0.02, kCrossbar});
-  const double removed = PruneByColour(Scan(), colours_, {}, graph);
-  EXPECT_NEAR(removed, (kWires - 1) * kSpacing, 0.001);
+  const std::optional<double> removed = PruneByColour(Scan(), colours_, {}, graph);
+  ASSERT_TRUE(removed.has_value());
+  EXPECT_NEAR(*removed, (kWires - 1) * kSpacing, 0.001);
   EXPECT_EQ(graph.ComponentCount(), 1);
   EXPECT_EQ(graph.CycleRank(), 0);
 }
@@ -125,11 +127,12 @@ TEST_F(ColourPruningTest, ShiftsTheImagesAsColoursWereSeen) {
   Sequence scan = Scan();
   scan.color_camera.cx += 4;  // colours are seen as far to the left of where this projects
   SkeletonGraph unshifted = Row({-0.02});
-  EXPECT_EQ(PruneByColour(scan, colours_, {}, unshifted), 0);  // curves beside their wires
+  EXPECT_EQ(PruneByColour(scan, colours_, {}, unshifted),
+            std::nullopt);  // curves beside their wires
   WireColours shifted = colours_;
   shifted.shift_px = {-4, 0};
   SkeletonGraph graph = Row({-0.02});
-  EXPECT_NEAR(PruneByColour(scan, shifted, {}, graph), (kWires - 1) * kSpacing, 0.001);
+  EXPECT_NEAR(PruneByColour(scan, shifted, {}, graph).value(), (kWires - 1) * kSpacing, 0.001);
 }
 
 }  // namespace

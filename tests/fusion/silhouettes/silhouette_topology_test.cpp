@@ -245,6 +245,13 @@ TEST(SilhouetteSeeds, FindAWireThatNoCurveAccountsFor) {
   EXPECT_LT(FarthestFrom(kBetween, found), kTolerance);
 }
 
+TEST(SilhouetteSeeds, FindNothingWhereImagesTellNoDepth) {
+  const SilhouetteScan scan(With(kBars, kBetween), {}, 0, 0.3);  // from within .47 rad
+  SkeletonGraph graph;
+  for (const Polyline& bar : kBars) AddTestEdge(graph, bar);
+  EXPECT_TRUE(AddUnexplainedWires(scan.Silhouettes(), graph).empty());
+}
+
 TEST(SilhouetteSeeds, FindNothingWhereAllIsAccountedFor) {
   const SilhouetteScan scan(With(kBars, kAcross));
   SkeletonGraph graph;
