@@ -180,19 +180,19 @@ RegisteredBundles RegisterBundles(const SegmentedScan& scan, RunContext& run) {
           T_registered_frame};
 }
 
-// Registers single frames, whose points were moved to the axes of a first skeleton.
-RegisteredFrames RegisterFramesToCurves(const SegmentedScan& scan, const RegisteredBundles& bundles,
+// Registers single frames, whose points are moved to the axes of a first skeleton.
+RegisteredFrames RegisterFramesToCurves(std::vector<ObservedPoints> frames,
+                                        const RegisteredBundles& bundles,
                                         const std::vector<Vec3>& cameras,
                                         const SkeletonGraph& first, RunContext& run) {
   const StageLog::Timer timer(run.log, "registration");
   const AxisCorrection correction(first, run.options.axis_depth);
-  std::vector<ObservedPoints> on_axis(scan.frames.size());
-  ParallelFor(0, static_cast<int64_t>(on_axis.size()), 1, [&](int64_t i) {
+  ParallelFor(0, static_cast<int64_t>(frames.size()), 1, [&](int64_t i) {
     const RigidTransform& T = bundles.T_registered_frame[i];
-    on_axis[i] = Transformed(correction.Apply(Transformed(scan.frames[i], T)), T.inverse());
+    frames[i] = Transformed(correction.Apply(Transformed(frames[i], T)), T.inverse());
   });
   RegisteredFrames registered =
-      RegisterFrames(on_axis, bundles.T_registered_frame, cameras, bundles.ridge,
+      RegisterFrames(frames, bundles.T_registered_frame, cameras, bundles.ridge,
                      ForCloseWires(run.options.ridge.projection, run.magnification),
                      run.options.registration, run.options.frames);
   run.observer.OnProgress("frame registration", 1, 1);
@@ -227,7 +227,7 @@ ObservedPoints LargestBundle(const SegmentedScan& scan) {
 // Best profile: bundles, then single frames, are registered to the curves they see; their points
 // are carried along and contracted once. Where noise blurs the curves, single frames would be
 // registered to noise: they keep the poses of their bundles.
-void ContractCarriedPoints(const SegmentedScan& scan, RunContext& run, Reconstruction& result) {
+void ContractCarriedPoints(SegmentedScan scan, RunContext& run, Reconstruction& result) {
   run.ray_noise_ratio = RayNoiseRatio(LargestBundle(scan), run.options.min_linearity);
   const RegisteredBundles bundles = RegisterBundles(scan, run);
   SkeletonGraph first = Contract(bundles.points, bundles.ridge, "registered_bundles", run);
@@ -236,8 +236,8 @@ void ContractCarriedPoints(const SegmentedScan& scan, RunContext& run, Reconstru
     CorrectPoses(bundles.T_registered_frame, result.sequence);
     result.points = AxisCorrection(first, run.options.axis_depth).Apply(bundles.points);
   } else {
-    RegisteredFrames registered =
-        RegisterFramesToCurves(scan, bundles, CameraCenters(result.sequence), first, run);
+    RegisteredFrames registered = RegisterFramesToCurves(
+        std::move(scan.frames), bundles, CameraCenters(result.sequence), first, run);
     CorrectPoses(registered.T_registered_world, result.sequence);
     result.points = std::move(registered.points);
   }
@@ -251,9 +251,9 @@ Reconstruction ReconstructThinParts(const TsdfVolume& volume, const Sequence& se
   Reconstruction result;
   result.sequence = sequence;
   result.warnings = sequence.warnings;
-  const SegmentedScan scan = SegmentBundles(sequence, volume, run);
+  SegmentedScan scan = SegmentBundles(sequence, volume, run);
   if (run.options.carry_points) {
-    ContractCarriedPoints(scan, run, result);
+    ContractCarriedPoints(std::move(scan), run, result);
   } else {
     for (const ObservedPoints& bundle : scan.bundles) Append(result.points, bundle);
     result.skeleton = FuseBundleSkeletons(scan, run);

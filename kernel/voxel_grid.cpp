@@ -1,6 +1,9 @@
 #include "kernel/voxel_grid.h"
 
+#include <algorithm>
 #include <bit>
+#include <cassert>
+#include <utility>
 
 #include "kernel/cell_order.h"
 #include "kernel/parallel.h"
@@ -20,6 +23,52 @@ std::vector<int> OrderByFirstMember(const Buckets& buckets) {
   for (int b = 0; b < buckets.size(); ++b) bucket_of_first[buckets[b].front()] = b;
   std::erase(bucket_of_first, kNone);
   return bucket_of_first;
+}
+
+Buckets GroupCells(std::vector<VoxelKey> cells) {
+  Buckets buckets;
+  buckets.members = SortCells(cells);
+  for (size_t k = 0; k < cells.size(); ++k) {
+    if (k == 0 || cells[k] != cells[k - 1]) buckets.first.push_back(static_cast<int>(k));
+  }
+  buckets.first.push_back(static_cast<int>(cells.size()));
+  return buckets;
+}
+
+// The means of points of one cell.
+class CellMean {
+ public:
+  void Add(const Vec3& position, const Vec3& ray, float count) {
+    position_ += count * position;
+    ray_ += count * ray;
+    count_ += count;
+  }
+
+  void Write(int64_t i, ObservedPoints& points) const {
+    points.positions[i] = position_ / count_;
+    const double norm = ray_.norm();
+    points.viewing_rays[i] = norm > 0 ? Vec3(ray_ / norm) : ray_;
+    points.counts[i] = count_;
+  }
+
+ private:
+  Vec3 position_ = Vec3::Zero();
+  Vec3 ray_ = Vec3::Zero();
+  float count_ = 0;
+};
+
+// One point for each cell, in the order of their first members; `add` adds a member to a CellMean.
+template <class AddMember>
+ObservedPoints MeansOfCells(const Buckets& cells, const AddMember& add) {
+  const std::vector<int> order = OrderByFirstMember(cells);
+  ObservedPoints means;
+  means.Resize(order.size());
+  ParallelFor(0, static_cast<int64_t>(order.size()), kCellsPerChunk, [&](int64_t i) {
+    CellMean mean;
+    for (const int member : cells[order[i]]) add(member, mean);
+    mean.Write(i, means);
+  });
+  return means;
 }
 
 }  // namespace
@@ -57,36 +106,32 @@ Buckets GroupByCell(const std::vector<Vec3>& places, double voxel_size) {
   std::vector<VoxelKey> cells(places.size());
   ParallelFor(0, static_cast<int64_t>(places.size()), kPointsPerChunk,
               [&](int64_t i) { cells[i] = VoxelOf(places[i], voxel_size); });
-  Buckets buckets;
-  buckets.members = SortCells(cells);
-  for (size_t k = 0; k < places.size(); ++k) {
-    if (k == 0 || cells[k] != cells[k - 1]) buckets.first.push_back(static_cast<int>(k));
-  }
-  buckets.first.push_back(static_cast<int>(places.size()));
-  return buckets;
+  return GroupCells(std::move(cells));
 }
 
 ObservedPoints ResampleOnGrid(const ObservedPoints& points, double voxel_size) {
-  const Buckets cells = GroupByCell(points.positions, voxel_size);
-  const std::vector<int> order = OrderByFirstMember(cells);
-  ObservedPoints resampled;
-  resampled.Resize(order.size());
-  ParallelFor(0, static_cast<int64_t>(order.size()), kCellsPerChunk, [&](int64_t i) {
-    Vec3 position = Vec3::Zero();
-    Vec3 ray = Vec3::Zero();
-    float sum = 0;
-    for (const int point : cells[order[i]]) {
-      const float count = points.counts[point];
-      position += count * points.positions[point];
-      ray += count * points.viewing_rays[point];
-      sum += count;
-    }
-    resampled.positions[i] = position / sum;
-    const double norm = ray.norm();
-    resampled.viewing_rays[i] = norm > 0 ? Vec3(ray / norm) : ray;
-    resampled.counts[i] = sum;
+  return MeansOfCells(GroupByCell(points.positions, voxel_size), [&](int member, CellMean& mean) {
+    mean.Add(points.positions[member], points.viewing_rays[member], points.counts[member]);
   });
-  return resampled;
+}
+
+ObservedPoints ResampleOnGrid(const std::vector<ObservedPoints>& clouds,
+                              const std::vector<RigidTransform>& motions, double voxel_size) {
+  assert(clouds.size() == motions.size());
+  std::vector<size_t> first = {0};
+  for (const ObservedPoints& cloud : clouds) first.push_back(first.back() + cloud.size());
+  std::vector<VoxelKey> cells(first.back());
+  ParallelFor(0, static_cast<int64_t>(clouds.size()), 1, [&](int64_t c) {
+    for (size_t i = 0; i < clouds[c].size(); ++i)
+      cells[first[c] + i] = VoxelOf(motions[c] * clouds[c].positions[i], voxel_size);
+  });
+  return MeansOfCells(GroupCells(std::move(cells)), [&](int member, CellMean& mean) {
+    const auto next = std::ranges::upper_bound(first, static_cast<size_t>(member));
+    const size_t c = static_cast<size_t>(next - first.begin()) - 1;
+    const size_t i = static_cast<size_t>(member) - first[c];
+    mean.Add(motions[c] * clouds[c].positions[i],
+             (motions[c].linear() * clouds[c].viewing_rays[i]).normalized(), clouds[c].counts[i]);
+  });
 }
 
 }  // namespace curvefusion

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cstddef>
 
 #include "kernel/parallel.h"
 #include "kernel/voxel_grid.h"
@@ -13,23 +12,6 @@ namespace {
 
 // So many points of a frame are looked at for one that is aligned: most may lie between wires.
 constexpr size_t kCandidatesPerPoint = 4;
-
-ObservedPoints Merged(const std::vector<ObservedPoints>& frames,
-                      const std::vector<RigidTransform>& T, double voxel_size) {
-  std::vector<std::ptrdiff_t> begin = {0};
-  for (const ObservedPoints& frame : frames) {
-    begin.push_back(begin.back() + static_cast<std::ptrdiff_t>(frame.size()));
-  }
-  ObservedPoints merged;
-  merged.Resize(static_cast<size_t>(begin.back()));
-  ParallelFor(0, static_cast<int64_t>(frames.size()), 1, [&](int64_t i) {
-    const ObservedPoints moved = Transformed(frames[i], T[i]);
-    std::ranges::copy(moved.positions, merged.positions.begin() + begin[i]);
-    std::ranges::copy(moved.viewing_rays, merged.viewing_rays.begin() + begin[i]);
-    std::ranges::copy(moved.counts, merged.counts.begin() + begin[i]);
-  });
-  return ResampleOnGrid(merged, voxel_size);
-}
 
 // The points of a frame, moved, that lie near the curves. Where wires are dense, block matching
 // makes one sheet of them, and most points lie between them and say nothing.
@@ -100,7 +82,7 @@ RegisteredFrames RegisterFrames(const std::vector<ObservedPoints>& frames,
   result.T_registered_world = start;
   std::vector<RigidTransform>& T = result.T_registered_world;
   for (int round = 0; round < options.rounds; ++round) {
-    ridge = FollowRidges(Merged(frames, T, options.voxel_size), ridge, ridges);
+    ridge = FollowRidges(ResampleOnGrid(frames, T, options.voxel_size), ridge, ridges);
     const AlignmentTarget curves({ridge.positions, ridge.directions});
     std::vector<MeasuredCorrection> measured(frames.size());
     ParallelFor(0, static_cast<int64_t>(frames.size()), 1, [&](int64_t i) {
@@ -117,7 +99,7 @@ RegisteredFrames RegisterFrames(const std::vector<ObservedPoints>& frames,
     const RigidTransform T_anchor = T.front().inverse();
     for (RigidTransform& correction : T) correction = T_anchor * correction;
   }
-  result.points = Merged(frames, T, options.voxel_size);
+  result.points = ResampleOnGrid(frames, T, options.voxel_size);
   return result;
 }
 

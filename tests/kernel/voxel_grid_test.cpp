@@ -58,6 +58,29 @@ TEST(VoxelGrid, CellsComeInTheOrderOfTheirFirstPoints) {
   EXPECT_EQ(count, 20000);
 }
 
+TEST(VoxelGrid, MovedCloudsBecomeWhatTheyWouldTogether) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> coordinate(-0.1, 0.1);
+  std::vector<ObservedPoints> clouds(4);
+  std::vector<RigidTransform> motions;
+  ObservedPoints together;
+  for (size_t c = 0; c < clouds.size(); ++c) {
+    for (size_t i = 0; i < 1000 * c; ++i) {  // the first is empty
+      const Vec3 ray = Vec3(coordinate(random), coordinate(random), 1).normalized();
+      clouds[c].Add({coordinate(random), coordinate(random), coordinate(random)}, ray,
+                    static_cast<float>(1 + i % 3));
+    }
+    motions.push_back(RigidTransform(Eigen::Translation3d(0.01 * static_cast<double>(c), 0, 0) *
+                                     Eigen::AngleAxisd(coordinate(random), Vec3::UnitY())));
+    Append(together, Transformed(clouds[c], motions[c]));
+  }
+  const ObservedPoints expected = ResampleOnGrid(together, 0.02);
+  const ObservedPoints resampled = ResampleOnGrid(clouds, motions, 0.02);
+  EXPECT_EQ(resampled.positions, expected.positions);
+  EXPECT_EQ(resampled.viewing_rays, expected.viewing_rays);
+  EXPECT_EQ(resampled.counts, expected.counts);
+}
+
 TEST(VoxelGrid, EmptyStaysEmpty) {
   EXPECT_TRUE(ResampleOnGrid({}, 0.01).empty());
   EXPECT_EQ(GroupByCell({}, 0.01).size(), 0);
