@@ -53,7 +53,6 @@ void CorrectBySilhouettes(const ColourAdjustment& adjusted, RunContext& run,
   run.log.Count(stage, "removed, m", changes.removed);
   run.log.Count(stage, "rungs", changes.rungs);
   run.log.Count(stage, "continued", changes.continued);
-  run.log.Count(stage, "found", changes.found);
   run.log.Count(stage, "forks", changes.forks);
   run.log.Count(stage, "bridges", changes.bridges);
   run.log.Count(stage, "joins", changes.joins);

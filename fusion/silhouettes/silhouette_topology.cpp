@@ -7,7 +7,6 @@
 #include "fusion/silhouettes/silhouette_continuations.h"
 #include "fusion/silhouettes/silhouette_pruning.h"
 #include "fusion/silhouettes/silhouette_rungs.h"
-#include "fusion/silhouettes/silhouette_seeds.h"
 #include "graph/corners.h"
 #include "kernel/quantile.h"
 
@@ -17,20 +16,6 @@ namespace {
 
 constexpr double kTrustedShare = 0.9;
 constexpr double kCorner = 0.64;  // radians; contraction rounds where wires meet at right angles
-
-// Wires that no depth image shows are believed where they join others at both ends, or go on from
-// one that is no shorter: between dense wires there are places that no image looks through.
-void DropLoosePieces(const std::vector<FoundPiece>& pieces, SkeletonGraph& skeleton) {
-  for (const FoundPiece& piece : pieces) {
-    for (const NodeId end : piece.ends) {
-      if (!skeleton.HasNode(end) || skeleton.Degree(end) != 1) continue;
-      const EdgeId edge = skeleton.IncidentEdges(end)[0];
-      if (Length(skeleton.edge(edge).points) < 2 * piece.length) skeleton.RemoveEdge(edge);
-    }
-  }
-  skeleton.RemoveIsolatedNodes();
-  skeleton.DissolveDegree2Nodes();
-}
 
 }  // namespace
 
@@ -67,13 +52,10 @@ SilhouetteChanges CorrectTopology(const WireSilhouettes& silhouettes,
   changes.removed = DropRefutedParts(silhouettes, options.min_share, skeleton);
   changes.rungs = DropRungsInSheets(silhouettes, options.bridges.min_share, skeleton);
   changes.continued = ContinueWires(silhouettes, options.bridges.min_share, skeleton);
-  const std::vector<FoundPiece> pieces = AddUnexplainedWires(silhouettes, skeleton);
-  changes.found = static_cast<int>(pieces.size());
   SplitAtCorners(skeleton, kCorner);
   changes.forks = PartNarrowForks(silhouettes, skeleton);
   changes.bridges = BridgeOpenEnds(silhouettes, options.bridges, skeleton);
   changes.joins = JoinEndsToSides(silhouettes, options.bridges, skeleton);
-  DropLoosePieces(pieces, skeleton);
   return changes;
 }
 

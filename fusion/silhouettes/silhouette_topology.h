@@ -21,7 +21,6 @@ struct SilhouetteChanges {
   double removed = 0;  ///< metres of curve
   int rungs = 0;       ///< removed between wires that no image looks through
   int continued = 0;   ///< pieces of wire between others, straight ahead of an end
-  int found = 0;       ///< pieces of wire that no curve accounted for
   int forks = 0;       ///< parted into the two wires that meet there
   int bridges = 0;     ///< between ends
   int joins = 0;       ///< of an end to the side of a curve
@@ -31,10 +30,9 @@ struct SilhouetteChanges {
 bool TellWires(const WireSilhouettes& silhouettes, const SkeletonGraph& skeleton);
 
 /// Makes the curves agree with the images: what the images look past is dropped, what lies beside
-/// its wire led back to it, wires that no curve accounts for are added, and ends joined where
-/// images show wire between them. Needs radii. Deviation: CurveFusion uses colour for ghosts and
-/// radii only, but depth shows wires side by side as one, and none at all that run along the line
-/// of sight.
+/// its wire led back to it, and ends are continued and joined where images show wire ahead of them.
+/// Needs radii. Deviation: CurveFusion uses colour for ghosts and radii only, but depth shows wires
+/// side by side as one, and none at all that run along the line of sight.
 SilhouetteChanges CorrectTopology(const WireSilhouettes& silhouettes,
                                   const SilhouetteOptions& options, SkeletonGraph& skeleton);
 

@@ -1,6 +1,7 @@
 #include "fusion/silhouettes/wire_silhouettes.h"
 
 #include <algorithm>
+#include <cstdint>
 
 #include "capture/frame_stream.h"
 #include "kernel/parallel.h"
@@ -12,6 +13,7 @@ namespace {
 constexpr int kCellPx = 4;
 constexpr float kHidingDistance = 0.03F;  // metres; noise and drift of depth come to less
 constexpr int kMinLooks = 8;
+constexpr uint8_t kWire = 128;  // least posterior of a pixel that shows wire
 
 // The greatest depth within the 3 x 3 cells around each cell: thin things in front hide nothing,
 // however much block matching widens them.
@@ -66,7 +68,7 @@ ViewCount WireSilhouettes::Count(const Vec3& p) const {
     const Vec2 pixel = color_camera_.Project(p_color);
     if (!color_camera_.Contains(pixel)) continue;
     const Eigen::Vector2i at = PinholeCamera::Rounded(pixel);
-    const bool is_wire = IsWire((*view.posterior)(at.x(), at.y()));
+    const bool is_wire = (*view.posterior)(at.x(), at.y()) >= kWire;
     if (!is_wire && IsHidden(view, view.T_depth_world * p)) continue;
     ++count.looked;
     count.seen += is_wire ? 1 : 0;

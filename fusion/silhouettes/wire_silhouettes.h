@@ -31,20 +31,14 @@ class WireSilhouettes {
   /// The same for each point of a curve.
   std::vector<double> SharesAlong(const Polyline& points) const;
 
-  /// One of the images.
+ private:
+  // One of the images.
   struct View {
     RigidTransform T_depth_world;
     RigidTransform T_color_world;
     const PosteriorImage* posterior = nullptr;
-    Image<float> farthest;  ///< the greatest depth around cells of the depth image, metres
+    Image<float> farthest;  // the greatest depth around cells of the depth image, metres
   };
-  const std::vector<View>& views() const { return views_; }
-  const PinholeCamera& color_camera() const { return color_camera_; }
-
-  /// Whether a pixel of such a posterior shows wire.
-  static bool IsWire(uint8_t posterior) { return posterior >= 128; }
-
- private:
   bool IsHidden(const View& view, const Vec3& p_depth) const;
 
   PinholeCamera depth_camera_;

@@ -7,7 +7,6 @@
 #include "fusion/silhouettes/silhouette_path.h"
 #include "fusion/silhouettes/silhouette_pruning.h"
 #include "fusion/silhouettes/silhouette_rungs.h"
-#include "fusion/silhouettes/silhouette_seeds.h"
 #include "graph/validate.h"
 #include "tests/fusion/silhouettes/silhouette_scan.h"
 
@@ -235,59 +234,6 @@ TEST(SilhouetteBridges, LeaveAFreeEndThatIsOne) {
   EXPECT_EQ(JoinEndsToSides(scan.Silhouettes(), {}, graph), 0);
 }
 
-TEST(SilhouetteSeeds, FindAWireThatNoCurveAccountsFor) {
-  const SilhouetteScan scan(With(kBars, kBetween));
-  SkeletonGraph graph;
-  for (const Polyline& bar : kBars) AddTestEdge(graph, bar);
-  ASSERT_EQ(AddUnexplainedWires(scan.Silhouettes(), graph).size(), 1);
-  const Polyline& found = graph.edge(graph.Edges().back()).points;
-  EXPECT_GT(Length(found), 0.03);
-  EXPECT_LT(FarthestFrom(kBetween, found), kTolerance);
-}
-
-TEST(SilhouetteSeeds, FindNothingWhereImagesTellNoDepth) {
-  const SilhouetteScan scan(With(kBars, kBetween), {}, 0, 0.3);  // from within .47 rad
-  SkeletonGraph graph;
-  for (const Polyline& bar : kBars) AddTestEdge(graph, bar);
-  EXPECT_TRUE(AddUnexplainedWires(scan.Silhouettes(), graph).empty());
-}
-
-TEST(SilhouetteSeeds, FindNothingWhereAllIsAccountedFor) {
-  const SilhouetteScan scan(With(kBars, kAcross));
-  SkeletonGraph graph;
-  for (const Polyline& wire : With(kBars, kAcross)) AddTestEdge(graph, wire);
-  EXPECT_TRUE(AddUnexplainedWires(scan.Silhouettes(), graph).empty());
-}
-
-TEST(SilhouetteSeeds, LeaveACurveThatLiesBesideItsWire) {
-  const SilhouetteScan scan({kUpper});
-  SkeletonGraph graph;
-  Polyline beside = kUpper;
-  for (Vec3& p : beside) p.y() = 0.005;
-  AddTestEdge(graph, beside);
-  EXPECT_TRUE(AddUnexplainedWires(scan.Silhouettes(), graph).empty());
-}
-
-TEST(SilhouetteSeeds, LeaveAPlateAlone) {
-  const SilhouetteScan scan(
-      kBars, {{{-0.02, -0.02, 0}, {0.02, -0.02, 0}, {0.02, 0.02, 0}, {-0.02, 0.02, 0}}});
-  SkeletonGraph graph;
-  for (const Polyline& bar : kBars) AddTestEdge(graph, bar);
-  EXPECT_TRUE(AddUnexplainedWires(scan.Silhouettes(), graph).empty());
-}
-
-TEST(SilhouetteSeeds, FindNothingWhereMuchElseHasTheWiresColours) {
-  const auto plate = [](double x, double y) {
-    return std::vector<Vec3>{
-        {x, y, 0}, {x + 0.02, y, 0}, {x + 0.02, y + 0.02, 0}, {x, y + 0.02, 0}};
-  };
-  const SilhouetteScan scan(With(kBars, kAcross), {plate(-0.05, -0.01), plate(0.03, -0.01)});
-  SkeletonGraph graph = BarsWithGap(true);
-  const double length = graph.TotalLength();
-  EXPECT_TRUE(AddUnexplainedWires(scan.Silhouettes(), graph).empty());
-  EXPECT_EQ(graph.TotalLength(), length);
-}
-
 TEST(SilhouetteTopology, CompletesAndPrunesAtOnce) {
   const SilhouetteScan scan(With(kBars, TestLine({0, -0.06, 0}, {0, 0.025, 0})));
   SkeletonGraph graph = BarsWithGap(false);
@@ -319,14 +265,6 @@ TEST(SilhouetteTopology, JoinsCornersThatWereJunctions) {
   EXPECT_EQ(graph.ComponentCount(), 1);
   EXPECT_EQ(graph.edge_count(), 5);
   EXPECT_TRUE(Faults(graph).empty());
-}
-
-TEST(SilhouetteTopology, DropsWhatIsFoundButReachesNothing) {
-  const SilhouetteScan scan(With(kBars, TestLine({0, -0.02, 0.01}, {0, 0.02, -0.01})));
-  SkeletonGraph graph;
-  for (const Polyline& bar : kBars) AddTestEdge(graph, bar);
-  EXPECT_EQ(CorrectTopology(scan.Silhouettes(), {}, graph).found, 1);
-  EXPECT_EQ(graph.edge_count(), 2);
 }
 
 TEST(SilhouetteTopology, DoesNotTrustImagesThatDoNotShowTheCurves) {
