@@ -79,8 +79,8 @@ Buckets GroupByCell(const std::vector<Vec3>& places, double voxel_size);
 /// only.
 ObservedPoints ResampleOnGrid(const ObservedPoints& points, double voxel_size);
 
-/// The same, bit for bit, of all these clouds, one behind the other and each moved first; a third
-/// of the memory that it takes to put them together.
+/// The same, bit for bit, of all these clouds, one behind the other and each moved first, without a
+/// copy of them.
 ObservedPoints ResampleOnGrid(const std::vector<ObservedPoints>& clouds,
                               const std::vector<RigidTransform>& motions, double voxel_size);
 
