@@ -6,6 +6,7 @@
 
 #include "capture/frame_stream.h"
 #include "fusion/silhouettes/colour_pruning.h"
+#include "fusion/silhouettes/weak_wires.h"
 #include "graph/parallel_edges.h"
 
 namespace curvefusion {
@@ -49,6 +50,8 @@ void CorrectBySilhouettes(const ColourAdjustment& adjusted, RunContext& run,
   MergeParallelEdges(result.skeleton, 2 * result.radii.global_radius);
   const SilhouetteChanges changes =
       CorrectTopology(silhouettes, run.options.silhouettes, result.skeleton);
+  const int weak_wires =
+      AddWeakWires(silhouettes, run.options.silhouettes.bridges, result.points, result.skeleton);
   TidyRidgeSkeleton(result.skeleton, run.options.ridge);
   run.log.Count(stage, "removed, m", changes.removed);
   run.log.Count(stage, "rungs", changes.rungs);
@@ -56,6 +59,7 @@ void CorrectBySilhouettes(const ColourAdjustment& adjusted, RunContext& run,
   run.log.Count(stage, "forks", changes.forks);
   run.log.Count(stage, "bridges", changes.bridges);
   run.log.Count(stage, "joins", changes.joins);
+  run.log.Count(stage, "weak wires", weak_wires);
   run.observer.OnProgress(stage, 1, 1);
   run.observer.OnGraph("corrected", result.skeleton);
 }

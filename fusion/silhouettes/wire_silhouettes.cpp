@@ -12,6 +12,7 @@ namespace {
 
 constexpr int kCellPx = 4;
 constexpr float kHidingDistance = 0.03F;  // metres; noise and drift of depth come to less
+constexpr double kBlurPx = 2.5;           // colour runs so far beyond a wire's outline
 constexpr int kMinLooks = 8;
 constexpr uint8_t kWire = 128;  // least posterior of a pixel that shows wire
 
@@ -79,6 +80,26 @@ ViewCount WireSilhouettes::Count(const Vec3& p) const {
 double WireSilhouettes::Share(const Vec3& p) const {
   const ViewCount count = Count(p);
   return count.looked < kMinLooks ? 1 : static_cast<double>(count.seen) / count.looked;
+}
+
+double WireSilhouettes::ShareBeside(const Vec3& p, const std::vector<Vec3>& others,
+                                    double radius) const {
+  int looked = 0, beside = 0;
+  for (const View& view : views_) {
+    const Vec3 p_color = view.T_color_world * p;
+    if (p_color.z() <= 0 || !color_camera_.Contains(color_camera_.Project(p_color))) continue;
+    const Vec3 center = view.T_color_world.inverse().translation();
+    const Vec3 ray = (p - center).normalized();
+    const double blur = kBlurPx / color_camera_.fx;
+    ++looked;
+    beside += std::none_of(others.begin(), others.end(), [&](const Vec3& other) {
+      const Vec3 way = other - center;
+      const double along = way.dot(ray);
+      const double reach = radius + blur * along;
+      return along > 0 && way.squaredNorm() - along * along <= reach * reach;
+    });
+  }
+  return looked == 0 ? 0 : static_cast<double>(beside) / looked;
 }
 
 std::vector<double> WireSilhouettes::SharesAlong(const Polyline& points) const {

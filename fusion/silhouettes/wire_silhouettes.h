@@ -28,6 +28,10 @@ class WireSilhouettes {
   /// The share of the images that show wire at a place; 1 where too few were looked at to tell.
   double Share(const Vec3& p) const;
 
+  /// The share of the images that show a place beside all others: farther from each in the image
+  /// than a wire of `radius` metres and the blur around it are wide; 0 where it lies in none.
+  double ShareBeside(const Vec3& p, const std::vector<Vec3>& others, double radius) const;
+
   /// The same for each point of a curve.
   std::vector<double> SharesAlong(const Polyline& points) const;
 

@@ -38,6 +38,18 @@ TEST(WireSilhouettes, LeaveOutWhatIsHidden) {
   EXPECT_EQ(scan.Silhouettes().Count({0, 0, 0}).seen, 24);
 }
 
+TEST(WireSilhouettes, ShowPlacesBesideOthers) {
+  const SilhouetteScan scan({kWire});
+  const WireSilhouettes silhouettes = scan.Silhouettes();
+  EXPECT_EQ(silhouettes.ShareBeside({0, 0.03, 0}, kWire, kTestRadius), 1);
+  EXPECT_EQ(silhouettes.ShareBeside({0, 0.005, 0}, kWire, kTestRadius),
+            0);  // in the blur around it
+  // Behind the wire: the upper and lower row of cameras look past it, not those between.
+  EXPECT_EQ(silhouettes.ShareBeside({0, 0, 0.03}, kWire, kTestRadius), 0.5);
+  EXPECT_EQ(silhouettes.ShareBeside({0, 0, 0.03}, {}, kTestRadius), 1);
+  EXPECT_EQ(silhouettes.ShareBeside({0, 3, 0}, kWire, kTestRadius), 0);  // in no image
+}
+
 TEST(WireSilhouettes, KnowNothingOutsideTheImages) {
   const SilhouetteScan scan({kWire});
   const WireSilhouettes silhouettes = scan.Silhouettes();

@@ -1,0 +1,252 @@
+#include "fusion/silhouettes/weak_wires.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "fusion/silhouettes/silhouette_path.h"
+#include "graph/junctions.h"
+#include "kernel/dbscan.h"
+#include "kernel/parallel.h"
+#include "kernel/point_grid.h"
+#include "kernel/quantile.h"
+#include "kernel/voxel_grid.h"
+
+namespace curvefusion {
+
+namespace {
+
+constexpr double kStep = 0.002;          // metres; along ways, and of the grid of points
+constexpr double kCurveStep = 0.004;     // metres; between places at which ways may end
+constexpr double kBeside = 0.0075;       // metres; points of a curve lie nearer to it
+constexpr double kLink = 0.006;          // metres; between the points of a piece
+constexpr int kCorePoints = 3;           // of a piece
+constexpr double kOnWay = 0.0035;        // metres; from a way to points of its wire
+constexpr double kMiss = 0.004;          // metres; at which a way still meets a curve
+constexpr double kSnapDistance = 0.006;  // metres; ways end at nodes this near
+constexpr double kEndReach = 0.008;      // metres; so near to its ends a way lies beside curves
+constexpr double kClearance = 0.005;     // metres; of a way inside
+constexpr double kFar = 0.0125;          // metres; of some place of a way
+constexpr int kMinSteps = 4;             // of a way that have points
+// Of the images; true wires are seen beside all curves in .15 to .60 of them somewhere on their way
+// (training seeds), false ones, which lie before or behind a curve, in none.
+constexpr double kMinBeside = 0.1;
+
+struct CurveSamples {
+  std::vector<CurveLocation> locations;
+  std::vector<Vec3> positions;
+};
+
+CurveSamples SampleCurves(const SkeletonGraph& skeleton) {
+  CurveSamples samples;
+  for (const EdgeId id : skeleton.Edges()) {
+    const Polyline points = Resample(skeleton.edge(id).points, kCurveStep);
+    const std::vector<double> arc_lengths = CumulativeLength(points);
+    for (size_t i = 0; i < points.size(); ++i) {
+      samples.locations.push_back({id, arc_lengths[i]});
+      samples.positions.push_back(points[i]);
+    }
+  }
+  return samples;
+}
+
+std::vector<Vec3> BesideCurves(std::vector<Vec3> places, const PointGrid& curves) {
+  std::erase_if(places, [&](const Vec3& p) { return curves.Nearest(p, kBeside) >= 0; });
+  return places;
+}
+
+std::vector<Vec3> SeenAsWire(const std::vector<Vec3>& places, const WireSilhouettes& silhouettes,
+                             double min_share) {
+  const std::vector<double> shares = silhouettes.SharesAlong(places);
+  std::vector<Vec3> wire;
+  for (size_t i = 0; i < places.size(); ++i)
+    if (shares[i] >= min_share) wire.push_back(places[i]);
+  return wire;
+}
+
+// The middles of what hangs together, the largest first.
+std::vector<Vec3> MiddlesOfPieces(const std::vector<Vec3>& places) {
+  struct Piece {
+    Vec3 sum = Vec3::Zero();
+    int count = 0;
+  };
+  std::vector<Piece> pieces;
+  const std::vector<int> labels = Dbscan(places, kLink, kCorePoints);
+  for (size_t i = 0; i < places.size(); ++i) {
+    if (labels[i] == kNoise) continue;
+    pieces.resize(std::max(pieces.size(), static_cast<size_t>(labels[i]) + 1));
+    pieces[labels[i]].sum += places[i];
+    ++pieces[labels[i]].count;
+  }
+  std::stable_sort(pieces.begin(), pieces.end(),
+                   [](const Piece& a, const Piece& b) { return a.count > b.count; });
+  std::vector<Vec3> middles;
+  for (const Piece& piece : pieces) middles.push_back(piece.sum / piece.count);
+  return middles;
+}
+
+// A straight way from one curve to another.
+struct Chord {
+  int front = -1;  // samples of curves
+  int back = -1;
+  double support = 0;
+};
+
+class ChordSearch {
+ public:
+  ChordSearch(const WireSilhouettes& silhouettes, const SilhouetteBridgeOptions& options,
+              const SkeletonGraph& skeleton)
+      : silhouettes_(silhouettes),
+        options_(options),
+        samples_(SampleCurves(skeleton)),
+        grid_(samples_.positions, kBeside) {}
+
+  const CurveSamples& samples() const { return samples_; }
+  const PointGrid& grid() const { return grid_; }
+
+  // Of the ways through a place that the images show as wire the one that most places support.
+  std::optional<Chord> Through(const Vec3& middle, const std::vector<Vec3>& places) const {
+    std::vector<Vec3> near;
+    for (const Vec3& p : places)
+      if ((p - middle).norm() <= options_.max_length) near.push_back(p);
+    Chord best;
+    grid_.ForEachWithin(middle, options_.max_length, [&](int back, const Vec3& end) {
+      const Vec3 direction = (middle - end).normalized();
+      if (Met(middle, -direction, (middle - end).norm() - kEndReach) >= 0) return;  // before it
+      const int front = Met(middle, direction, options_.max_length);
+      if (front < 0) return;
+      const Polyline way{samples_.positions[front], end};
+      const Polyline inside = Inside(way);
+      if (Length(way) > options_.max_length || !IsApart(inside)) return;
+      const double support = Support(way, near);
+      if (support <= best.support || !IsWire(inside)) return;
+      best = {front, back, support};
+    });
+    return best.front < 0 ? std::nullopt : std::optional(best);
+  }
+
+ private:
+  // The first curve that a way comes to within a length; -1 where there is none.
+  int Met(const Vec3& origin, const Vec3& direction, double length) const {
+    for (double t = kStep; t <= length; t += kStep) {
+      const int met = grid_.Nearest(origin + t * direction, kMiss);
+      if (met >= 0) return met;
+    }
+    return -1;
+  }
+
+  // How many places lie on a way, those in its middle for most; nothing for too short a piece.
+  double Support(const Polyline& way, const std::vector<Vec3>& places) const {
+    double sum = 0;
+    std::set<int> steps;
+    for (const Vec3& p : places) {
+      const auto [distance, arc_length] = DistanceTo(way, p);
+      if (distance >= kOnWay) continue;
+      sum += 1 - distance * distance / (kOnWay * kOnWay);
+      steps.insert(static_cast<int>(arc_length / kStep));
+    }
+    return static_cast<int>(steps.size()) < kMinSteps ? 0 : sum;
+  }
+
+  static std::pair<double, double> DistanceTo(const Polyline& way, const Vec3& p) {
+    const Vec3 along = way[1] - way[0];
+    const double t = std::clamp(along.dot(p - way[0]) / along.squaredNorm(), 0.0, 1.0);
+    return {(way[0] + t * along - p).norm(), t * along.norm()};
+  }
+
+  static Polyline Inside(const Polyline& way) {
+    Polyline inside;
+    for (const Vec3& p : Resample(way, kStep))
+      if (std::min((p - way[0]).norm(), (p - way[1]).norm()) >= kEndReach) inside.push_back(p);
+    return inside;
+  }
+
+  // Whether places keep clear of all curves, and some of them are far from all.
+  bool IsApart(const Polyline& inside) const {
+    return std::none_of(inside.begin(), inside.end(),
+                        [&](const Vec3& p) { return grid_.Nearest(p, kClearance) >= 0; }) &&
+           std::any_of(inside.begin(), inside.end(),
+                       [&](const Vec3& p) { return grid_.Nearest(p, kFar) < 0; });
+  }
+
+  bool IsWire(const Polyline& inside) const {
+    return std::all_of(inside.begin(), inside.end(),
+                       [&](const Vec3& p) { return silhouettes_.Share(p) >= options_.min_share; });
+  }
+
+  const WireSilhouettes& silhouettes_;
+  const SilhouetteBridgeOptions& options_;
+  CurveSamples samples_;
+  PointGrid grid_;
+};
+
+// The greatest share of the images that show a place of a way beside all curves, of the places far
+// from all: nearer ones may be a curve's own wire.
+double ShareBeside(const WireSilhouettes& silhouettes, const Polyline& way,
+                   const ChordSearch& search, double radius) {
+  double most = 0;
+  for (const Vec3& p : way) {
+    if (search.grid().Nearest(p, kFar) >= 0) continue;
+    most = std::max(most, silhouettes.ShareBeside(p, search.samples().positions, radius));
+  }
+  return most;
+}
+
+double TypicalRadius(const SkeletonGraph& skeleton) {
+  std::vector<double> radii;
+  for (const EdgeId id : skeleton.Edges()) {
+    const SkeletonEdge& edge = skeleton.edge(id);
+    radii.insert(radii.end(), edge.radii.begin(), edge.radii.end());
+  }
+  return Median(std::move(radii));
+}
+
+// Adds a curve that ends at two places of others.
+void AddBetween(const Polyline& curve, const CurveLocation& front, const CurveLocation& back,
+                double radius, SkeletonGraph& skeleton) {
+  const NodeId from = skeleton.AddNode(curve.front());
+  const NodeId to = skeleton.AddNode(curve.back());
+  const EdgeId added =
+      skeleton.AddEdge({{from, to}, curve, std::vector<double>(curve.size(), radius), {}});
+  JoinLocations(skeleton, {{{added, 0}, front}, {{added, Length(curve)}, back}}, kSnapDistance);
+}
+
+}  // namespace
+
+int AddWeakWires(const WireSilhouettes& silhouettes, const SilhouetteBridgeOptions& options,
+                 const ObservedPoints& points, SkeletonGraph& skeleton) {
+  if (skeleton.empty()) return 0;
+  const double radius = TypicalRadius(skeleton);
+  std::optional<ChordSearch> search(std::in_place, silhouettes, options, skeleton);
+  std::vector<Vec3> places =
+      SeenAsWire(BesideCurves(ResampleOnGrid(points, kStep).positions, search->grid()), silhouettes,
+                 options.min_share);
+  const std::vector<Vec3> middles = MiddlesOfPieces(places);
+  std::vector<std::optional<Chord>> chords(middles.size());
+  ParallelFor(0, static_cast<int64_t>(middles.size()), 1,
+              [&](int64_t i) { chords[i] = search->Through(middles[i], places); });
+  int added = 0;
+  for (size_t i = 0; i < middles.size(); ++i) {
+    if (!chords[i] || search->grid().Nearest(middles[i], kBeside) >= 0) continue;
+    const std::optional<Chord> chord =
+        added == 0 ? chords[i] : search->Through(middles[i], places);  // now ends are different
+    if (!chord) continue;
+    const CurveSamples& samples = search->samples();
+    const std::optional<Polyline> curve = PathThroughSilhouettes(
+        silhouettes, {samples.positions[chord->front], samples.positions[chord->back]},
+        options.min_share);
+    if (!curve || ShareBeside(silhouettes, *curve, *search, radius) < kMinBeside) continue;
+    AddBetween(*curve, samples.locations[chord->front], samples.locations[chord->back], radius,
+               skeleton);
+    ++added;
+    search.emplace(silhouettes, options, skeleton);
+    places = BesideCurves(std::move(places), search->grid());
+  }
+  return added;
+}
+
+}  // namespace curvefusion
