@@ -32,9 +32,9 @@ constexpr double kEndReach = 0.008;      // metres; so near to its ends a way li
 constexpr double kClearance = 0.005;     // metres; of a way inside
 constexpr double kFar = 0.0125;          // metres; of some place of a way
 constexpr int kMinSteps = 4;             // of a way that have points
-// Of the images; true wires are seen beside all curves in .15 to .60 of them somewhere on their way
-// (training seeds), false ones, which lie before or behind a curve, in none.
-constexpr double kMinBeside = 0.1;
+// Of the images: true wires are seen beside all curves in .18 to .60 of them somewhere on their way
+// (training seeds), false ones, which lie before or behind a curve or a net, in .12 at most.
+constexpr double kMinBeside = 0.15;
 
 struct CurveSamples {
   std::vector<CurveLocation> locations;
