@@ -1,6 +1,7 @@
 #include "fusion/silhouettes/wire_silhouettes.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "capture/frame_stream.h"
@@ -82,6 +83,14 @@ double WireSilhouettes::Share(const Vec3& p) const {
   return count.looked < kMinLooks ? 1 : static_cast<double>(count.seen) / count.looked;
 }
 
+std::vector<double> WireSilhouettes::SharesAlong(const Polyline& points) const {
+  constexpr int64_t kPointsPerChunk = 16;
+  std::vector<double> shares(points.size());
+  ParallelFor(0, static_cast<int64_t>(points.size()), kPointsPerChunk,
+              [&](int64_t i) { shares[i] = Share(points[i]); });
+  return shares;
+}
+
 double WireSilhouettes::ShareBeside(const Vec3& p, const std::vector<Vec3>& others,
                                     double radius) const {
   int looked = 0, beside = 0;
@@ -102,12 +111,14 @@ double WireSilhouettes::ShareBeside(const Vec3& p, const std::vector<Vec3>& othe
   return looked == 0 ? 0 : static_cast<double>(beside) / looked;
 }
 
-std::vector<double> WireSilhouettes::SharesAlong(const Polyline& points) const {
-  constexpr int64_t kPointsPerChunk = 16;
-  std::vector<double> shares(points.size());
-  ParallelFor(0, static_cast<int64_t>(points.size()), kPointsPerChunk,
-              [&](int64_t i) { shares[i] = Share(points[i]); });
-  return shares;
+double WireSilhouettes::Parallax(const Vec3& p) const {
+  std::vector<Vec3> rays;
+  for (const View& view : views_)
+    rays.push_back((p - view.T_color_world.inverse().translation()).normalized());
+  double least_cosine = 1;
+  for (const Vec3& a : rays)
+    for (const Vec3& b : rays) least_cosine = std::min(least_cosine, a.dot(b));
+  return std::acos(std::max(-1.0, least_cosine));
 }
 
 }  // namespace curvefusion

@@ -28,12 +28,15 @@ class WireSilhouettes {
   /// The share of the images that show wire at a place; 1 where too few were looked at to tell.
   double Share(const Vec3& p) const;
 
+  /// The same for each point of a curve.
+  std::vector<double> SharesAlong(const Polyline& points) const;
+
   /// The share of the images that show a place beside all others: farther from each in the image
   /// than a wire of `radius` metres and the blur around it are wide; 0 where it lies in none.
   double ShareBeside(const Vec3& p, const std::vector<Vec3>& others, double radius) const;
 
-  /// The same for each point of a curve.
-  std::vector<double> SharesAlong(const Polyline& points) const;
+  /// The greatest angle between the lines of sight of two images to a place, radians.
+  double Parallax(const Vec3& p) const;
 
  private:
   // One of the images.

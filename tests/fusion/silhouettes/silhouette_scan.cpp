@@ -16,9 +16,9 @@ constexpr int kColumns = 6;
 constexpr double kDistance = 0.6;  // metres
 constexpr double kDepthScale = 1000;
 
-RigidTransform Pose(int row, int column) {
-  const double about_y = 1.4 * (column / (kColumns - 1.0) - 0.5);
-  const double about_x = 0.7 * (row / (kRows - 1.0) - 0.5);
+RigidTransform Pose(int row, int column, double spread) {
+  const double about_y = 1.4 * spread * (column / (kColumns - 1.0) - 0.5);
+  const double about_x = 0.7 * spread * (row / (kRows - 1.0) - 0.5);
   RigidTransform T = RigidTransform::Identity();
   T.linear() =
       (Eigen::AngleAxisd(about_y, Vec3::UnitY()) * Eigen::AngleAxisd(about_x, Vec3::UnitX()))
@@ -57,7 +57,8 @@ PosteriorImage Render(const std::vector<Polyline>& wires,
 }  // namespace
 
 SilhouetteScan::SilhouetteScan(const std::vector<Polyline>& wires,
-                               const std::vector<std::vector<Vec3>>& plates, double depth) {
+                               const std::vector<std::vector<Vec3>>& plates, double depth,
+                               double spread) {
   static int count = 0;
   depth_path_ = std::filesystem::temp_directory_path() /
                 fmt::format("curvefusion_silhouettes_{}_{}.png", getpid(), ++count);
@@ -68,7 +69,7 @@ SilhouetteScan::SilhouetteScan(const std::vector<Polyline>& wires,
   for (int row = 0; row < kRows; ++row) {
     for (int column = 0; column < kColumns; ++column) {
       SequenceFrame frame;
-      frame.T_world_camera = Pose(row, column);
+      frame.T_world_camera = Pose(row, column, spread);
       frame.depth_path = depth_path_;
       sequence_.frames.push_back(frame);
       posteriors_.push_back(

@@ -13,12 +13,13 @@ namespace curvefusion {
 inline constexpr double kTestRadius = 0.0025;
 
 /// Silhouettes of wires of 5 mm around the origin, seen by 24 cameras .6 m away, spread over 80
-/// degrees and 40 degrees. A plate is wire-coloured all over. Depth images show nothing, or
-/// something `depth` metres away everywhere.
+/// degrees and 40 degrees, or a share of that. A plate is wire-coloured all over. Depth images show
+/// nothing, or something `depth` metres away everywhere.
 class SilhouetteScan {
  public:
   explicit SilhouetteScan(const std::vector<Polyline>& wires,
-                          const std::vector<std::vector<Vec3>>& plates = {}, double depth = 0);
+                          const std::vector<std::vector<Vec3>>& plates = {}, double depth = 0,
+                          double spread = 1);
   ~SilhouetteScan();
   SilhouetteScan(const SilhouetteScan&) = delete;
   SilhouetteScan& operator=(const SilhouetteScan&) = delete;

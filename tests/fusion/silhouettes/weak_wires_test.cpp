@@ -59,6 +59,13 @@ TEST(WeakWires, NeedImagesThatShowThemAllTheWay) {
   EXPECT_EQ(AddWeakWires(scan.Silhouettes(), {}, PointsAlong(kRung), graph), 0);
 }
 
+TEST(WeakWires, NeedImagesFromMoreThanOneSide) {
+  const double share_of_spread = 0.2;
+  const SilhouetteScan scan({kNear, kFar, kRung}, {}, 0, share_of_spread);
+  SkeletonGraph graph = NearAndFar();
+  EXPECT_EQ(AddWeakWires(scan.Silhouettes(), {}, PointsAlong(kRung), graph), 0);
+}
+
 // Depth is noise before and behind wires, where the images show these.
 TEST(WeakWires, AreNotWhatOtherCurvesHideInAllImages) {
   const double z = -0.10;

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/fusion/silhouettes/silhouette_scan.h"
 
 namespace curvefusion {
@@ -48,6 +50,15 @@ TEST(WireSilhouettes, ShowPlacesBesideOthers) {
   EXPECT_EQ(silhouettes.ShareBeside({0, 0, 0.03}, kWire, kTestRadius), 0.5);
   EXPECT_EQ(silhouettes.ShareBeside({0, 0, 0.03}, {}, kTestRadius), 1);
   EXPECT_EQ(silhouettes.ShareBeside({0, 3, 0}, kWire, kTestRadius), 0);  // in no image
+}
+
+TEST(WireSilhouettes, KnowFromHowManySidesTheyLook) {
+  const SilhouetteScan scan({kWire});
+  // The cameras lie on a sphere around the origin; those in opposite corners are farthest apart.
+  const double cosine = 2 * std::pow(std::cos(0.35) * std::cos(0.7), 2) - 1;
+  EXPECT_NEAR(scan.Silhouettes().Parallax(Vec3::Zero()), std::acos(cosine), 1e-9);
+  const SilhouetteScan narrow({kWire}, {}, 0, 0.2);
+  EXPECT_LT(narrow.Silhouettes().Parallax(Vec3::Zero()), 0.35);
 }
 
 TEST(WireSilhouettes, KnowNothingOutsideTheImages) {
