@@ -8,6 +8,7 @@
 
 #include "graph/hermite_bridge.h"
 #include "graph/open_ends.h"
+#include "graph/sampled_curves.h"
 #include "kernel/point_grid.h"
 #include "kernel/quantile.h"
 
@@ -24,18 +25,6 @@ constexpr double kLeastBranch = 0.012;
 constexpr double kBlurred = 0.006;
 constexpr std::array<double, 6> kShifts = {0.003, -0.003, 0.006, -0.006, 0.009, -0.009};
 
-// A point of a curve, with its direction.
-struct CurvePoint {
-  EdgeId edge;
-  double arc_length;
-  Vec3 tangent;
-};
-
-struct CurvePoints {
-  std::vector<Vec3> positions;
-  std::vector<CurvePoint> points;
-};
-
 // Ends of branches that are long enough to tell where they lead.
 std::vector<OpenEnd> FindOpenEnds(const SkeletonGraph& graph, const ContinuationOptions& options) {
   std::vector<OpenEnd> open = OpenEnds(graph, {kBlurred, options.fit_length});
@@ -45,20 +34,6 @@ std::vector<OpenEnd> FindOpenEnds(const SkeletonGraph& graph, const Continuation
   return open;
 }
 
-CurvePoints SampleCurves(const SkeletonGraph& graph) {
-  CurvePoints all;
-  for (const EdgeId id : graph.Edges()) {
-    const Polyline points = Resample(graph.edge(id).points, kStep);
-    const std::vector<double> arc_length = CumulativeLength(points);
-    const std::vector<Vec3> tangents = Tangents(points);
-    for (size_t i = 0; i < points.size(); ++i) {
-      all.positions.push_back(points[i]);
-      all.points.push_back({id, arc_length[i], tangents[i]});
-    }
-  }
-  return all;
-}
-
 // Looks straight ahead of open ends.
 class ContinuationSearch {
  public:
@@ -66,7 +41,7 @@ class ContinuationSearch {
       : graph_(graph),
         options_(options),
         open_(FindOpenEnds(graph, options)),
-        curves_(SampleCurves(graph)),
+        curves_(SampleCurvesOf(graph, kStep)),
         grid_(curves_.positions, MissAt(options.max_gap)) {}
 
   const std::vector<OpenEnd>& open() const { return open_; }
@@ -83,15 +58,12 @@ class ContinuationSearch {
       return BranchContinuation{
           end.node, end.edge, Resample(Bridge(end, *facing), kStep), facing->node, {}};
     }
-    const CurvePoint& point = curves_.points[crossing];
-    const NodeId node = NodeNear({point.edge, point.arc_length});
+    const CurveLocation& place = curves_.locations[crossing];
+    const NodeId node = NodeNear(place);
     const Vec3& target = node >= 0 ? graph_.position(node) : curves_.positions[crossing];
     if ((target - end.position).norm() < options_.min_gap) return std::nullopt;
-    return BranchContinuation{end.node,
-                              end.edge,
-                              Resample({end.position, target}, kStep),
-                              node,
-                              {point.edge, point.arc_length}};
+    return BranchContinuation{end.node, end.edge, Resample({end.position, target}, kStep), node,
+                              place};
   }
 
  private:
@@ -127,12 +99,12 @@ class ContinuationSearch {
 
   // What leaves the same node is left out near it.
   bool IsAhead(const OpenEnd& end, int i, const Vec3& q) const {
-    const CurvePoint& point = curves_.points[i];
-    if (point.edge == end.edge || std::abs(point.tangent.dot(end.outward)) > kParallelCosine ||
+    const EdgeId edge = curves_.locations[i].edge;
+    if (edge == end.edge || std::abs(curves_.tangents[i].dot(end.outward)) > kParallelCosine ||
         (q - end.position).dot(end.outward) < options_.min_gap) {
       return false;
     }
-    const auto& nodes = graph_.edge(point.edge).nodes;
+    const auto& nodes = graph_.edge(edge).nodes;
     const bool is_neighbour = nodes[0] == end.node || nodes[1] == end.node;
     return !is_neighbour || (q - end.position).norm() > 2 * options_.fit_length;
   }
@@ -162,7 +134,7 @@ class ContinuationSearch {
   const SkeletonGraph& graph_;
   const ContinuationOptions& options_;
   std::vector<OpenEnd> open_;
-  CurvePoints curves_;
+  SampledCurves curves_;
   PointGrid grid_;
 };
 

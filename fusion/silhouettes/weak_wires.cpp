@@ -10,6 +10,7 @@
 
 #include "fusion/silhouettes/silhouette_path.h"
 #include "graph/junctions.h"
+#include "graph/sampled_curves.h"
 #include "kernel/dbscan.h"
 #include "kernel/parallel.h"
 #include "kernel/point_grid.h"
@@ -39,24 +40,6 @@ constexpr double kMinBeside = 0.15;
 // without this limit six scans within .15 get 52 ways, most of them false, a chair within .28 and a
 // rack within .35 one false way each, and a cat within just that two true ones.
 constexpr double kMinParallax = 0.38;
-
-struct CurveSamples {
-  std::vector<CurveLocation> locations;
-  std::vector<Vec3> positions;
-};
-
-CurveSamples SampleCurves(const SkeletonGraph& skeleton) {
-  CurveSamples samples;
-  for (const EdgeId id : skeleton.Edges()) {
-    const Polyline points = Resample(skeleton.edge(id).points, kCurveStep);
-    const std::vector<double> arc_lengths = CumulativeLength(points);
-    for (size_t i = 0; i < points.size(); ++i) {
-      samples.locations.push_back({id, arc_lengths[i]});
-      samples.positions.push_back(points[i]);
-    }
-  }
-  return samples;
-}
 
 std::vector<Vec3> BesideCurves(std::vector<Vec3> places, const PointGrid& curves) {
   std::erase_if(places, [&](const Vec3& p) { return curves.Nearest(p, kBeside) >= 0; });
@@ -106,10 +89,10 @@ class ChordSearch {
               const SkeletonGraph& skeleton)
       : silhouettes_(silhouettes),
         options_(options),
-        samples_(SampleCurves(skeleton)),
+        samples_(SampleCurvesOf(skeleton, kCurveStep)),
         grid_(samples_.positions, kBeside) {}
 
-  const CurveSamples& samples() const { return samples_; }
+  const SampledCurves& samples() const { return samples_; }
   const PointGrid& grid() const { return grid_; }
 
   // Of the ways through a place that the images show as wire the one that most places support.
@@ -184,7 +167,7 @@ class ChordSearch {
 
   const WireSilhouettes& silhouettes_;
   const SilhouetteBridgeOptions& options_;
-  CurveSamples samples_;
+  SampledCurves samples_;
   PointGrid grid_;
 };
 
@@ -241,7 +224,7 @@ int AddWeakWires(const WireSilhouettes& silhouettes, const SilhouetteBridgeOptio
     const std::optional<Chord> chord =
         added == 0 ? chords[i] : search->Through(middles[i], places);  // now ends are different
     if (!chord) continue;
-    const CurveSamples& samples = search->samples();
+    const SampledCurves& samples = search->samples();
     const std::optional<Polyline> curve = PathThroughSilhouettes(
         silhouettes, {samples.positions[chord->front], samples.positions[chord->back]},
         options.min_share);
