@@ -212,7 +212,7 @@ int AddWeakWires(const WireSilhouettes& silhouettes, const SilhouetteBridgeOptio
   std::vector<Vec3> places =
       SeenAsWire(BesideCurves(ResampleOnGrid(points, kStep).positions, search->grid()), silhouettes,
                  options.min_share);
-  const std::vector<Vec3> middles = MiddlesOfPieces(places);
+  const std::vector<Vec3> middles = BesideCurves(MiddlesOfPieces(places), search->grid());
   std::vector<std::optional<Chord>> chords(middles.size());
   ParallelFor(0, static_cast<int64_t>(middles.size()), 1, [&](int64_t i) {
     if (silhouettes.Parallax(middles[i]) >= kMinParallax)
