@@ -131,18 +131,12 @@ class ChordSearch {
     double sum = 0;
     std::set<int> steps;
     for (const Vec3& p : places) {
-      const auto [distance, arc_length] = DistanceTo(way, p);
+      const auto [arc_length, distance] = Project(way, p);
       if (distance >= kOnWay) continue;
       sum += 1 - distance * distance / (kOnWay * kOnWay);
       steps.insert(static_cast<int>(arc_length / kStep));
     }
     return static_cast<int>(steps.size()) < kMinSteps ? 0 : sum;
-  }
-
-  static std::pair<double, double> DistanceTo(const Polyline& way, const Vec3& p) {
-    const Vec3 along = way[1] - way[0];
-    const double t = std::clamp(along.dot(p - way[0]) / along.squaredNorm(), 0.0, 1.0);
-    return {(way[0] + t * along - p).norm(), t * along.norm()};
   }
 
   static Polyline Inside(const Polyline& way) {

@@ -12,7 +12,8 @@ namespace curvefusion {
 /// straight way from curve to curve that passes most of them, if options.min_share of the images
 /// show all of it as wire, some of them show it beside all curves, and it is no longer than
 /// options.max_length. Nothing where all images look from about the same side, which tells no
-/// depth. Needs radii. Returns how many were added. Deviation: in CurveFusion what depth does not hold together is lost.
+/// depth. Needs radii. Returns how many were added. Deviation: in CurveFusion what depth does not
+/// hold together is lost.
 int AddWeakWires(const WireSilhouettes& silhouettes, const SilhouetteBridgeOptions& options,
                  const ObservedPoints& points, SkeletonGraph& skeleton);
 

@@ -93,14 +93,14 @@ std::vector<double> WireSilhouettes::SharesAlong(const Polyline& points) const {
 
 double WireSilhouettes::ShareBeside(const Vec3& p, const std::vector<Vec3>& others,
                                     double radius) const {
+  const double blur = kBlurPx / color_camera_.fx;
   int looked = 0, beside = 0;
   for (const View& view : views_) {
     const Vec3 p_color = view.T_color_world * p;
     if (p_color.z() <= 0 || !color_camera_.Contains(color_camera_.Project(p_color))) continue;
-    const Vec3 center = view.T_color_world.inverse().translation();
-    const Vec3 ray = (p - center).normalized();
-    const double blur = kBlurPx / color_camera_.fx;
     ++looked;
+    const Vec3 center = view.ColorCenter();
+    const Vec3 ray = (p - center).normalized();
     beside += std::none_of(others.begin(), others.end(), [&](const Vec3& other) {
       const Vec3 way = other - center;
       const double along = way.dot(ray);
@@ -113,8 +113,7 @@ double WireSilhouettes::ShareBeside(const Vec3& p, const std::vector<Vec3>& othe
 
 double WireSilhouettes::Parallax(const Vec3& p) const {
   std::vector<Vec3> rays;
-  for (const View& view : views_)
-    rays.push_back((p - view.T_color_world.inverse().translation()).normalized());
+  for (const View& view : views_) rays.push_back((p - view.ColorCenter()).normalized());
   double least_cosine = 1;
   for (const Vec3& a : rays)
     for (const Vec3& b : rays) least_cosine = std::min(least_cosine, a.dot(b));

@@ -45,6 +45,8 @@ class WireSilhouettes {
     RigidTransform T_color_world;
     const PosteriorImage* posterior = nullptr;
     Image<float> farthest;  // the greatest depth around cells of the depth image, metres
+
+    Vec3 ColorCenter() const { return T_color_world.inverse().translation(); }
   };
   bool IsHidden(const View& view, const Vec3& p_depth) const;
 

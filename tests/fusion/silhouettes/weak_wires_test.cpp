@@ -60,10 +60,16 @@ TEST(WeakWires, NeedImagesThatShowThemAllTheWay) {
 }
 
 TEST(WeakWires, NeedImagesFromMoreThanOneSide) {
-  const double share_of_spread = 0.2;
-  const SilhouetteScan scan({kNear, kFar, kRung}, {}, 0, share_of_spread);
-  SkeletonGraph graph = NearAndFar();
-  EXPECT_EQ(AddWeakWires(scan.Silhouettes(), {}, PointsAlong(kRung), graph), 0);
+  const std::vector<Polyline> bars = {TestLine({-0.06, -0.03, 0}, {0.06, -0.03, 0}),
+                                      TestLine({-0.06, 0.03, 0}, {0.06, 0.03, 0})};
+  const Polyline rung = TestLine({0, -0.03, 0}, {0, 0.03, 0});
+  for (const double share_of_spread : {0.2, 1.0}) {
+    const SilhouetteScan scan({bars[0], bars[1], rung}, {}, 0, share_of_spread);
+    SkeletonGraph graph;
+    for (const Polyline& bar : bars) AddTestEdge(graph, bar);
+    EXPECT_EQ(AddWeakWires(scan.Silhouettes(), {}, PointsAlong(rung), graph),
+              share_of_spread < 1 ? 0 : 1);
+  }
 }
 
 // Depth is noise before and behind wires, where the images show these.
