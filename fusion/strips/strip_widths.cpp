@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "fusion/strips/vanishing_color.h"
 #include "fusion/strips/wire_color.h"
 #include "kernel/parallel.h"
 #include "kernel/quantile.h"
@@ -13,7 +14,7 @@ namespace curvefusion {
 
 namespace {
 
-constexpr int kRounds = 3;                  // colour from widths, widths from colour
+constexpr int kRounds = 4;                  // colour from widths, widths from colour
 constexpr double kClearWidths = 1.5;        // another strand must be farther away
 constexpr int kHalfLengthPx = 4;            // of the stretch that a profile is averaged over
 constexpr double kMinRoomPx = 4;            // less would cut wires off and take the rest for all
@@ -32,30 +33,38 @@ std::vector<ColoredStrip> MeasureColors(const std::vector<FoundStrip>& strips) {
   std::vector<ColoredStrip> colored(strips.size());
   ParallelFor(0, static_cast<int64_t>(strips.size()), kGrain, [&](int64_t i) {
     const auto colors = MeasureStrip(strips[i].profile, strips[i].position);
-    if (colors) colored[i] = {strips[i].position.width_px, *colors};
+    if (colors) colored[i] = {strips[i].frame, strips[i].position.width_px, *colors};
   });
   return colored;
+}
+
+// How far the next strand stays away from what a strip is compared with; negative where it comes
+// in. The width is that of the edge: with their own, strips measured too narrow would be chosen.
+double BackgroundRoom(const FoundStrip& strip) {
+  return strip.sample.clearance_px - strip.position.width_px - kStripMarginPx - kFlankPx;
 }
 
 // The colour of each edge: its own where it clearly differs from that of all.
 std::map<EdgeId, WireColor> ColorsByEdge(const std::vector<FoundStrip>& strips,
                                          const std::vector<ColoredStrip>& colored,
                                          const RadiusOptions& options) {
-  std::vector<ColoredStrip> all;
+  std::vector<ColoredStrip> all, clear;
   std::map<EdgeId, std::vector<ColoredStrip>> by_edge;
   for (size_t i = 0; i < strips.size(); ++i) {
     if (colored[i].width_px <= 0) continue;
     all.push_back(colored[i]);
+    if (BackgroundRoom(strips[i]) >= 0) clear.push_back(colored[i]);
     by_edge[strips[i].sample.edge].push_back(colored[i]);
   }
   std::map<EdgeId, WireColor> colors;
   if (all.empty()) return colors;
   ImageBlur blur{options.luma_blur_px, options.chroma_blur_px};
   blur.chroma_px = CalibrateChromaBlur(all, blur);
-  const WireColor common = EstimateWireColor(all, blur);
+  const WireColor estimated = EstimateWireColor(all, blur);
+  const WireColor common = DrawnToVanishing(estimated, clear);
   for (const auto& [edge, own_strips] : by_edge) {
     const WireColor own = EstimateWireColor(own_strips, blur);
-    const bool is_same = own.direction.cross(common.direction).norm() < kSameColor;
+    const bool is_same = own.direction.cross(estimated.direction).norm() < kSameColor;
     colors[edge] = is_same || own_strips.size() < kMinOwnStrips ? common : own;
   }
   return colors;
@@ -92,12 +101,6 @@ void Reposition(const std::vector<SolvedWidth>& solved, double bin,
     strip.position.center_px = StripCentroid(strip.profile, strip.position, solved[i].weights);
     strip.position.width_px = MostProminent(own->second, bin) / strip.sample.metres_per_px;
   }
-}
-
-// How far the next strand stays away from what a strip is compared with; negative where it comes
-// in. The width is that of the edge: with their own, strips measured too narrow would be chosen.
-double BackgroundRoom(const FoundStrip& strip) {
-  return strip.sample.clearance_px - strip.position.width_px - kStripMarginPx - kFlankPx;
 }
 
 // Strips whose background is clear; of an edge with few of them also the clearest others, as many

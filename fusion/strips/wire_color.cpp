@@ -105,14 +105,16 @@ WireColor EstimateWireColor(const std::vector<ColoredStrip>& strips, const Image
   return color;
 }
 
+Eigen::Matrix3d MassCovariance(double width_px, const WireColor& color) {
+  const double spread = color.shade_spread * width_px;
+  const double noise = kBackgroundNoise * (width_px + kWindowMarginPx);
+  return noise * noise * Eigen::Matrix3d::Identity() +
+         spread * spread * color.direction * color.direction.transpose();
+}
+
 SolvedWidth SolveWidth(const ColoredStrip& strip, const WireColor& color) {
   const Eigen::Vector3d contrast = strip.colors.background - color.shade * color.direction;
-  const double spread = color.shade_spread * strip.width_px;
-  const double noise = kBackgroundNoise * (strip.width_px + kWindowMarginPx);
-  const Eigen::Matrix3d covariance =
-      noise * noise * Eigen::Matrix3d::Identity() +
-      spread * spread * color.direction * color.direction.transpose();
-  const Eigen::Matrix3d information = covariance.inverse();
+  const Eigen::Matrix3d information = MassCovariance(strip.width_px, color).inverse();
   SolvedWidth solved;
   solved.weights = information * contrast;
   const double precision = contrast.dot(solved.weights);

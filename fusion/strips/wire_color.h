@@ -9,6 +9,7 @@ namespace curvefusion {
 
 /// A strip whose width is about known.
 struct ColoredStrip {
+  int frame = 0;  ///< in sequence.frames
   double width_px = 0;
   StripColors colors;
 };
@@ -36,6 +37,10 @@ double CalibrateChromaBlur(const std::vector<ColoredStrip>& strips, const ImageB
 
 /// The colour most strips agree on. At least one strip.
 WireColor EstimateWireColor(const std::vector<ColoredStrip>& strips, const ImageBlur& blur);
+
+/// How what a strip of that width takes away varies about its mean: by the wire's shade and because
+/// the background is not straight.
+Eigen::Matrix3d MassCovariance(double width_px, const WireColor& color);
 
 /// A width and how far it can be trusted.
 struct SolvedWidth {
