@@ -41,6 +41,7 @@ PipelineOptions BestOptions() {
   UseWorkableReading(options.segmentation.difference);
   options.segmentation.difference.silhouette_margin_px = 6;
   options.segmentation.difference.min_neighbours = 8;
+  options.segmentation.min_measured_share = 0.5;
   options.segmentation.bundle.min_frames = 3;
   options.segmentation.edges.tolerance_px = 2;
   options.segmentation.ghosts.verified_outline = 0.35;

@@ -1,6 +1,7 @@
 #include "fusion/segmentation/segmentation.h"
 
 #include <algorithm>
+#include <numeric>
 #include <vector>
 
 #include "fusion/segmentation/sheet_stripes.h"
@@ -10,6 +11,8 @@ namespace curvefusion {
 
 namespace {
 
+// From so many frames it is told whether depth shows a background.
+constexpr int kBackgroundFrames = 10;
 // Frames segmented at the same time: enough to keep the cores busy, few enough to bound memory.
 constexpr int kFramesAtOnce = 8;
 // Of floating sheets: rows of wires have stripes on more of their area.
@@ -53,7 +56,9 @@ WireCandidates FindCandidates(const Sequence& sequence, int frame, const TsdfVol
   if (model.row_spacing > 0) found.row_margin = kCloseRowMargin;
   if (options.openness.stride > 0) MarkOpen(found.rows, solidity);
   const DepthImage kept = OpenDepth(rendering, small, solidity, options.opening);
-  found.mask = ImageDifferenceSet(found.depth, rendering, kept, options.difference);
+  DifferenceSetOptions difference = options.difference;
+  if (!model.is_background_measured) difference.accept_where_nothing_rendered = true;
+  found.mask = ImageDifferenceSet(found.depth, rendering, kept, difference);
   return found;
 }
 
@@ -78,6 +83,18 @@ std::vector<int> FramesToLearnFrom(const Sequence& sequence, int count) {
     frames[i] = static_cast<int>(static_cast<int64_t>(i) * sequence.frame_count() / count);
   }
   return frames;
+}
+
+// Of all pixels of the depth images.
+double MeasuredShare(const Sequence& sequence, const std::vector<int>& frames) {
+  std::vector<double> shares(frames.size());
+  ParallelFor(0, static_cast<int64_t>(frames.size()), 1, [&](int64_t i) {
+    const DepthImage depth = LoadDepth(sequence, frames[i]);
+    const auto measured =
+        std::count_if(depth.data(), depth.data() + depth.size(), [](float z) { return z > 0; });
+    shares[i] = static_cast<double>(measured) / static_cast<double>(depth.size());
+  });
+  return std::accumulate(shares.begin(), shares.end(), 0.0) / static_cast<double>(shares.size());
 }
 
 std::vector<WireCandidates> CandidatesOf(const Sequence& sequence, const std::vector<int>& frames,
@@ -138,6 +155,11 @@ void VisitOptions(SegmentationOptions& options, OptionVisitor& visitor) {
   VisitOptions(options.opening, visitor);
   VisitOptions(options.openness, visitor);
   VisitOptions(options.difference, visitor);
+  visitor.Visit({"min_measured_share", "", 0, 1,
+                 "Deviation: where fewer of all pixels of the depth images are measured, what is "
+                 "behind the wires is out of range or cut off, and pixels where nothing is "
+                 "rendered belong to the set; 0 = never."},
+                options.min_measured_share);
   VisitOptions(options.gate, visitor);
   visitor.Visit({"max_row_spacing", "m", 0, 0.1,
                  "Deviation: surfaces that float in space and have straight stripes of wire colour "
@@ -153,6 +175,9 @@ void VisitOptions(SegmentationOptions& options, OptionVisitor& visitor) {
 SegmentationModel LearnSegmentation(const Sequence& sequence, const TsdfVolume& volume,
                                     const SegmentationOptions& options) {
   SegmentationModel model;
+  model.is_background_measured =
+      MeasuredShare(sequence, FramesToLearnFrom(sequence, kBackgroundFrames)) >=
+      options.min_measured_share;
   model.openness = MeasureOpenness(sequence, volume, options.openness);
   if (options.gate.frames == 0) return model;
   const std::vector<int> frames = FramesToLearnFrom(sequence, options.gate.frames);

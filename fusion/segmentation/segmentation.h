@@ -22,6 +22,7 @@ struct SegmentationOptions {
   OpennessOptions openness;
   DepthOpeningOptions opening;
   DifferenceSetOptions difference;
+  double min_measured_share = 0;
   ColourGateOptions gate;
   double max_row_spacing = 0;
   ColourEdgeOptions edges;
@@ -32,6 +33,7 @@ void VisitOptions(SegmentationOptions& options, OptionVisitor& visitor);
 
 /// What has to be known of a whole sequence before its bundles are segmented.
 struct SegmentationModel {
+  bool is_background_measured = true;  ///< otherwise it is out of range, or cut off
   OpennessGrid openness{OpennessOptions{}};
   SheetGrid sheets;         ///< rows of wires that depth shows as surfaces
   double row_spacing = 0;   ///< of their wires, metres; 0 where there are none

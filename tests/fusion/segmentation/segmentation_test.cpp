@@ -1,0 +1,64 @@
+#include "fusion/segmentation/segmentation.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include "tests/fusion/wire_images.h"
+#include "tests/temporary_path.h"
+
+namespace curvefusion {
+namespace {
+
+// Ten images of an upright wire of 6 mm, .6 m away; depth of what is behind it in metres, 0 = none.
+class WireBefore {
+ public:
+  explicit WireBefore(double background) {
+    std::filesystem::create_directories(folder_);
+    WriteImage(folder_ / "color.jpg",
+               DrawStrip(160, 120, 77, 83, {40, 160, 60}, {150, 120, 160}, 0.8));
+    cv::Mat depth(120, 160, CV_16U, cv::Scalar(5000 * background));
+    depth.colRange(77, 84) = 3000;
+    cv::imwrite((folder_ / "depth.png").string(), depth);
+    sequence_.depth_camera = sequence_.color_camera = {160, 120, 600, 600, 79.5, 59.5};
+    for (int i = 0; i < 10; ++i) {
+      SequenceFrame frame;
+      frame.T_world_camera = RigidTransform::Identity();
+      frame.color_path = folder_ / "color.jpg";
+      frame.depth_path = folder_ / "depth.png";
+      sequence_.frames.push_back(frame);
+    }
+  }
+  ~WireBefore() { std::filesystem::remove_all(folder_); }
+  WireBefore(const WireBefore&) = delete;
+  WireBefore& operator=(const WireBefore&) = delete;
+
+  // Against a volume in which nothing has been integrated.
+  size_t PointsFound(double min_measured_share) const {
+    SegmentationOptions options;
+    options.difference.accept_where_nothing_rendered = false;
+    options.min_measured_share = min_measured_share;
+    const TsdfVolume volume{TsdfOptions{}};
+    const SegmentationModel model = LearnSegmentation(sequence_, volume, options);
+    return SegmentBundle(sequence_, 0, 10, volume, model, options).difference_set.size();
+  }
+
+ private:
+  std::filesystem::path folder_ = TemporaryPath("segmentation");
+  Sequence sequence_;
+};
+
+TEST(Segmentation, WiresBeforeABackgroundOutOfRangeAreFound) {
+  const WireBefore scan(0);
+  EXPECT_GT(scan.PointsFound(0.5), 20u);
+  EXPECT_EQ(scan.PointsFound(0), 0u);
+}
+
+// Where nothing is rendered before a background that was measured, the surface is just not known.
+TEST(Segmentation, WhereABackgroundIsMeasuredItIsToBeRendered) {
+  EXPECT_EQ(WireBefore(1).PointsFound(0.5), 0u);
+}
+
+}  // namespace
+}  // namespace curvefusion
