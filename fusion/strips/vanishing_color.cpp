@@ -28,12 +28,12 @@ constexpr double kNarrowPx = 4.3;
 constexpr double kFallPx = 0.45;
 constexpr double kWideError = 0.01;
 
-// What a strip tells: y = slope (x - color), each with the same weight.
+// What a strip tells of the line y = slope (x - color).
 struct Observation {
   int frame = 0;
   Eigen::Vector3d x;  // background
   Eigen::Vector3d y;  // taken away per pixel of width
-  Eigen::Matrix3d weight;
+  Eigen::Matrix3d weight;  // inverse covariance of y
 };
 
 std::vector<Observation> Observe(const std::vector<ColoredStrip>& strips, const WireColor& about) {
