@@ -31,8 +31,8 @@ constexpr double kWideError = 0.01;
 // What a strip tells of the line y = slope (x - color).
 struct Observation {
   int frame = 0;
-  Eigen::Vector3d x;  // background
-  Eigen::Vector3d y;  // taken away per pixel of width
+  Eigen::Vector3d x;       // background
+  Eigen::Vector3d y;       // taken away per pixel of width
   Eigen::Matrix3d weight;  // inverse covariance of y
 };
 
