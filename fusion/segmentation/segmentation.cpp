@@ -175,9 +175,11 @@ void VisitOptions(SegmentationOptions& options, OptionVisitor& visitor) {
 SegmentationModel LearnSegmentation(const Sequence& sequence, const TsdfVolume& volume,
                                     const SegmentationOptions& options) {
   SegmentationModel model;
-  model.is_background_measured =
-      MeasuredShare(sequence, FramesToLearnFrom(sequence, kBackgroundFrames)) >=
-      options.min_measured_share;
+  if (options.min_measured_share > 0) {
+    model.is_background_measured =
+        MeasuredShare(sequence, FramesToLearnFrom(sequence, kBackgroundFrames)) >=
+        options.min_measured_share;
+  }
   model.openness = MeasureOpenness(sequence, volume, options.openness);
   if (options.gate.frames == 0) return model;
   const std::vector<int> frames = FramesToLearnFrom(sequence, options.gate.frames);

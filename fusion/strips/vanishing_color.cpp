@@ -13,7 +13,7 @@ namespace curvefusion {
 namespace {
 
 constexpr size_t kMinStrips = 40;
-constexpr double kMinVariance = 1;  // grey levels squared
+constexpr double kMinVariance = 1;  // grey levels squared, of backgrounds within images
 constexpr int kRounds = 4;          // of leaving out
 constexpr double kOffLine = 2.5;    // times the median distance to the line
 // Errors of the contrast of wire and background, relative. That of the vanishing colour where
