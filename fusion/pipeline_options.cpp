@@ -23,6 +23,7 @@ PipelineOptions PaperOptions() {
   options.segmentation.edges.tolerance_px = 0;
   options.fusion = PaperSkeletonFusionOptions();
   options.radius.strip_model = false;
+  options.radius.vanishing_color = false;
   options.radius.per_edge = false;
   options.radius.per_wire = false;
   options.radius.along_edge = false;

@@ -269,6 +269,11 @@ void VisitOptions(RadiusOptions& options, OptionVisitor& visitor) {
        "Deviation: solve widths from what strips take away from the background instead of "
        "counting pixels between edges in a box: unbiased by blur and shade."},
       options.strip_model);
+  visitor.Visit(
+      {"vanishing_color", "", 0, 1,
+       "Deviation: in the strip model, the wires' colour is also told by the backgrounds "
+       "before which strips would vanish: of thin strips the blur leaves no other trace."},
+      options.vanishing_color);
   visitor.Visit({"per_edge", "", 0, 1,
                  "Deviation: one radius for each edge; CurveFusion 3.3 has one for all."},
                 options.per_edge);

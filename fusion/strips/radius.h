@@ -16,6 +16,7 @@ struct RadiusOptions {
   int box_size_px = 16;
   int max_frames = 30;
   bool strip_model = true;
+  bool vanishing_color = true;
   bool per_edge = true;
   bool per_wire = true;
   bool along_edge = true;
