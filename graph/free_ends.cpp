@@ -12,6 +12,7 @@
 #include "graph/gap_evidence.h"
 #include "graph/hermite_bridge.h"
 #include "graph/open_ends.h"
+#include "kernel/parallel.h"
 #include "kernel/point_grid.h"
 
 namespace curvefusion {
@@ -196,14 +197,16 @@ std::vector<Join> CandidateJoins(const SkeletonGraph& graph, const std::vector<F
   const double reach =
       std::max((1 + options.evidence_gain) * options.max_gap, options.max_facing_gap);
   const PointGrid grid(positions, reach);
-  std::vector<Join> joins;
-  for (size_t e = 0; e < ends.size(); ++e) {
+  std::vector<std::vector<Join>> by_end(ends.size());
+  ParallelFor(0, static_cast<int64_t>(ends.size()), 1, [&](int64_t e) {
     grid.ForEachWithin(ends[e].position, reach, [&](int i, const Vec3&) {
       const Join join =
           MakeJoin(graph, ends, static_cast<int>(e), targets[i], facing, evidence, options);
-      if (std::isfinite(join.cost)) joins.push_back(join);
+      if (std::isfinite(join.cost)) by_end[e].push_back(join);
     });
-  }
+  });
+  std::vector<Join> joins;
+  for (const auto& of_end : by_end) joins.insert(joins.end(), of_end.begin(), of_end.end());
   std::sort(joins.begin(), joins.end());
   return joins;
 }

@@ -33,9 +33,7 @@ double GapEvidence::PointShare(const Vec3& a, const Vec3& b) const {
   int seen = 0;
   for (int i = 0; i < steps; ++i) {
     const Vec3 p = a + (radius_ + i * kStep) / length * (b - a);
-    bool has_points = false;
-    points_.ForEachWithin(p, radius_, [&](int, const Vec3&) { has_points = true; });
-    seen += has_points ? 1 : 0;
+    seen += points_.Nearest(p, radius_) >= 0 ? 1 : 0;
   }
   return static_cast<double>(seen) / steps;
 }

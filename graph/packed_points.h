@@ -5,15 +5,9 @@
 
 #include "kernel/geometry.h"
 #include "kernel/point_grid.h"
+#include "kernel/wide_lanes.h"
 
 namespace curvefusion {
-
-/// Functions marked so are compiled for processors with wide registers, too. The bits are the same.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__)
-#define CURVEFUSION_WIDE_LANES [[gnu::target_clones("avx2", "default")]]
-#else
-#define CURVEFUSION_WIDE_LANES
-#endif
 
 /// So many points are summed at a time.
 inline constexpr int kLanes = 8;

@@ -5,11 +5,14 @@
 #include <cstdint>
 #include <utility>
 
+#include "kernel/parallel.h"
 #include "kernel/radix_sort.h"
 
 namespace curvefusion {
 
 namespace {
+
+constexpr int64_t kCellsPerChunk = 1 << 15;
 
 struct IndexedCell {
   VoxelKey cell;
@@ -21,7 +24,10 @@ struct IndexedCell {
 std::vector<int> SortCells(std::vector<VoxelKey>& cells) {
   if (cells.empty()) return {};
   std::vector<IndexedCell> items(cells.size());
-  for (size_t i = 0; i < cells.size(); ++i) items[i] = {cells[i], static_cast<int>(i)};
+  const auto count = static_cast<int64_t>(cells.size());
+  ParallelFor(0, count, kCellsPerChunk, [&](int64_t i) {
+    items[i] = {cells[i], static_cast<int>(i)};
+  });
   // Coordinates from the least on, so that they differ in few bits.
   const auto range = [&cells](int VoxelKey::*axis) {
     const auto [least, greatest] = std::ranges::minmax(cells, {}, axis);
@@ -40,10 +46,10 @@ std::vector<int> SortCells(std::vector<VoxelKey>& cells) {
            (static_cast<uint32_t>(item.cell.y) - least_y);
   });
   std::vector<int> indices(cells.size());
-  for (size_t i = 0; i < cells.size(); ++i) {
+  ParallelFor(0, count, kCellsPerChunk, [&](int64_t i) {
     cells[i] = items[i].cell;
     indices[i] = items[i].index;
-  }
+  });
   return indices;
 }
 

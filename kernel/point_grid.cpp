@@ -34,10 +34,13 @@ PointGrid::PointGrid(const std::vector<Vec3>& points, double radius)
     const uint64_t column = ColumnKey(cell.x, cell.y);
     const uint64_t key = Key(cell.x, cell.y, cell.z);
     if (columns_.empty() || columns_.back().key != column) {
+      if (columns_.empty()) first_x_ = cell.x;
+      slabs_.resize(cell.x - first_x_ + 1, static_cast<int>(columns_.size()));
       columns_.push_back({column, static_cast<int>(cells_.size())});
     }
     if (cells_.empty() || cells_.back().key != key) cells_.push_back({key, i});
   }
+  slabs_.push_back(static_cast<int>(columns_.size()));
   columns_.push_back({~uint64_t{0}, static_cast<int>(cells_.size())});
   cells_.push_back({~uint64_t{0}, static_cast<int>(indices_.size())});
 }

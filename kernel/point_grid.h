@@ -104,6 +104,8 @@ class PointGrid {
   double cell_size_;
   std::vector<Cell> cells_;      ///< ascending keys, one past the end closes the last
   std::vector<Column> columns_;  ///< likewise
+  int64_t first_x_ = 0;          ///< the least of all cells
+  std::vector<int> slabs_;       ///< by x from first_x_: its first in columns_; one past the end
   std::vector<Vec3> points_;
   std::vector<int> indices_;
 };
@@ -113,9 +115,11 @@ void PointGrid::ForEachColumnPart(const Vec3& low, const Vec3& high, const Keep&
                                   const Visit& visit) const {
   const int64_t low_y = Coordinate(low.y()), high_y = Coordinate(high.y());
   const int64_t low_z = Coordinate(low.z()), high_z = Coordinate(high.z());
-  const Column* end = columns_.data() + columns_.size() - 1;
-  const Column* column = columns_.data();
-  for (int64_t x = Coordinate(low.x()); x <= Coordinate(high.x()); ++x) {
+  const int64_t end_x = first_x_ + static_cast<int64_t>(slabs_.size()) - 1;
+  const int64_t last_x = std::min(Coordinate(high.x()), end_x - 1);
+  for (int64_t x = std::max(Coordinate(low.x()), first_x_); x <= last_x; ++x) {
+    const Column* column = columns_.data() + slabs_[x - first_x_];
+    const Column* end = columns_.data() + slabs_[x - first_x_ + 1];
     const uint64_t last_column = ColumnKey(x, high_y);
     column = FirstFrom(column, end, ColumnKey(x, low_y));
     for (; column != end && column->key <= last_column; ++column) {

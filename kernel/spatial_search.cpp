@@ -69,8 +69,10 @@ void PointIndex::WithinRadius(const Vec3& p, double radius, std::vector<int>& fo
 }
 
 int PointIndex::Nearest(const Vec3& p) const {
-  const std::vector<int> nearest = NearestK(p, 1);
-  return nearest.empty() ? -1 : nearest[0];
+  if (impl_->points.empty()) return -1;
+  const Search search(*impl_->tree, Point(p.x(), p.y(), p.z()), 1, 0.0, true,
+                      Search::Distance(impl_->map));
+  return search.begin()->first;
 }
 
 std::vector<int> PointIndex::NearestK(const Vec3& p, int k) const {

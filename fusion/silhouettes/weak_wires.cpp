@@ -40,10 +40,16 @@ constexpr double kMinBeside = 0.15;
 // without this limit six scans within .15 get 52 ways, most of them false, a chair within .28 and a
 // rack within .35 one false way each, and a cat within just that two true ones.
 constexpr double kMinParallax = 0.38;
+constexpr int64_t kPlacesPerChunk = 1024;
 
-std::vector<Vec3> BesideCurves(std::vector<Vec3> places, const PointGrid& curves) {
-  std::erase_if(places, [&](const Vec3& p) { return curves.Nearest(p, kBeside) >= 0; });
-  return places;
+std::vector<Vec3> BesideCurves(const std::vector<Vec3>& places, const PointGrid& curves) {
+  std::vector<char> is_beside(places.size());
+  ParallelFor(0, static_cast<int64_t>(places.size()), kPlacesPerChunk,
+              [&](int64_t i) { is_beside[i] = curves.Nearest(places[i], kBeside) < 0; });
+  std::vector<Vec3> beside;
+  for (size_t i = 0; i < places.size(); ++i)
+    if (is_beside[i]) beside.push_back(places[i]);
+  return beside;
 }
 
 std::vector<Vec3> SeenAsWire(const std::vector<Vec3>& places, const WireSilhouettes& silhouettes,
@@ -227,7 +233,7 @@ int AddWeakWires(const WireSilhouettes& silhouettes, const SilhouetteBridgeOptio
                skeleton);
     ++added;
     search.emplace(silhouettes, options, skeleton);
-    places = BesideCurves(std::move(places), search->grid());
+    places = BesideCurves(places, search->grid());
   }
   return added;
 }

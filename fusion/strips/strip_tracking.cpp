@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "kernel/wide_lanes.h"
+
 namespace curvefusion {
 
 namespace {
@@ -25,19 +27,6 @@ constexpr int kMaxRunGap = 1;  // samples left out within a run
 // So many samples before and behind those clear of other strands take part in the path.
 constexpr size_t kLead = 8;
 
-// Posterior, 0 to 1, at a place of the image.
-float Bilinear(const PosteriorImage& image, double u, double v) {
-  const int u0 = std::clamp(static_cast<int>(u), 0, image.width() - 2);
-  const int v0 = std::clamp(static_cast<int>(v), 0, image.height() - 2);
-  const auto a = static_cast<float>(std::clamp(u - u0, 0.0, 1.0));
-  const auto b = static_cast<float>(std::clamp(v - v0, 0.0, 1.0));
-  const uint8_t* top = image.row(v0) + u0;
-  const uint8_t* bottom = image.row(v0 + 1) + u0;
-  const float upper = static_cast<float>(top[0]) + a * static_cast<float>(top[1] - top[0]);
-  const float lower = static_cast<float>(bottom[0]) + a * static_cast<float>(bottom[1] - bottom[0]);
-  return (upper + b * (lower - upper)) * (1 / 255.0f);
-}
-
 // Posterior across a curve and its running sum.
 struct Profile {
   int half_count = 0;
@@ -48,17 +37,68 @@ struct Profile {
   float Sum(int begin, int end) const { return sums[end + half_count] - sums[begin + half_count]; }
 };
 
+// Where values between four pixels are read.
+struct BilinearPlaces {
+  std::vector<int> pixels;  // the upper left of the four, by its index in the image
+  std::vector<float> a, b;  // 0 to 1, from there to the right and down
+  void Resize(size_t count) {
+    pixels.resize(count);
+    a.resize(count);
+    b.resize(count);
+  }
+};
+
+// Places along a line, those outside of the image moved to its border.
+CURVEFUSION_WIDE_LANES void FindPlaces(const PosteriorImage& image, const ProjectedSample& sample,
+                                       int half_count, BilinearPlaces& places) {
+  const double x = sample.pixel.x(), y = sample.pixel.y();
+  const double along_x = sample.normal.x(), along_y = sample.normal.y();
+  const double last_u = image.width() - 1, last_v = image.height() - 1;
+  const int width = image.width(), height = image.height();
+  int* pixels = places.pixels.data();
+  float* to_right = places.a.data();
+  float* down = places.b.data();
+  for (int i = 0; i < 2 * half_count + 1; ++i) {
+    const double t = (i - half_count) * kStep;
+    double u = x + t * along_x;
+    double v = y + t * along_y;
+    u = u < 0 ? 0 : u;
+    v = v < 0 ? 0 : v;
+    u = u > last_u ? last_u : u;
+    v = v > last_v ? last_v : v;
+    const int u0 = std::min(static_cast<int>(u), width - 2);
+    const int v0 = std::min(static_cast<int>(v), height - 2);
+    pixels[i] = v0 * width + u0;
+    to_right[i] = static_cast<float>(u - u0);
+    down[i] = static_cast<float>(v - v0);
+  }
+}
+
+// Posteriors, 0 to 1.
+void ReadPlaces(const PosteriorImage& image, const BilinearPlaces& places,
+                std::vector<float>& values) {
+  for (size_t i = 0; i < values.size(); ++i) {
+    const uint8_t* top = image.data() + places.pixels[i];
+    const uint8_t* bottom = top + image.width();
+    const float upper =
+        static_cast<float>(top[0]) + places.a[i] * static_cast<float>(top[1] - top[0]);
+    const float lower =
+        static_cast<float>(bottom[0]) + places.a[i] * static_cast<float>(bottom[1] - bottom[0]);
+    values[i] = (upper + places.b[i] * (lower - upper)) * (1 / 255.0f);
+  }
+}
+
 void ReadProfile(const PosteriorImage& image, const ProjectedSample& sample, int half_count,
-                 Profile& profile) {
+                 BilinearPlaces& places, Profile& profile) {
   profile.half_count = half_count;
   profile.values.resize(2 * half_count + 1);
   profile.sums.resize(2 * half_count + 2);
+  places.Resize(profile.values.size());
+  FindPlaces(image, sample, half_count, places);
+  ReadPlaces(image, places, profile.values);
   profile.sums[0] = 0;
-  for (int i = 0; i < 2 * half_count + 1; ++i) {
-    const Vec2 pixel = sample.pixel + (i - half_count) * kStep * sample.normal;
-    profile.values[i] = Bilinear(image, pixel.x(), pixel.y());
+  for (int i = 0; i < 2 * half_count + 1; ++i)
     profile.sums[i + 1] = profile.sums[i] + profile.values[i];
-  }
 }
 
 // Scores of all centres, with the best width each.
@@ -84,27 +124,49 @@ int WidthSteps(double width_px) {
                   static_cast<int>(kMinWidthPx / kStep));
 }
 
+// Raises the scores of centres for which strips of this width stand out more than those before.
+// `sums` points at the running sum where the first centre's strip begins.
+CURVEFUSION_WIDE_LANES void RaiseScores(const float* __restrict sums, int width, int centres,
+                                        float* __restrict scores, float* __restrict widths_px) {
+  const float per_width = 1 / static_cast<float>(width);
+  const auto width_px = static_cast<float>(width * kStep);
+  for (int c = 0; c < centres; ++c) {
+    const float* begin = sums + c;
+    const float* end = begin + width;
+    const float inside = (end[0] - begin[0]) * per_width;
+    const float left = begin[-kGuard] - begin[-kGuard - kSide];
+    const float right = end[kGuard + kSide] - end[kGuard];
+    const float score = inside - (left < right ? right : left) * (1.0f / kSide);
+    const bool is_better = score > scores[c];
+    widths_px[c] = is_better ? width_px : widths_px[c];
+    scores[c] = is_better ? score : scores[c];
+  }
+}
+
 void ScoreCentres(const Profile& profile, double width_px, size_t row, Scores& scores) {
-  float* values = scores.Row(row);
-  float* widths = scores.WidthRow(row);
-  std::fill(values, values + scores.columns(), -1.0f);
+  std::fill_n(scores.Row(row), scores.columns(), -1.0f);
   int last_width = 0;
   for (const double factor : kWidths) {
     const int width = WidthSteps(factor * width_px) | 1;  // odd: centres lie on steps
     if (width == last_width) continue;
     last_width = width;
-    const float per_width = 1 / static_cast<float>(width);
-    for (int c = -scores.half_count; c <= scores.half_count; ++c) {
-      const int begin = c - width / 2;
-      const int end = begin + width;
-      const float inside = profile.Sum(begin, end) * per_width;
-      const float left = profile.Sum(begin - kGuard - kSide, begin - kGuard);
-      const float right = profile.Sum(end + kGuard, end + kGuard + kSide);
-      const float score = inside - std::max(left, right) * (1.0f / kSide);
-      float& best = values[c + scores.half_count];
-      if (score <= best) continue;
-      best = score;
-      widths[c + scores.half_count] = static_cast<float>(width * kStep);
+    const int first = profile.half_count - scores.half_count - width / 2;
+    RaiseScores(profile.sums.data() + first, width, scores.columns(), scores.Row(row),
+                scores.WidthRow(row));
+  }
+}
+
+// Of all ways from the centres of one row to those of the next the best each. `before` has room for
+// kMaxJump centres beyond both ends.
+CURVEFUSION_WIDE_LANES void JumpToNext(const float* __restrict before, int centres,
+                                       float* __restrict best, int* __restrict jumps) {
+  for (int jump = -kMaxJump; jump <= kMaxJump; ++jump) {
+    const float cost = kJumpCosts[jump + kMaxJump];
+    for (int c = 0; c < centres; ++c) {
+      const float value = before[c - jump] - cost;
+      const bool is_better = value > best[c];
+      best[c] = is_better ? value : best[c];
+      jumps[c] = is_better ? jump : jumps[c];
     }
   }
 }
@@ -118,20 +180,11 @@ void BestPath(const Scores& scores, size_t begin, size_t end, std::vector<int>& 
   float* total = padded.data() + kMaxJump;
   std::copy_n(scores.Row(begin), n, total);
   std::vector<float> next(n);
-  std::vector<int8_t> came_by((end - begin) * static_cast<size_t>(n), 0);
+  std::vector<int> came_by((end - begin) * static_cast<size_t>(n), 0);
   for (size_t row = begin + 1; row < end; ++row) {
-    int8_t* jumps = came_by.data() + (row - begin) * static_cast<size_t>(n);
-    for (int c = 0; c < n; ++c) {
-      float best = kNowhere;
-      for (int jump = -kMaxJump; jump <= kMaxJump; ++jump) {
-        const float value = total[c - jump] - kJumpCosts[jump + kMaxJump];
-        if (value <= best) continue;
-        best = value;
-        jumps[c] = static_cast<int8_t>(jump);
-      }
-      next[c] = best + scores.Row(row)[c];
-    }
-    std::ranges::copy(next, total);
+    std::ranges::fill(next, kNowhere);
+    JumpToNext(total, n, next.data(), came_by.data() + (row - begin) * static_cast<size_t>(n));
+    for (int c = 0; c < n; ++c) total[c] = next[c] + scores.Row(row)[c];
   }
   int c = static_cast<int>(std::max_element(total, total + n) - total);
   for (size_t row = end; row-- > begin;) {
@@ -213,10 +266,11 @@ std::vector<TrackedStrip> TrackStrips(const PosteriorImage& posterior,
   scores.values.resize(samples.size() * static_cast<size_t>(scores.columns()));
   scores.widths_px.resize(scores.values.size());
   std::vector<Profile> profiles(samples.size());
+  BilinearPlaces places;
   for (size_t i = 0; i < samples.size(); ++i) {
     if (!leads[i]) continue;
     const int reach = WidthSteps(kWidths.back() * expected_px(i)) / 2 + 2 + kGuard + kSide;
-    ReadProfile(posterior, samples[i], scores.half_count + reach, profiles[i]);
+    ReadProfile(posterior, samples[i], scores.half_count + reach, places, profiles[i]);
     ScoreCentres(profiles[i], expected_px(i), i, scores);
     if (is_clear[i]) LeaveToNeighbour(samples[i].clearance_px, i, scores);
   }

@@ -18,7 +18,7 @@ uint64_t KeyOf(const Numbered& value) { return value.key; }
 TEST(RadixSort, SortsAsAStableSortDoes) {
   std::mt19937_64 random(1);
   for (const uint64_t mask : {~uint64_t{0}, uint64_t{0xff}, uint64_t{0x3000000000000001}}) {
-    for (const int count : {0, 1, 2, 300, 5000}) {
+    for (const int count : {0, 1, 2, 300, 5000, 200000}) {
       std::vector<Numbered> values;
       for (int i = 0; i < count; ++i) values.push_back({random() & mask, i});
       std::vector<Numbered> expected = values;
