@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace curvefusion {
@@ -117,6 +118,46 @@ TEST(TrackStripsTest, AWireOfARowIsNotTakenForItsNeighbour) {
   for (const TrackedStrip& strip : TrackStrips(image, samples, Radii(), 14)) {
     EXPECT_TRUE(strip.accepted);
     EXPECT_NEAR(80 - strip.offset_px, 78, 0.3);  // half a step of the centres, and rounding
+  }
+}
+
+// The image with its border repeated `margin` times on every side.
+PosteriorImage WithRepeatedBorder(const PosteriorImage& image, int margin) {
+  PosteriorImage larger(image.width() + 2 * margin, image.height() + 2 * margin);
+  for (int v = 0; v < larger.height(); ++v) {
+    for (int u = 0; u < larger.width(); ++u) {
+      larger(u, v) = image(std::clamp(u - margin, 0, image.width() - 1),
+                           std::clamp(v - margin, 0, image.height() - 1));
+    }
+  }
+  return larger;
+}
+
+TEST(TrackStripsTest, BeyondTheImageItsBorderGoesOn) {
+  constexpr int kMargin = 40;
+  for (const double u : {1.0, kWidth - 2.0}) {
+    PosteriorImage image(kWidth, kHeight, 0);
+    const auto centre = [&](int v) { return u + 4 * std::sin(v / 9.0); };
+    DrawWire(centre, 6, image);
+    std::vector<ProjectedSample> samples = Expected();
+    for (ProjectedSample& sample : samples) {
+      sample.pixel.x() = u;
+      sample.normal = Vec2(-1, 0.4).normalized();
+    }
+    samples.front().pixel.y() = 0;
+    samples.back().pixel.y() = kHeight - 1;
+    const auto at_border = TrackStrips(image, samples, Radii(), 10);
+    for (ProjectedSample& sample : samples) sample.pixel += Vec2(kMargin, kMargin);
+    const auto inside = TrackStrips(WithRepeatedBorder(image, kMargin), samples, Radii(), 10);
+    ASSERT_EQ(at_border.size(), inside.size());
+    int accepted = 0;
+    for (size_t i = 0; i < inside.size(); ++i) {
+      EXPECT_NEAR(at_border[i].offset_px, inside[i].offset_px, 1e-4);  // places rounded elsewhere
+      EXPECT_NEAR(at_border[i].score, inside[i].score, 1e-5);
+      EXPECT_EQ(at_border[i].accepted, inside[i].accepted);
+      accepted += inside[i].accepted;
+    }
+    EXPECT_GT(accepted, 5);
   }
 }
 
