@@ -62,10 +62,10 @@ CURVEFUSION_WIDE_LANES void FindPlaces(const PosteriorImage& image, const Projec
     const double t = (i - half_count) * kStep;
     double u = x + t * along_x;
     double v = y + t * along_y;
-    u = u < 0 ? 0 : u;
-    v = v < 0 ? 0 : v;
-    u = u > last_u ? last_u : u;
-    v = v > last_v ? last_v : v;
+    u = u > 0 ? u : 0;
+    v = v > 0 ? v : 0;
+    u = u < last_u ? u : last_u;
+    v = v < last_v ? v : last_v;
     const int u0 = std::min(static_cast<int>(u), width - 2);
     const int v0 = std::min(static_cast<int>(v), height - 2);
     pixels[i] = v0 * width + u0;
