@@ -48,7 +48,7 @@ struct BilinearPlaces {
   }
 };
 
-// Places along a line, those outside of the image moved to its border.
+// Places along a line, those outside of the image, and what is no number, moved to its border.
 CURVEFUSION_WIDE_LANES void FindPlaces(const PosteriorImage& image, const ProjectedSample& sample,
                                        int half_count, BilinearPlaces& places) {
   const double x = sample.pixel.x(), y = sample.pixel.y();
