@@ -49,6 +49,14 @@ using ColorImage = Image<Rgb>;
 /// 0 or 1 per pixel.
 using MaskImage = Image<uint8_t>;
 
+/// By how much an image was divided to get another: a whole number, whereas sizes are rounded
+/// (PinholeCamera::Scaled). Pixel u of the first is in pixel u / Divisor of the other, or in its
+/// last.
+template <class T, class U>
+int Divisor(const Image<T>& image, const Image<U>& smaller) {
+  return (image.width() + smaller.width() / 2) / smaller.width();
+}
+
 inline bool AnySet(const MaskImage& mask) {
   return std::find(mask.data(), mask.data() + mask.size(), 1) != mask.data() + mask.size();
 }

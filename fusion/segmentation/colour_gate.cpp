@@ -196,8 +196,8 @@ void VisitOptions(ColourGateOptions& options, OptionVisitor& visitor) {
 }
 
 MaskImage PixelsInRows(const WireCandidates& frame) {
-  const MaskImage rows = Dilated(frame.rows, frame.row_margin);
-  const int factor = frame.mask.width() / rows.width();
+  const int factor = Divisor(frame.mask, frame.rows);
+  const MaskImage rows = Dilated(frame.rows, (frame.row_margin + factor - 1) / factor);
   MaskImage in_rows = frame.mask;
   for (int v = 0; v < in_rows.height(); ++v) {
     for (int u = 0; u < in_rows.width(); ++u) {

@@ -39,7 +39,7 @@ struct WireCandidates {
   MaskImage mask;  ///< of the depth image
   MaskImage rows;  ///< where depth may be one sheet before several wires; smaller than `mask` by an
                    ///< integer factor
-  int row_margin = 4;  ///< rows reach so many pixels of `rows` beyond where that shows them
+  int row_margin = 8;  ///< rows reach so many pixels of `mask` beyond where `rows` shows them
   DepthImage depth;
   ColorImage color;
 };

@@ -119,7 +119,7 @@ double DepthNoise(double depth, const DifferenceSetOptions& options) {
 
 MaskImage ImageDifferenceSet(const DepthImage& depth, const DepthImage& rendering,
                              const DepthImage& kept, const DifferenceSetOptions& options) {
-  const int factor = depth.width() / rendering.width();
+  const int factor = Divisor(depth, rendering);
   const int margin = static_cast<int>(std::ceil(options.silhouette_margin_px / factor));
   const DepthImage nearest_kept = NearestWithin(kept, margin);
   MaskImage mask(depth.width(), depth.height(), 0);

@@ -19,8 +19,8 @@ constexpr float kBehind = 0.03f;
 // rest is hidden by something nearer, or lies at the image's border.
 constexpr double kMaxAttached = 0.2;
 constexpr double kMinFree = 0.6;
-// Smaller parts are specks: at .7 m and half resolution a wire 40 mm long has so many.
-constexpr size_t kMinPixels = 100;
+// Parts that are less than this of the image are specks: at .7 m a wire 40 mm long is.
+constexpr double kMinShare = 1.0 / 768;
 // Of a cell's pixels in all renderings.
 constexpr double kMinSheetShare = 0.1;
 constexpr std::array<std::pair<int, int>, 4> kBeside = {{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
@@ -69,12 +69,13 @@ std::vector<Pixel> TakePart(const DepthImage& kept, const DepthImage& rendering,
 MaskImage FloatingSheets(const DepthImage& kept, const DepthImage& rendering) {
   MaskImage floating(kept.width(), kept.height(), 0);
   MaskImage visited(kept.width(), kept.height(), 0);
+  const auto least = static_cast<size_t>(kMinShare * static_cast<double>(kept.size()));
   for (int v = 0; v < kept.height(); ++v) {
     for (int u = 0; u < kept.width(); ++u) {
       if (!(kept(u, v) > 0) || visited(u, v)) continue;
       Outline outline;
       const std::vector<Pixel> part = TakePart(kept, rendering, {u, v}, visited, outline);
-      if (part.size() < kMinPixels || outline.attached > kMaxAttached * outline.all ||
+      if (part.size() < least || outline.attached > kMaxAttached * outline.all ||
           outline.free < kMinFree * outline.all) {
         continue;
       }

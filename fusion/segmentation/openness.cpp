@@ -58,7 +58,7 @@ void VisitOptions(OpennessOptions& options, OptionVisitor& visitor) {
 
 void OpennessGrid::AddFrame(const DepthImage& depth, const DepthImage& rendering,
                             const PinholeCamera& camera, const RigidTransform& T_world_camera) {
-  const int factor = depth.width() / rendering.width();
+  const int factor = Divisor(depth, rendering);
   const double slope = kMargin * kSteepestSlope / camera.fx;
   for (int v = kMargin; v + kMargin < rendering.height(); ++v) {
     for (int u = kMargin; u + kMargin < rendering.width(); ++u) {

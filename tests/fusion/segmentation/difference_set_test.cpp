@@ -55,6 +55,23 @@ TEST(ImageDifferenceSet, NothingRenderedIsThinOnlyWhereAccepted) {
   EXPECT_EQ(Count(ImageDifferenceSet(WallWithWire(), nothing, nothing, options)), 0);
 }
 
+// 283 columns for 848: a third, rounded up.
+TEST(ImageDifferenceSet, KnowsTheSizeOfSmallerRenderingsThatWasRounded) {
+  const PinholeCamera camera{848, 480, 425, 425, 423.5, 239.5};
+  const PinholeCamera small = camera.Scaled(1.0 / 3);
+  ASSERT_EQ(small.width, 283);
+  DepthImage rendering(small.width, small.height, kWall);
+  for (int v = 0; v < small.height; ++v) {
+    for (int u = 200; u < small.width; ++u) rendering(u, v) = 0;
+  }
+  DifferenceSetOptions options;
+  options.accept_where_nothing_rendered = false;
+  const DepthImage wire(camera.width, camera.height, kWire);
+  const MaskImage mask = ImageDifferenceSet(wire, rendering, rendering, options);
+  EXPECT_EQ(mask(599, 240), 1);
+  EXPECT_EQ(mask(600, 240), 0);
+}
+
 TEST(ImageDifferenceSet, NoiseOfASurfaceIsNotThin) {
   const DepthImage wall(kCamera.width, kCamera.height, kWall);
   // Two standard deviations in front: less than the default three.
