@@ -16,21 +16,31 @@ namespace {
 constexpr double kMinRefuted = 0.002;  // metres; shorter runs are corners of curves
 constexpr double kLongRun = 0.008;     // metres; wires are no farther beside their place
 constexpr double kClearlyFalse = 0.5;  // share of images
+constexpr double kOverlooked = 0.25;   // likewise; as few show a wire before what has its colour
 constexpr double kMinPiece = 0.012;    // metres; the shortest spur
 constexpr size_t kRetreat = 2;         // points; near a place beside the wire others may be too
 
+// Whether the edge goes on at both ends of a run for longer than the run is.
+bool IsBetweenLonger(const Polyline& points, const EdgePart& run) {
+  const double shorter =
+      std::min(Length(points, {0, run.first}), Length(points, {run.last, points.size() - 1}));
+  return shorter > Length(points, run);
+}
+
 // Whether a run of points that few images show as wire is no wire. At its junctions an edge may
-// just miss where they should be, and anywhere its wire by little.
+// just miss where they should be, and anywhere its wire by little. A bend of a long wire may be
+// overlooked: its shade is another one there, like that of what is behind it.
 bool IsFalse(const SkeletonGraph& skeleton, const SkeletonEdge& edge,
              const std::vector<double>& shares, const EdgePart& run) {
   const double length = Length(edge.points, run);
+  const double least =
+      *std::min_element(shares.begin() + static_cast<std::ptrdiff_t>(run.first),
+                        shares.begin() + static_cast<std::ptrdiff_t>(run.last) + 1);
+  if (least >= kOverlooked && IsBetweenLonger(edge.points, run)) return false;
   if (length >= kLongRun) return true;
   const bool is_at_junction =
       (run.first == 0 && skeleton.Degree(edge.nodes[0]) > 1) ||
       (run.last + 1 == edge.points.size() && skeleton.Degree(edge.nodes[1]) > 1);
-  const double least =
-      *std::min_element(shares.begin() + static_cast<std::ptrdiff_t>(run.first),
-                        shares.begin() + static_cast<std::ptrdiff_t>(run.last) + 1);
   return length >= kMinRefuted && !is_at_junction && least < kClearlyFalse;
 }
 

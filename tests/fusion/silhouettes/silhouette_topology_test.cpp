@@ -112,6 +112,37 @@ TEST(SilhouettePruning, CutsTheEndBeyondAWire) {
   EXPECT_NEAR(graph.TotalLength(), 0.08 + kTestRadius, 0.002 + kTolerance);
 }
 
+// A stretch that has not the wires' colour shows as wire only where something wire-coloured is
+// behind it.
+TEST(SilhouettePruning, KeepsAStretchOfALongWireThatSomeImagesOverlook) {
+  const std::vector<Polyline> wires = {TestLine({-0.06, 0, 0}, {-0.01, 0, 0}),
+                                       TestLine({0.01, 0, 0}, {0.06, 0, 0})};
+  const std::vector<Vec3> plate = {
+      {-0.01, -0.1, 0.1}, {-0.2, -0.1, 0.1}, {-0.2, 0.1, 0.1}, {-0.01, 0.1, 0.1}};
+  const SilhouetteScan overlooked(wires, {plate});
+  const double share = overlooked.Silhouettes().Share(Vec3::Zero());
+  ASSERT_GT(share, 0.3);
+  ASSERT_LT(share, 0.6);
+  SkeletonGraph graph;
+  AddTestEdge(graph, kUpper);
+  EXPECT_EQ(DropRefutedParts(overlooked.Silhouettes(), 0.7, graph), 0);
+  const SilhouetteScan gap(wires);
+  EXPECT_GT(DropRefutedParts(gap.Silhouettes(), 0.7, graph), 0.01);
+  EXPECT_EQ(graph.edge_count(), 2);
+}
+
+// It is no longer than the rest: two wires that are joined, as likely as one.
+TEST(SilhouettePruning, CutsAStretchBetweenShortOnesThatSomeImagesOverlook) {
+  const std::vector<Polyline> wires = {TestLine({-0.06, 0, 0}, {-0.025, 0, 0}),
+                                       TestLine({0.025, 0, 0}, {0.06, 0, 0})};
+  const std::vector<Vec3> plate = {
+      {-0.01, -0.1, 0.1}, {-0.2, -0.1, 0.1}, {-0.2, 0.1, 0.1}, {-0.01, 0.1, 0.1}};
+  const SilhouetteScan scan(wires, {plate});
+  SkeletonGraph graph;
+  AddTestEdge(graph, kUpper);
+  EXPECT_GT(DropRefutedParts(scan.Silhouettes(), 0.7, graph), 0.01);
+}
+
 TEST(SilhouettePruning, LeadsAStretchBackToItsWire) {
   const SilhouetteScan scan({kUpper});
   SkeletonGraph graph;
