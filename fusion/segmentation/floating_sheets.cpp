@@ -19,8 +19,8 @@ constexpr float kBehind = 0.03f;
 // rest is hidden by something nearer, or lies at the image's border.
 constexpr double kMaxAttached = 0.2;
 constexpr double kMinFree = 0.6;
-// Parts that are less than this of the image are specks: at .7 m a wire 40 mm long is.
-constexpr double kMinShare = 1.0 / 768;
+// Parts of which more would fit into the image are specks: at .7 m so large is a wire 40 mm long.
+constexpr size_t kMaxPartsInImage = 768;
 // Of a cell's pixels in all renderings.
 constexpr double kMinSheetShare = 0.1;
 constexpr std::array<std::pair<int, int>, 4> kBeside = {{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
@@ -69,7 +69,7 @@ std::vector<Pixel> TakePart(const DepthImage& kept, const DepthImage& rendering,
 MaskImage FloatingSheets(const DepthImage& kept, const DepthImage& rendering) {
   MaskImage floating(kept.width(), kept.height(), 0);
   MaskImage visited(kept.width(), kept.height(), 0);
-  const auto least = static_cast<size_t>(kMinShare * static_cast<double>(kept.size()));
+  const size_t least = kept.size() / kMaxPartsInImage;
   for (int v = 0; v < kept.height(); ++v) {
     for (int u = 0; u < kept.width(); ++u) {
       if (!(kept(u, v) > 0) || visited(u, v)) continue;
