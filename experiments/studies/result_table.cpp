@@ -104,7 +104,7 @@ std::string SpreadBlocks(const std::vector<RunGroup>& groups, const std::string&
     }
     blocks[place] += LabelOf(group.labels, row_label);
     for (const std::string& figure : figures)
-      blocks[place] += " " + SpreadData(SpreadOf(group, figure));
+      blocks[place] += fmt::format(" {}", SpreadData(SpreadOf(group, figure)));
     blocks[place] += "\n";
   }
   return Joined(blocks, "\n\n");
