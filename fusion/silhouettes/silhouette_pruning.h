@@ -12,8 +12,8 @@ void MoveJunctionsIntoWires(const WireSilhouettes& silhouettes, double min_share
 
 /// Removes what images look past: stretches of edges that less than min_share of the images show as
 /// wire, with the stubs that remain. Short stretches at junctions stay, since those may lie beside
-/// where wires meet, and so do short ones that are missed by little. Returns the length removed,
-/// metres.
+/// where wires meet, and so do short ones that are missed by little, and bends of long edges that
+/// a quarter of the images show. Returns the length removed, metres.
 double DropRefutedParts(const WireSilhouettes& silhouettes, double min_share,
                         SkeletonGraph& skeleton);
 
