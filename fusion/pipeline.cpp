@@ -48,15 +48,16 @@ struct SegmentedScan {
   std::vector<int> bundle_of_frame;
 };
 
-void AddBundle(SegmentedBundle bundle, SegmentedScan& scan, PipelineObserver& observer) {
+void AddBundle(const SegmentedBundle& bundle, SegmentedScan& scan, PipelineObserver& observer) {
   const std::string name = fmt::format("bundle_{:03}", scan.bundles.size());
-  observer.OnPoints(name + "_difference_set", bundle.difference_set);
-  observer.OnPoints(name + "_points", bundle.points);
-  for (ObservedPoints& frame : bundle.frames) {
-    scan.frames.push_back(std::move(frame));
+  observer.OnPoints(name + "_difference_set",
+                    Transformed(bundle.difference_set, bundle.T_world_bundle));
+  for (const ObservedPoints& frame : bundle.frames) {
+    scan.frames.push_back(Transformed(frame, bundle.T_world_bundle));
     scan.bundle_of_frame.push_back(static_cast<int>(scan.bundles.size()));
   }
-  scan.bundles.push_back(std::move(bundle.points));
+  scan.bundles.push_back(Transformed(bundle.points, bundle.T_world_bundle));
+  observer.OnPoints(name + "_points", scan.bundles.back());
 }
 
 SegmentedScan SegmentBundles(const Sequence& sequence, const TsdfVolume& volume, RunContext& run) {
@@ -79,10 +80,10 @@ SegmentedScan SegmentBundles(const Sequence& sequence, const TsdfVolume& volume,
       const auto& [first, last] = ranges[begin + static_cast<size_t>(i)];
       bundles[i] = SegmentBundle(sequence, first, last, volume, model, run.options.segmentation);
     });
-    for (SegmentedBundle& bundle : bundles) {
+    for (const SegmentedBundle& bundle : bundles) {
       candidates += bundle.difference_set.size();
       points += bundle.points.size();
-      AddBundle(std::move(bundle), scan, run.observer);
+      AddBundle(bundle, scan, run.observer);
     }
     begin += bundles.size();
     run.observer.OnProgress("segmentation", ranges[begin - 1].second, sequence.frame_count());

@@ -200,7 +200,8 @@ SegmentationModel LearnSegmentation(const Sequence& sequence, const TsdfVolume& 
 SegmentedBundle SegmentBundle(const Sequence& sequence, int first, int last,
                               const TsdfVolume& volume, const SegmentationModel& model,
                               const SegmentationOptions& options) {
-  const RigidTransform& T_world_bundle = sequence.frames[first].T_world_camera;
+  SegmentedBundle segmented;
+  segmented.T_world_bundle = sequence.frames[first].T_world_camera;
   BundleDifferenceSet difference_set(options.bundle);
   std::vector<SegmentedFrame> window(kFramesAtOnce);
   for (int start = first; start < last; start += kFramesAtOnce) {
@@ -211,19 +212,16 @@ SegmentedBundle SegmentBundle(const Sequence& sequence, int first, int last,
     });
     for (int frame = start; frame < end; ++frame) {
       const SegmentedFrame& current = window[frame - start];
-      difference_set.AddFrame(current.candidates.mask, current.on_edge, current.candidates.depth,
-                              sequence.depth_camera,
-                              T_world_bundle.inverse() * sequence.frames[frame].T_world_camera);
+      difference_set.AddFrame(
+          current.candidates.mask, current.on_edge, current.candidates.depth, sequence.depth_camera,
+          segmented.T_world_bundle.inverse() * sequence.frames[frame].T_world_camera);
     }
   }
-  const BundlePoints candidates = difference_set.Points();
-  const BundlePoints remaining = RemoveGhosts(candidates, options.ghosts);
-  SegmentedBundle segmented;
-  for (const ObservedPoints& frame : difference_set.FramePoints(remaining.voxels)) {
-    segmented.frames.push_back(Transformed(frame, T_world_bundle));
-  }
-  segmented.difference_set = Transformed(candidates.points, T_world_bundle);
-  segmented.points = Transformed(remaining.points, T_world_bundle);
+  BundlePoints candidates = difference_set.Points();
+  BundlePoints remaining = RemoveGhosts(candidates, options.ghosts);
+  segmented.frames = difference_set.FramePoints(remaining.voxels);
+  segmented.difference_set = std::move(candidates.points);
+  segmented.points = std::move(remaining.points);
   return segmented;
 }
 

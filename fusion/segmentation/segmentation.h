@@ -46,11 +46,12 @@ struct SegmentationModel {
 SegmentationModel LearnSegmentation(const Sequence& sequence, const TsdfVolume& volume,
                                     const SegmentationOptions& options);
 
-/// What was found in one bundle, in the world frame.
+/// What was found in one bundle.
 struct SegmentedBundle {
-  ObservedPoints difference_set;       ///< before ghosts were removed
-  ObservedPoints points;               ///< after
-  std::vector<ObservedPoints> frames;  ///< what each frame saw of `points`
+  ObservedPoints difference_set;  ///< before ghosts were removed, in the frame of the first camera
+  ObservedPoints points;          ///< after, likewise
+  std::vector<ObservedPoints> frames;  ///< what each frame saw of `points`, likewise
+  RigidTransform T_world_bundle;       ///< pose of the first camera
 };
 
 /// Segments frames [first, last) of a sequence against the volume of all frames.
