@@ -16,7 +16,7 @@ namespace {
 constexpr double kMinRefuted = 0.002;  // metres; shorter runs are corners of curves
 constexpr double kLongRun = 0.008;     // metres; wires are no farther beside their place
 constexpr double kClearlyFalse = 0.5;  // share of images
-constexpr double kOverlooked = 0.25;   // likewise; as few show a wire before what has its colour
+constexpr double kOverlooked = 0.25;   // likewise; so few may show a wire before its own colour
 constexpr double kMinPiece = 0.012;    // metres; the shortest spur
 constexpr size_t kRetreat = 2;         // points; near a place beside the wire others may be too
 

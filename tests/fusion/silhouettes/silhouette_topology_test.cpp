@@ -21,6 +21,15 @@ const Polyline kUpper = TestLine({-0.06, 0, 0}, {0.06, 0, 0});
 const Polyline kLower = TestLine({-0.06, kSpacing, 0}, {0.06, kSpacing, 0});
 const Polyline kRung = TestLine({0, 0, 0}, {0, kSpacing, 0});
 
+// The upper wire without what is nearer to its middle than this.
+std::vector<Polyline> UpperWithGap(double half_gap) {
+  return {TestLine({-0.06, 0, 0}, {-half_gap, 0, 0}), TestLine({half_gap, 0, 0}, {0.06, 0, 0})};
+}
+
+// Behind the upper wire; some of the cameras see its middle before this.
+const std::vector<Vec3> kPlate = {
+    {-0.01, -0.1, 0.1}, {-0.2, -0.1, 0.1}, {-0.2, 0.1, 0.1}, {-0.01, 0.1, 0.1}};
+
 double FarthestFrom(const Polyline& truth, const Polyline& points) {
   double farthest = 0;
   for (const Vec3& p : points) farthest = std::max(farthest, Project(truth, p).distance);
@@ -80,8 +89,7 @@ TEST(SilhouettePath, FollowsAWireBesideItsGuide) {
 }
 
 TEST(SilhouettePath, DoesNotLeaveTheWire) {
-  const SilhouetteScan scan(
-      {TestLine({-0.06, 0, 0}, {-0.01, 0, 0}), TestLine({0.01, 0, 0}, {0.06, 0, 0})});
+  const SilhouetteScan scan(UpperWithGap(0.01));
   EXPECT_FALSE(PathThroughSilhouettes(scan.Silhouettes(), kUpper, 0.95).has_value());
 }
 
@@ -115,29 +123,21 @@ TEST(SilhouettePruning, CutsTheEndBeyondAWire) {
 // A stretch that has not the wires' colour shows as wire only where something wire-coloured is
 // behind it.
 TEST(SilhouettePruning, KeepsAStretchOfALongWireThatSomeImagesOverlook) {
-  const std::vector<Polyline> wires = {TestLine({-0.06, 0, 0}, {-0.01, 0, 0}),
-                                       TestLine({0.01, 0, 0}, {0.06, 0, 0})};
-  const std::vector<Vec3> plate = {
-      {-0.01, -0.1, 0.1}, {-0.2, -0.1, 0.1}, {-0.2, 0.1, 0.1}, {-0.01, 0.1, 0.1}};
-  const SilhouetteScan overlooked(wires, {plate});
+  const SilhouetteScan overlooked(UpperWithGap(0.01), {kPlate});
   const double share = overlooked.Silhouettes().Share(Vec3::Zero());
   ASSERT_GT(share, 0.3);
   ASSERT_LT(share, 0.6);
   SkeletonGraph graph;
   AddTestEdge(graph, kUpper);
   EXPECT_EQ(DropRefutedParts(overlooked.Silhouettes(), 0.7, graph), 0);
-  const SilhouetteScan gap(wires);
+  const SilhouetteScan gap(UpperWithGap(0.01));
   EXPECT_GT(DropRefutedParts(gap.Silhouettes(), 0.7, graph), 0.01);
   EXPECT_EQ(graph.edge_count(), 2);
 }
 
-// It is no longer than the rest: two wires that are joined, as likely as one.
+// What goes on beyond it is shorter: those may as well be two wires.
 TEST(SilhouettePruning, CutsAStretchBetweenShortOnesThatSomeImagesOverlook) {
-  const std::vector<Polyline> wires = {TestLine({-0.06, 0, 0}, {-0.025, 0, 0}),
-                                       TestLine({0.025, 0, 0}, {0.06, 0, 0})};
-  const std::vector<Vec3> plate = {
-      {-0.01, -0.1, 0.1}, {-0.2, -0.1, 0.1}, {-0.2, 0.1, 0.1}, {-0.01, 0.1, 0.1}};
-  const SilhouetteScan scan(wires, {plate});
+  const SilhouetteScan scan(UpperWithGap(0.025), {kPlate});
   SkeletonGraph graph;
   AddTestEdge(graph, kUpper);
   EXPECT_GT(DropRefutedParts(scan.Silhouettes(), 0.7, graph), 0.01);
