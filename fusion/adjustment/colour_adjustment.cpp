@@ -40,8 +40,10 @@ constexpr double kMinAcceptedShare = 0.1;
 // Curves that fit come to .1; more is a wire taken for the next.
 constexpr double kMaxResidualPx = 0.4;
 constexpr double kMinGain = 0.8;  // of the residual
-// How far a colour image lies beside its depth image for itself: shutters are not in step.
-constexpr double kColorJitterPx = 0.5;
+// How well an adjusted pose is known.
+constexpr double kPlaceSigma = 0.2 * kMillimetre;
+constexpr double kRollSigma = 0.0003;
+constexpr double kShiftSigmaPx = 0.15;  // of a colour image's shift, however many edges it has
 
 // Whether three quarters of the frames are as near to the next as those of a video.
 bool IsVideo(const std::vector<RigidTransform>& poses) {
@@ -107,22 +109,24 @@ double AcceptedShare(const std::vector<FrameStrips>& strips) {
   return all > 0 ? static_cast<double>(accepted) / static_cast<double>(all) : 0;
 }
 
-// Takes what the depth images say of the strips into the problem.
-void UseDepth(const Sequence& sequence, const ColourFrames& frames, const CurveVertices& curves,
-              const CurvePoseState& state, const std::vector<FrameStrips>& strips,
-              double axis_depth, CurvePoseProblem& problem, ColourAdjustment& result) {
+// Takes what the depth images say of the strips into the problem; how each frame's colours lie.
+ColorShift UseDepth(const Sequence& sequence, const ColourFrames& frames,
+                    const CurveVertices& curves, const CurvePoseState& state,
+                    const std::vector<FrameStrips>& strips, double axis_depth,
+                    CurvePoseProblem& problem, ColourAdjustment& result) {
   DepthGauge gauge = MeasureDepthGauge(sequence, frames.indices, curves, state, strips, axis_depth);
   problem.depths = std::move(gauge.depths);
-  problem.color_camera.cx += gauge.color_shift_px.x();
-  problem.color_camera.cy += gauge.color_shift_px.y();
-  result.color_shift_px += gauge.color_shift_px;
+  problem.color_camera.cx += gauge.color_shift.shift_px.x();
+  problem.color_camera.cy += gauge.color_shift.shift_px.y();
+  result.color_shift_px += gauge.color_shift.shift_px;
   result.depths = static_cast<int>(problem.depths.size());
+  return gauge.color_shift;
 }
 
 // Runs all rounds; the state they end in.
 CurvePoseState RunRounds(const Sequence& sequence, const CurveVertices& curves,
                          ColourFrames& frames, double axis_depth, CurvePoseProblem& problem,
-                         ColourAdjustment& result) {
+                         ColorShift& color_shift, ColourAdjustment& result) {
   CurvePoseState state = problem.start;
   LearnColours(ExpectStrips(curves, problem, state), frames);
   for (const AdjustmentRound& round : kRounds) {
@@ -131,7 +135,7 @@ CurvePoseState RunRounds(const Sequence& sequence, const CurveVertices& curves,
     problem.strips = Observations(strips);
     if (&round == &kRounds.front()) result.start_residual_px = MedianResidual(problem, state);
     if (round.measures_depth) {
-      UseDepth(sequence, frames, curves, state, strips, axis_depth, problem, result);
+      color_shift = UseDepth(sequence, frames, curves, state, strips, axis_depth, problem, result);
     }
     state = ImproveCurvesAndPoses(problem, state, round.huber_px);
     if (round.learns_colours) LearnColours(strips, frames);
@@ -144,16 +148,26 @@ CurvePoseState RunRounds(const Sequence& sequence, const CurveVertices& curves,
 }
 
 // The adjustment fits all frames to one another; where the world lies, the first of a video say.
-// Colour images that lie beside their depth images look like cameras that are turned.
+// Colour images that lie beside their depth images look like cameras that are turned: those are
+// turned back.
 RigidTransform Anchor(const std::vector<RigidTransform>& T_world_given,
-                      const std::vector<int>& indices, const std::vector<RigidTransform>& poses,
-                      const PinholeCamera& color_camera) {
-  PoseErrors errors;
-  errors.rotation_jitter.x() =
-      std::hypot(errors.rotation_jitter.x(), kColorJitterPx / color_camera.fy);
-  errors.rotation_jitter.y() =
-      std::hypot(errors.rotation_jitter.y(), kColorJitterPx / color_camera.fx);
-  return AnchorToGivenPoses(T_world_given, indices, poses, errors);
+                      const std::vector<int>& indices, std::vector<RigidTransform> poses,
+                      const PinholeCamera& color_camera, const ColorShift& color_shift) {
+  std::vector<SmallMotion> sigmas;
+  for (size_t i = 0; i < poses.size(); ++i) {
+    const Vec2& shift = color_shift.of_frames_px[i];
+    SmallMotion turn = SmallMotion::Zero();
+    turn[3] = -shift.y() / color_camera.fy;
+    turn[4] = shift.x() / color_camera.fx;
+    poses[i] = poses[i] * RigidTransformOf(turn);
+    const Vec2& sigma = color_shift.frame_sigmas_px[i];
+    SmallMotion sigmas_of_frame;
+    sigmas_of_frame << Vec3::Constant(kPlaceSigma),
+        std::hypot(sigma.y(), kShiftSigmaPx) / color_camera.fy,
+        std::hypot(sigma.x(), kShiftSigmaPx) / color_camera.fx, kRollSigma;
+    sigmas.push_back(sigmas_of_frame);
+  }
+  return AnchorToGivenPoses(T_world_given, indices, poses, sigmas);
 }
 
 // Why an adjustment is not to be believed; empty where it is.
@@ -212,8 +226,9 @@ ColourAdjustment AdjustToColours(const SkeletonGraph& skeleton, const Sequence& 
   ColourFrames frames = LoadColourFrames(
       sequence, ChooseFrames(sequence.frame_count(), is_video ? options.frame_stride : 1));
   CurvePoseProblem problem = MakeProblem(sequence, curves, frames.indices, T_world_given, is_video);
+  ColorShift color_shift;
   const CurvePoseState state =
-      RunRounds(sequence, curves, frames, options.axis_depth, problem, result);
+      RunRounds(sequence, curves, frames, options.axis_depth, problem, color_shift, result);
   result.frames = std::move(frames.indices);
   result.posteriors = std::move(frames.posteriors);
   result.skipped = ReasonToSkip(result);
@@ -229,7 +244,7 @@ ColourAdjustment AdjustToColours(const SkeletonGraph& skeleton, const Sequence& 
   moved.positions = state.positions;
   if (is_video) {
     const RigidTransform T_anchored_world =
-        Anchor(T_world_given, result.frames, poses, sequence.color_camera);
+        Anchor(T_world_given, result.frames, poses, sequence.color_camera, color_shift);
     for (RigidTransform& pose : poses) pose = T_anchored_world * pose;
     for (Vec3& position : moved.positions) position = T_anchored_world * position;
   }

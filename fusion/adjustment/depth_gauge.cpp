@@ -1,10 +1,11 @@
 #include "fusion/adjustment/depth_gauge.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "capture/frame_stream.h"
-#include "fusion/registration/axis_depth.h"
+#include "fusion/adjustment/strip_depth.h"
 #include "kernel/parallel.h"
 #include "kernel/quantile.h"
 
@@ -22,9 +23,8 @@ constexpr double kSigmaFactor = 1.5;
 struct AxisSighting {
   AxisDepthObservation axis;
   double error = 0;  // of the axis as the curves have it
-  bool outlined = false;
-  Vec2 normal;
-  double offset_px = 0;
+  std::array<StripEdge, 2> edges;
+  std::array<bool, 2> has_edge = {false, false};
 };
 
 StripPlace PlaceInDepthImage(const SeenStrip& seen, const Vec3& p_camera,
@@ -35,7 +35,6 @@ StripPlace PlaceInDepthImage(const SeenStrip& seen, const Vec3& p_camera,
   place.pixel =
       sequence.depth_camera.Project(p_camera) + scale * seen.strip.offset_px * seen.sample.normal;
   place.half_width_px = 0.5 * scale * seen.strip.width_px;
-  place.clearance_px = scale * seen.sample.clearance_px;
   place.depth = p_camera.z();
   return place;
 }
@@ -54,11 +53,16 @@ std::vector<AxisSighting> MeasureFrame(const DepthImage& depth, int frame, const
     const double before_axis =
         axis_depth * curves.radii[seen.vertex] * p_camera.z() / p_camera.norm();
     const double axis = found.depth + before_axis;
-    sightings.push_back({{frame, seen.vertex, axis, 0},
-                         axis - p_camera.z(),
-                         found.outlined,
-                         place.normal,
-                         found.offset_px});
+    AxisSighting sighting;
+    sighting.axis = {frame, seen.vertex, axis, 0};
+    sighting.error = axis - p_camera.z();
+    for (const int side : {0, 1}) {
+      const DepthEdge& edge = found.edges[side];
+      sighting.has_edge[side] = edge.found;
+      sighting.edges[side] = {frame, (side == 0 ? -1 : 1) * place.normal,
+                              edge.distance_px - place.half_width_px};
+    }
+    sightings.push_back(sighting);
   }
   return sightings;
 }
@@ -71,18 +75,20 @@ double SigmaOf(const std::vector<AxisSighting>& sightings, double reach) {
   return RobustDeviation(std::move(errors));
 }
 
-Vec2 ColorShift(const std::vector<AxisSighting>& sightings, const Sequence& sequence,
-                int& outlines) {
-  std::vector<Vec2> normals;
-  std::vector<double> offsets_px;
+ColorShift ShiftOfColors(const std::vector<AxisSighting>& sightings, const Sequence& sequence,
+                         int frame_count) {
+  std::vector<StripEdge> edges;
   for (const AxisSighting& sighting : sightings) {
-    if (!sighting.outlined) continue;
-    normals.push_back(sighting.normal);
-    offsets_px.push_back(-sighting.offset_px);  // of the colour strip from the depth outline
+    for (const int side : {0, 1}) {
+      if (sighting.has_edge[side]) edges.push_back(sighting.edges[side]);
+    }
   }
-  outlines = static_cast<int>(normals.size());
-  return EstimateColorShift(normals, offsets_px) * sequence.color_camera.fx /
-         sequence.depth_camera.fx;
+  ColorShift shift = EstimateColorShift(edges, frame_count);
+  const double scale = sequence.color_camera.fx / sequence.depth_camera.fx;
+  shift.shift_px *= scale;
+  for (Vec2& of_frame : shift.of_frames_px) of_frame *= scale;
+  for (Vec2& sigma : shift.frame_sigmas_px) sigma *= scale;
+  return shift;
 }
 
 }  // namespace
@@ -108,7 +114,7 @@ DepthGauge MeasureDepthGauge(const Sequence& sequence, const std::vector<int>& i
     sighting.axis.sigma = std::max(kMinSigma, kSigmaFactor * gauge.sigma);
     gauge.depths.push_back(sighting.axis);
   }
-  gauge.color_shift_px = ColorShift(sightings, sequence, gauge.outlines);
+  gauge.color_shift = ShiftOfColors(sightings, sequence, static_cast<int>(indices.size()));
   return gauge;
 }
 

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "capture/sequence.h"
+#include "fusion/adjustment/color_shift.h"
 #include "fusion/adjustment/colour_frames.h"
 
 namespace curvefusion {
@@ -11,9 +12,8 @@ namespace curvefusion {
 /// and how the colour images lie against the depth images.
 struct DepthGauge {
   std::vector<AxisDepthObservation> depths;
-  double sigma = 0;                    ///< of a single one against the curves, metres
-  Vec2 color_shift_px = Vec2::Zero();  ///< to be added to the colour camera's principal point
-  int outlines = 0;                    ///< strips that the shift was measured at
+  double sigma = 0;        ///< of a single one against the curves, metres
+  ColorShift color_shift;  ///< to be added to the colour camera's principal point, in its pixels
 };
 
 /// Looks up the depth at the accepted strips of the frames `indices`. Depth is measured on the near

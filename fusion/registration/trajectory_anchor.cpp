@@ -5,39 +5,37 @@
 #include <array>
 #include <cassert>
 
-#include "fusion/registration/pose_correction.h"
 #include "kernel/rigid_motion.h"
 
 namespace curvefusion {
 
 namespace {
 
-// The weight of later frames falls exponentially, by e within jitter / step frames: nothing is left
+constexpr double kTranslationStep = 0.00033;  // drift along an axis from frame to frame, metres
+constexpr double kRotationStep = 0.00036;     // about an axis, radians
+// The weight of later frames falls exponentially, by e within sigma / step frames: nothing is left
 // of it after so many, whatever the model.
 constexpr size_t kMaxFrames = 60;
 constexpr int kIterations = 3;  // corrections are small: the second changes the last digits
 
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 
-// The inverse covariance of one axis' errors at the frames `indices`: a random walk from zero at
-// frame 0, and jitter.
-Eigen::MatrixXd Precision(const std::vector<int>& indices, double step, double jitter) {
-  const auto n = static_cast<Eigen::Index>(indices.size());
-  Eigen::MatrixXd covariance = jitter * jitter * Eigen::MatrixXd::Identity(n, n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    for (Eigen::Index j = 0; j < n; ++j) {
-      covariance(i, j) += step * step * std::min(indices[i], indices[j]);
-    }
-  }
-  return covariance.llt().solve(Eigen::MatrixXd::Identity(n, n));
-}
-
+// The inverse covariance of the errors along or about each axis at the frames `indices`: a random
+// walk from zero at frame 0, and what each corrected pose errs for itself.
 std::array<Eigen::MatrixXd, 6> Precisions(const std::vector<int>& indices,
-                                          const PoseErrors& errors) {
+                                          const std::vector<SmallMotion>& sigmas) {
   std::array<Eigen::MatrixXd, 6> precisions;
-  for (int axis = 0; axis < 3; ++axis) {
-    precisions[axis] = Precision(indices, errors.translation_step, errors.translation_jitter[axis]);
-    precisions[axis + 3] = Precision(indices, errors.rotation_step, errors.rotation_jitter[axis]);
+  const auto n = static_cast<Eigen::Index>(indices.size());
+  for (int axis = 0; axis < 6; ++axis) {
+    const double step = axis < 3 ? kTranslationStep : kRotationStep;
+    Eigen::MatrixXd covariance(n, n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      for (Eigen::Index j = 0; j < n; ++j) {
+        covariance(i, j) = step * step * std::min(indices[i], indices[j]);
+      }
+      covariance(i, i) += sigmas[i][axis] * sigmas[i][axis];
+    }
+    precisions[axis] = covariance.llt().solve(Eigen::MatrixXd::Identity(n, n));
   }
   return precisions;
 }
@@ -84,13 +82,13 @@ SmallMotion AnchoringStep(const std::vector<RigidTransform>& poses,
 RigidTransform AnchorToGivenPoses(const std::vector<RigidTransform>& given,
                                   const std::vector<int>& indices,
                                   const std::vector<RigidTransform>& corrected,
-                                  const PoseErrors& errors) {
-  assert(indices.size() == corrected.size());
+                                  const std::vector<SmallMotion>& sigmas) {
+  assert(indices.size() == corrected.size() && sigmas.size() == corrected.size());
   RigidTransform T_anchored_world = RigidTransform::Identity();
   if (indices.empty()) return T_anchored_world;
   const size_t count = std::min(indices.size(), kMaxFrames);
   const std::vector<int> used(indices.begin(), indices.begin() + static_cast<int64_t>(count));
-  const std::array<Eigen::MatrixXd, 6> precisions = Precisions(used, errors);
+  const std::array<Eigen::MatrixXd, 6> precisions = Precisions(used, sigmas);
   const Vec3 center = corrected.front().translation();
   std::vector<RigidTransform> given_used, poses(count);
   for (const int index : used) given_used.push_back(given[index]);
