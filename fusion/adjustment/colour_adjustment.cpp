@@ -77,14 +77,16 @@ CurvePoseProblem MakeProblem(const Sequence& sequence, const CurveVertices& curv
   return problem;
 }
 
-std::vector<StripObservation> Observations(const std::vector<FrameStrips>& strips) {
+// The strips as images would show them that lie as all frames' do on average.
+std::vector<StripObservation> Observations(const std::vector<FrameStrips>& strips,
+                                           const std::vector<Vec2>& frame_shifts_px) {
   std::vector<StripObservation> observations;
   for (size_t f = 0; f < strips.size(); ++f) {
     for (const SeenStrip& seen : strips[f]) {
       if (!seen.strip.accepted) continue;
-      observations.push_back({static_cast<int>(f), seen.vertex,
-                              seen.sample.pixel + seen.strip.offset_px * seen.sample.normal,
-                              seen.sample.normal});
+      const Vec2 pixel = seen.sample.pixel + seen.strip.offset_px * seen.sample.normal;
+      observations.push_back(
+          {static_cast<int>(f), seen.vertex, pixel - frame_shifts_px[f], seen.sample.normal});
     }
   }
   return observations;
@@ -109,7 +111,7 @@ double AcceptedShare(const std::vector<FrameStrips>& strips) {
   return all > 0 ? static_cast<double>(accepted) / static_cast<double>(all) : 0;
 }
 
-// Takes what the depth images say of the strips into the problem; how each frame's colours lie.
+// Takes what the depth images say of the strips into the problem; how the colour images lie.
 ColorShift UseDepth(const Sequence& sequence, const ColourFrames& frames,
                     const CurveVertices& curves, const CurvePoseState& state,
                     const std::vector<FrameStrips>& strips, double axis_depth,
@@ -123,16 +125,17 @@ ColorShift UseDepth(const Sequence& sequence, const ColourFrames& frames,
   return gauge.color_shift;
 }
 
-// Runs all rounds; the state they end in.
-CurvePoseState RunRounds(const Sequence& sequence, const CurveVertices& curves,
-                         ColourFrames& frames, double axis_depth, CurvePoseProblem& problem,
-                         ColorShift& color_shift, ColourAdjustment& result) {
-  CurvePoseState state = problem.start;
+// Runs all rounds from `state` on; how the colour images lie.
+ColorShift RunRounds(const Sequence& sequence, const CurveVertices& curves, ColourFrames& frames,
+                     double axis_depth, CurvePoseProblem& problem, CurvePoseState& state,
+                     ColourAdjustment& result) {
+  ColorShift color_shift;
+  color_shift.of_frames_px.assign(frames.size(), Vec2::Zero());
   LearnColours(ExpectStrips(curves, problem, state), frames);
   for (const AdjustmentRound& round : kRounds) {
     const std::vector<FrameStrips> strips =
         TrackCurves(curves, problem, state, frames, round.search_px);
-    problem.strips = Observations(strips);
+    problem.strips = Observations(strips, color_shift.of_frames_px);
     if (&round == &kRounds.front()) result.start_residual_px = MedianResidual(problem, state);
     if (round.measures_depth) {
       color_shift = UseDepth(sequence, frames, curves, state, strips, axis_depth, problem, result);
@@ -144,30 +147,28 @@ CurvePoseState RunRounds(const Sequence& sequence, const CurveVertices& curves,
     if (result.strips < kMinStrips) break;
   }
   result.residual_px = MedianResidual(problem, state);
-  return state;
+  return color_shift;
 }
 
 // The adjustment fits all frames to one another; where the world lies, the first of a video say.
-// Colour images that lie beside their depth images look like cameras that are turned: those are
-// turned back.
 RigidTransform Anchor(const std::vector<RigidTransform>& T_world_given,
-                      const std::vector<int>& indices, std::vector<RigidTransform> poses,
-                      const PinholeCamera& color_camera, const ColorShift& color_shift) {
+                      const std::vector<int>& indices, const std::vector<RigidTransform>& poses,
+                      const PinholeCamera& color_camera, const std::vector<Vec2>& shift_sigmas_px) {
   std::vector<SmallMotion> sigmas;
-  for (size_t i = 0; i < poses.size(); ++i) {
-    const Vec2& shift = color_shift.of_frames_px[i];
-    SmallMotion turn = SmallMotion::Zero();
-    turn[3] = -shift.y() / color_camera.fy;
-    turn[4] = shift.x() / color_camera.fx;
-    poses[i] = poses[i] * RigidTransformOf(turn);
-    const Vec2& sigma = color_shift.frame_sigmas_px[i];
-    SmallMotion sigmas_of_frame;
-    sigmas_of_frame << Vec3::Constant(kPlaceSigma),
-        std::hypot(sigma.y(), kShiftSigmaPx) / color_camera.fy,
-        std::hypot(sigma.x(), kShiftSigmaPx) / color_camera.fx, kRollSigma;
-    sigmas.push_back(sigmas_of_frame);
+  for (const Vec2& sigma_px : shift_sigmas_px) {
+    sigmas.emplace_back() << Vec3::Constant(kPlaceSigma),
+        std::hypot(sigma_px.y(), kShiftSigmaPx) / color_camera.fy,
+        std::hypot(sigma_px.x(), kShiftSigmaPx) / color_camera.fx, kRollSigma;
   }
   return AnchorToGivenPoses(T_world_given, indices, poses, sigmas);
+}
+
+// An image that lies beside its place looks like a camera that is turned.
+RigidTransform TurnLike(const Vec2& shift_px, const PinholeCamera& camera) {
+  SmallMotion turn = SmallMotion::Zero();
+  turn[3] = shift_px.y() / camera.fy;
+  turn[4] = -shift_px.x() / camera.fx;
+  return RigidTransformOf(turn);
 }
 
 // Why an adjustment is not to be believed; empty where it is.
@@ -226,9 +227,9 @@ ColourAdjustment AdjustToColours(const SkeletonGraph& skeleton, const Sequence& 
   ColourFrames frames = LoadColourFrames(
       sequence, ChooseFrames(sequence.frame_count(), is_video ? options.frame_stride : 1));
   CurvePoseProblem problem = MakeProblem(sequence, curves, frames.indices, T_world_given, is_video);
-  ColorShift color_shift;
-  const CurvePoseState state =
-      RunRounds(sequence, curves, frames, options.axis_depth, problem, color_shift, result);
+  CurvePoseState state = problem.start;
+  const ColorShift color_shift =
+      RunRounds(sequence, curves, frames, options.axis_depth, problem, state, result);
   result.frames = std::move(frames.indices);
   result.posteriors = std::move(frames.posteriors);
   result.skipped = ReasonToSkip(result);
@@ -243,13 +244,17 @@ ColourAdjustment AdjustToColours(const SkeletonGraph& skeleton, const Sequence& 
   CurveVertices moved = curves;
   moved.positions = state.positions;
   if (is_video) {
-    const RigidTransform T_anchored_world =
-        Anchor(T_world_given, result.frames, poses, sequence.color_camera, color_shift);
+    const RigidTransform T_anchored_world = Anchor(
+        T_world_given, result.frames, poses, sequence.color_camera, color_shift.frame_sigmas_px);
     for (RigidTransform& pose : poses) pose = T_anchored_world * pose;
     for (Vec3& position : moved.positions) position = T_anchored_world * position;
   }
   result.skeleton = WithVertices(skeleton, moved, options.vertex_step);
   result.T_world_camera = InterpolateCorrections(T_world_given, result.frames, poses);
+  for (size_t i = 0; i < poses.size(); ++i) {
+    result.T_world_camera[result.frames[i]] =
+        poses[i] * TurnLike(color_shift.of_frames_px[i], sequence.color_camera);
+  }
   return result;
 }
 

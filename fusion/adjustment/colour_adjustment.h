@@ -24,7 +24,9 @@ void VisitOptions(ColourAdjustmentOptions& options, OptionVisitor& visitor);
 /// are those that were given.
 struct ColourAdjustment {
   SkeletonGraph skeleton;
-  std::vector<RigidTransform> T_world_camera;  ///< of all frames
+  /// Of all frames; those of `frames` fit their colour images, which lie beside their depth images
+  /// by some tenths of a pixel each (shutters are not in step).
+  std::vector<RigidTransform> T_world_camera;
   Vec2 color_shift_px = Vec2::Zero();      ///< by which the colour camera's principal point is off
   std::string skipped;                     ///< why nothing was changed; empty where it was
   std::vector<int> frames;                 ///< that were used, ascending

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "capture/frame_stream.h"
 #include "fusion/adjustment/strip_depth.h"
@@ -23,8 +24,8 @@ constexpr double kSigmaFactor = 1.5;
 struct AxisSighting {
   AxisDepthObservation axis;
   double error = 0;  // of the axis as the curves have it
-  std::array<StripEdge, 2> edges;
-  std::array<bool, 2> has_edge = {false, false};
+  Vec2 normal;
+  std::array<std::optional<double>, 2> beyond_px;  // the strip's edges, where it ends in depth
 };
 
 StripPlace PlaceInDepthImage(const SeenStrip& seen, const Vec3& p_camera,
@@ -53,14 +54,10 @@ std::vector<AxisSighting> MeasureFrame(const DepthImage& depth, int frame, const
     const double before_axis =
         axis_depth * curves.radii[seen.vertex] * p_camera.z() / p_camera.norm();
     const double axis = found.depth + before_axis;
-    AxisSighting sighting;
-    sighting.axis = {frame, seen.vertex, axis, 0};
-    sighting.error = axis - p_camera.z();
-    for (const int side : {0, 1}) {
-      const DepthEdge& edge = found.edges[side];
-      sighting.has_edge[side] = edge.found;
-      sighting.edges[side] = {frame, (side == 0 ? -1 : 1) * place.normal,
-                              edge.distance_px - place.half_width_px};
+    AxisSighting sighting{
+        {frame, seen.vertex, axis, 0}, axis - p_camera.z(), place.normal, found.edges_px};
+    for (std::optional<double>& px : sighting.beyond_px) {
+      if (px) *px -= place.half_width_px;
     }
     sightings.push_back(sighting);
   }
@@ -79,8 +76,9 @@ ColorShift ShiftOfColors(const std::vector<AxisSighting>& sightings, const Seque
                          int frame_count) {
   std::vector<StripEdge> edges;
   for (const AxisSighting& sighting : sightings) {
-    for (const int side : {0, 1}) {
-      if (sighting.has_edge[side]) edges.push_back(sighting.edges[side]);
+    for (const int side : {-1, 1}) {
+      const std::optional<double>& beyond_px = sighting.beyond_px[side > 0];
+      if (beyond_px) edges.push_back({sighting.axis.frame, side * sighting.normal, *beyond_px});
     }
   }
   ColorShift shift = EstimateColorShift(edges, frame_count);

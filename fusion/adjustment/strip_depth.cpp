@@ -21,23 +21,19 @@ bool IsOfWire(float z, const StripPlace& place, double reach) {
   return z > 0 && std::abs(z - place.depth) <= reach;
 }
 
-// Looks for the end of the wire in the direction of `outwards` (unit).
-DepthEdge FindEdge(const DepthImage& depth, const StripPlace& place, const Vec2& outwards,
-                   double reach) {
-  DepthEdge edge;
+// How far the wire reaches in the direction of `outwards` (unit).
+std::optional<double> FindEdge(const DepthImage& depth, const StripPlace& place,
+                               const Vec2& outwards, double reach) {
+  const auto depth_at = [&](double px) { return DepthAt(depth, place.pixel + px * outwards); };
   const double limit_px = place.half_width_px + kOutlineReachPx;
   double end_px = 0;
-  for (;; end_px += kStep) {
-    if (end_px > limit_px) return edge;
-    if (!IsOfWire(DepthAt(depth, place.pixel + end_px * outwards), place, reach)) break;
-  }
+  while (end_px <= limit_px && IsOfWire(depth_at(end_px), place, reach)) end_px += kStep;
+  if (end_px > limit_px) return std::nullopt;
   for (double free_px = 0; free_px < kFreePx; free_px += kStep) {
-    const float z = DepthAt(depth, place.pixel + (end_px + free_px) * outwards);
-    if (z > 0 && z < place.depth + reach) return edge;
+    const float z = depth_at(end_px + free_px);
+    if (z > 0 && z < place.depth + reach) return std::nullopt;
   }
-  edge.found = true;
-  edge.distance_px = end_px - 0.5 * kStep;
-  return edge;
+  return end_px - 0.5 * kStep;
 }
 
 }  // namespace
@@ -56,8 +52,8 @@ StripDepth MeasureStripDepth(const DepthImage& depth, const StripPlace& place, d
   if (count == 0) return found;
   found.measured = true;
   found.depth = sum / count;
-  found.edges = {FindEdge(depth, place, -place.normal, reach),
-                 FindEdge(depth, place, place.normal, reach)};
+  found.edges_px = {FindEdge(depth, place, -place.normal, reach),
+                    FindEdge(depth, place, place.normal, reach)};
   return found;
 }
 

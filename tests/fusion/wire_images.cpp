@@ -16,10 +16,13 @@ Eigen::Vector3f BackgroundColor(double u, double v) {
   return Eigen::Vector3f(120 + wave, 115 + wave, 130 + wave);
 }
 
-// Colour of the nearest wire that the ray from `origin` along `direction` hits.
-bool HitWire(const std::vector<RenderedWire>& wires, const Vec3& origin, const Vec3& direction,
-             Eigen::Vector3f& color) {
-  double nearest = 1e9;
+constexpr double kNowhere = 1e9;
+
+// How far the nearest wire is that the ray from `origin` along `direction` hits, kNowhere where
+// there is none, and its colour.
+double HitWire(const std::vector<RenderedWire>& wires, const Vec3& origin, const Vec3& direction,
+               Eigen::Vector3f& color) {
+  double nearest = kNowhere;
   for (const RenderedWire& wire : wires) {
     const Vec3 axis = (wire.back - wire.front).normalized();
     const Vec3 normal = direction.cross(axis).normalized();
@@ -38,7 +41,7 @@ bool HitWire(const std::vector<RenderedWire>& wires, const Vec3& origin, const V
     const auto light = static_cast<float>(0.83 + 0.33 * offset / wire.diameter);
     color = light * Eigen::Vector3f(wire.color[0], wire.color[1], wire.color[2]);
   }
-  return nearest < 1e9;
+  return nearest;
 }
 
 ColorImage BlurAndRound(const cv::Mat& linear, double blur_px) {
@@ -71,6 +74,26 @@ ColorImage RenderWires(const std::vector<RenderedWire>& wires, const PinholeCame
     }
   }
   return BlurAndRound(linear, blur_px);
+}
+
+DepthImage RenderWireDepth(const std::vector<RenderedWire>& wires, const PinholeCamera& camera,
+                           const RigidTransform& T_world_camera, double fattening_px) {
+  std::vector<RenderedWire> fat = wires;
+  for (RenderedWire& wire : fat) {
+    const double depth = (T_world_camera.inverse() * (0.5 * (wire.front + wire.back))).z();
+    wire.diameter += 2 * fattening_px * depth / camera.fx;
+  }
+  DepthImage image(camera.width, camera.height, 1);
+  for (int v = 0; v < camera.height; ++v) {
+    for (int u = 0; u < camera.width; ++u) {
+      const Vec3 ray = camera.Unproject(u, v, 1);
+      Eigen::Vector3f color;
+      const double distance = HitWire(fat, T_world_camera.translation(),
+                                      T_world_camera.linear() * ray.normalized(), color);
+      if (distance < kNowhere) image(u, v) = static_cast<float>(distance / ray.norm());
+    }
+  }
+  return image;
 }
 
 ColorImage DrawStrip(int width, int height, double left, double right, const Rgb& strip,

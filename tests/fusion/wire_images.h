@@ -21,6 +21,11 @@ struct RenderedWire {
 ColorImage RenderWires(const std::vector<RenderedWire>& wires, const PinholeCamera& camera,
                        const RigidTransform& T_world_camera, double blur_px);
 
+/// What a depth camera measures of the same wires (metres): their axes, and the wall at 1 m, with
+/// wires wider than they are by `fattening_px` on both sides.
+DepthImage RenderWireDepth(const std::vector<RenderedWire>& wires, const PinholeCamera& camera,
+                           const RigidTransform& T_world_camera, double fattening_px);
+
 /// An upright strip of a colour between x = left and right (pixels, fractional, pixel centres at
 /// integers) on a flat background, blurred.
 ColorImage DrawStrip(int width, int height, double left, double right, const Rgb& strip,

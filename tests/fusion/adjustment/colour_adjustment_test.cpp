@@ -22,7 +22,7 @@ std::vector<RenderedWire> Wires(const Rgb& color) {
           {{0.06, -0.09, 0.50}, {0.03, 0.09, 0.55}, 0.006, color}};
 }
 
-RigidTransform TruePose(int frame) {
+RigidTransform TruePose(double frame) {
   const double angle = 0.08 * (frame - kFrames / 2);
   RigidTransform T = RigidTransform::Identity();
   T.linear() = Eigen::AngleAxisd(angle, Vec3(0.5, 1, 0).normalized()).toRotationMatrix();
@@ -50,6 +50,14 @@ class ColourAdjustmentTest : public testing::Test {
   static void WriteFrame(int i, const std::vector<RenderedWire>& wires, const std::string& name) {
     WriteImage(folder_ / fmt::format("{}{}.jpg", name, i),
                RenderWires(wires, Camera(), TruePose(i), 0.8));
+  }
+
+  // In millimetres.
+  static void WriteDepth(const std::filesystem::path& path, DepthImage depth) {
+    const cv::Mat metres(depth.height(), depth.width(), CV_32FC1, depth.data());
+    cv::Mat millimetres;
+    metres.convertTo(millimetres, CV_16UC1, 1000);
+    cv::imwrite(path.string(), millimetres);
   }
 
   // Poses zig-zag by 2 mm and 2 mrad (2 px together) around the true ones.
@@ -92,9 +100,8 @@ class ColourAdjustmentTest : public testing::Test {
     return skeleton;
   }
 
-  // Mean distance from the wires' axes after the mean offset, which poses may share, is taken off.
-  static double MeanDistance(const SkeletonGraph& skeleton) {
-    Vec3 mean = Vec3::Zero();
+  // How far points lie beside the wires' axes.
+  static std::vector<Vec3> Offsets(const SkeletonGraph& skeleton) {
     std::vector<Vec3> offsets;
     const std::vector<RenderedWire> wires = Wires({});
     const std::vector<EdgeId> edges = skeleton.Edges();
@@ -103,13 +110,23 @@ class ColourAdjustmentTest : public testing::Test {
       for (const Vec3& p : skeleton.edge(edges[e]).points) {
         const Vec3 from_front = p - wires[e].front;
         offsets.push_back(from_front - axis * axis.dot(from_front));
-        mean += offsets.back();
       }
     }
-    mean /= static_cast<double>(offsets.size());
+    return offsets;
+  }
+
+  static Vec3 MeanOffset(const SkeletonGraph& skeleton) {
+    Vec3 sum = Vec3::Zero();
+    for (const Vec3& offset : Offsets(skeleton)) sum += offset;
+    return sum / static_cast<double>(Offsets(skeleton).size());
+  }
+
+  // Mean distance from the wires' axes after the mean offset, which poses may share, is taken off.
+  static double MeanDistance(const SkeletonGraph& skeleton) {
+    const Vec3 mean = MeanOffset(skeleton);
     double sum = 0;
-    for (const Vec3& offset : offsets) sum += (offset - mean).norm();
-    return sum / static_cast<double>(offsets.size());
+    for (const Vec3& offset : Offsets(skeleton)) sum += (offset - mean).norm();
+    return sum / static_cast<double>(Offsets(skeleton).size());
   }
 
   static std::filesystem::path folder_;
@@ -127,6 +144,45 @@ TEST_F(ColourAdjustmentTest, CurvesAndPosesFitTheImages) {
   EXPECT_EQ(adjusted.depths, 0);
   ASSERT_GT(MeanDistance(WrongSkeleton()), 0.001);
   EXPECT_LT(MeanDistance(adjusted.skeleton), 0.0007);  // half a millimetre by the prototype
+}
+
+// A video: the camera turns by .02 rad from frame to frame. Colour images lie .6 and -.9 px beside
+// the depth images, each by half a pixel more of its own, and depth is fattened.
+TEST_F(ColourAdjustmentTest, ColourImagesBesideTheirDepthImages) {
+  const Vec2 shift(0.6, -0.9);
+  const Vec2 of_frames[kFrames] = {{0.5, 0.5}, {-0.5, 0.5}, {0, -0.5},
+                                   {0.5, 0},   {-0.5, 0},   {0, -0.5}};
+  Sequence sequence = DriftedSequence("green");
+  std::vector<RigidTransform> true_poses;
+  for (int i = 0; i < kFrames; ++i) {
+    const RigidTransform pose = TruePose(kFrames / 2 + 0.25 * i);
+    true_poses.push_back(pose);
+    PinholeCamera color_camera = Camera();
+    color_camera.cx += shift.x() + of_frames[i].x();
+    color_camera.cy += shift.y() + of_frames[i].y();
+    SequenceFrame& frame = sequence.frames[i];
+    frame.color_path = folder_ / fmt::format("shifted{}.jpg", i);
+    frame.depth_path = folder_ / fmt::format("shifted{}.png", i);
+    WriteImage(frame.color_path, RenderWires(Wires({60, 160, 70}), color_camera, pose, 0.8));
+    WriteDepth(frame.depth_path, RenderWireDepth(Wires({}), Camera(), pose, 2));
+    SmallMotion drift;
+    drift << 0.0003 * i, -0.0003 * i, 0, 0, 0.0003 * i, 0.0003 * i;
+    frame.T_world_camera = pose * RigidTransformOf(drift);
+  }
+  const ColourAdjustment adjusted = AdjustToColours(WrongSkeleton(), sequence, Given(sequence),
+                                                    {.frame_stride = 1, .axis_depth = 0});
+  EXPECT_EQ(adjusted.skipped, "");
+  EXPECT_NEAR((adjusted.color_shift_px - shift).norm(), 0, 0.25);
+  // Half a pixel is .6 mm.
+  EXPECT_LT(MeanOffset(adjusted.skeleton).norm(), 0.0003);
+  EXPECT_LT(MeanDistance(adjusted.skeleton), 0.0003);
+  // Poses fit their colour images once the common shift is taken off.
+  for (int i = 0; i < kFrames; ++i) {
+    const Vec3 p = Wires({})[0].front;
+    const Vec2 seen = Camera().Project(true_poses[i].inverse() * p) + of_frames[i];
+    const Vec2 found = Camera().Project(adjusted.T_world_camera[i].inverse() * p);
+    EXPECT_NEAR((found - seen).norm(), 0, 0.3);
+  }
 }
 
 TEST_F(ColourAdjustmentTest, WithoutContrastNothingChanges) {

@@ -25,10 +25,9 @@ TEST(MeasureStripDepthTest, DepthAndEdgesOfTheWire) {
   image(44, 30) = 0;  // a shadow
   const StripDepth found = MeasureStripDepth(image, kPlace, 0.02);
   ASSERT_TRUE(found.measured);
-  EXPECT_NEAR(found.depth, 0.6, 1e-6);  // float
-  ASSERT_TRUE(found.edges[0].found && found.edges[1].found);
-  EXPECT_NEAR(found.edges[0].distance_px, 1.5, 0.25);  // steps of half a pixel
-  EXPECT_NEAR(found.edges[1].distance_px, 3.5, 0.25);
+  EXPECT_NEAR(found.depth, 0.6, 1e-6);                // float
+  EXPECT_NEAR(found.edges_px[0].value(), 1.5, 0.25);  // steps of half a pixel
+  EXPECT_NEAR(found.edges_px[1].value(), 3.5, 0.25);
 }
 
 TEST(MeasureStripDepthTest, NothingOfTheWireMeasured) {
@@ -40,11 +39,11 @@ TEST(MeasureStripDepthTest, NoEdgeBesideAnotherWireOrOnASurface) {
   DepthImage crowded = WireDepth(41);
   AddUprightWire(49, crowded);
   const StripDepth found = MeasureStripDepth(crowded, kPlace, 0.02);
-  EXPECT_TRUE(found.edges[0].found);
-  EXPECT_FALSE(found.edges[1].found);
+  EXPECT_TRUE(found.edges_px[0]);
+  EXPECT_FALSE(found.edges_px[1]);
   const StripDepth surface = MeasureStripDepth(DepthImage(80, 60, 0.6f), kPlace, 0.02);
   EXPECT_TRUE(surface.measured);
-  EXPECT_FALSE(surface.edges[0].found || surface.edges[1].found);
+  EXPECT_FALSE(surface.edges_px[0] || surface.edges_px[1]);
 }
 
 }  // namespace
