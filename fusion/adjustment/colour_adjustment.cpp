@@ -122,6 +122,9 @@ ColorShift UseDepth(const Sequence& sequence, const ColourFrames& frames,
   problem.color_camera.cy += gauge.color_shift.shift_px.y();
   result.color_shift_px += gauge.color_shift.shift_px;
   result.depths = static_cast<int>(problem.depths.size());
+  const bool is_video = !problem.gaps.empty();
+  // A camera that stands still needs no shutters in step.
+  if (!is_video) gauge.color_shift.of_frames_px.assign(frames.size(), Vec2::Zero());
   return gauge.color_shift;
 }
 
