@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "fusion/silhouettes/silhouette_rungs.h"
 #include "graph/branch_continuations.h"
 
 namespace curvefusion {
@@ -32,6 +33,17 @@ bool RunsBeside(const Polyline& curve, const Polyline& other) {
   return false;
 }
 
+// Whether a way ends inside an edge, where it may cross a sheet of wires seen along their plane.
+bool CrossesSheet(const WireSilhouettes& silhouettes, double min_share,
+                  const SkeletonGraph& skeleton, const BranchContinuation& way) {
+  if (way.to >= 0) return false;
+  const Polyline& target = skeleton.edge(way.target.edge).points;
+  const std::vector<double> arc_length = CumulativeLength(target);
+  const Vec3 across = PointAt(target, arc_length, way.target.arc_length + kStep) -
+                      PointAt(target, arc_length, way.target.arc_length - kStep);
+  return IsInSheet(silhouettes, min_share, way.curve, across.normalized());
+}
+
 // Of all ways ahead those that are wire, each turned to where the images show it best.
 std::vector<BranchContinuation> WiresAhead(const WireSilhouettes& silhouettes, double min_share,
                                            const SkeletonGraph& skeleton,
@@ -46,7 +58,9 @@ std::vector<BranchContinuation> WiresAhead(const WireSilhouettes& silhouettes, d
       most = least;
       best = std::move(turned);
     }
-    if (most < min_share || Length(best.curve) < kMinLength) continue;
+    if (most < min_share || Length(best.curve) < kMinLength ||
+        CrossesSheet(silhouettes, min_share, skeleton, best))
+      continue;
     const Polyline curve = Resample(best.curve, kStep);
     if (std::none_of(wires.begin(), wires.end(),
                      [&](const auto& wire) { return RunsBeside(curve, wire.curve); }))

@@ -60,6 +60,15 @@ TEST(SilhouetteContinuations, AreNoneWhereImagesLookBetween) {
   EXPECT_EQ(graph.edge_count(), 5);
 }
 
+// All images show the bars as one sheet: the stub may be a piece of that.
+TEST(SilhouetteContinuations, AreNoneInASheet) {
+  const SilhouetteScan scan(
+      Wires(kRows[2]),
+      {{{-0.04, kRows[0], 0}, {0.04, kRows[0], 0}, {0.04, kRows[2], 0}, {-0.04, kRows[2], 0}}});
+  SkeletonGraph graph = BarsWithStub();
+  EXPECT_EQ(ContinueWires(scan.Silhouettes(), kMinShare, graph), 0);
+}
+
 // The stub's end has been drawn sideways.
 TEST(SilhouetteContinuations, TurnToWhereTheWireIs) {
   const SilhouetteScan scan(Wires(kRows[1]));
