@@ -45,31 +45,36 @@ Unknowns EstimateTogether(const std::vector<StripEdge>& edges) {
   return x;
 }
 
+// The shifts of the frames besides what all share, from `result` on.
+void EstimateEach(const std::vector<StripEdge>& edges, const Unknowns& together,
+                  ColorShift& result) {
+  const size_t frame_count = result.of_frames_px.size();
+  const double weight = std::pow(kEdgeSigmaPx / kFrameShiftPx, 2);
+  std::vector<Eigen::Matrix2d> matrices(frame_count, weight * Eigen::Matrix2d::Identity());
+  std::vector<Vec2> rhs(frame_count, Vec2::Zero());
+  for (const StripEdge& edge : edges) {
+    const double error = edge.beyond_px - Row(edge).dot(together);
+    const double own = -edge.normal.dot(result.of_frames_px[edge.frame]);
+    if (std::abs(error - own) > kMaxErrorPx) continue;
+    matrices[edge.frame] += edge.normal * edge.normal.transpose();
+    rhs[edge.frame] -= error * edge.normal;
+  }
+  for (size_t frame = 0; frame < frame_count; ++frame) {
+    const Eigen::Matrix2d inverse = matrices[frame].inverse();
+    result.of_frames_px[frame] = inverse * rhs[frame];
+    result.frame_sigmas_px[frame] = kEdgeSigmaPx * inverse.diagonal().cwiseSqrt();
+  }
+}
+
 }  // namespace
 
 ColorShift EstimateColorShift(const std::vector<StripEdge>& edges, int frame_count) {
-  ColorShift result;
   const Unknowns together = EstimateTogether(edges);
+  ColorShift result;
   result.shift_px = together.head<2>();
   result.of_frames_px.assign(frame_count, Vec2::Zero());
-  const double weight = std::pow(kEdgeSigmaPx / kFrameShiftPx, 2);
-  for (int round = 0; round < 2; ++round) {
-    std::vector<Eigen::Matrix2d> matrices(frame_count, weight * Eigen::Matrix2d::Identity());
-    std::vector<Vec2> rhs(frame_count, Vec2::Zero());
-    for (const StripEdge& edge : edges) {
-      const double error = edge.beyond_px - Row(edge).dot(together);
-      if (std::abs(error + edge.normal.dot(result.of_frames_px[edge.frame])) > kMaxErrorPx)
-        continue;
-      matrices[edge.frame] += edge.normal * edge.normal.transpose();
-      rhs[edge.frame] -= error * edge.normal;
-    }
-    result.frame_sigmas_px.clear();
-    for (int frame = 0; frame < frame_count; ++frame) {
-      const Eigen::Matrix2d inverse = matrices[frame].inverse();
-      result.of_frames_px[frame] = inverse * rhs[frame];
-      result.frame_sigmas_px.emplace_back(kEdgeSigmaPx * inverse.diagonal().cwiseSqrt());
-    }
-  }
+  result.frame_sigmas_px.assign(frame_count, Vec2::Zero());
+  for (int round = 0; round < 2; ++round) EstimateEach(edges, together, result);
   return result;
 }
 
