@@ -12,7 +12,7 @@ constexpr double kFrameShiftPx = 0.5;  // likewise, from frame to frame
 constexpr double kFatteningPx = 2;     // that is expected of block matching
 constexpr double kFatteningSigmaPx = 1;
 constexpr double kEdgeSigmaPx = 2;      // more than it scatters, for neighbours err alike
-constexpr double kCommonErrorPx = 0.2;  // of all edges: shading moves strips beside the axis
+constexpr double kCommonErrorPx = 0.2;  // of all edges, as by light from one side
 constexpr double kMaxErrorPx = 2;
 constexpr int kRounds = 4;
 

@@ -14,6 +14,7 @@
 #include "fusion/registration/pose_correction.h"
 #include "fusion/registration/trajectory_anchor.h"
 #include "kernel/quantile.h"
+#include "kernel/rigid_motion.h"
 
 namespace curvefusion {
 
@@ -168,10 +169,7 @@ RigidTransform Anchor(const std::vector<RigidTransform>& T_world_given,
 
 // An image that lies beside its place looks like a camera that is turned.
 RigidTransform TurnLike(const Vec2& shift_px, const PinholeCamera& camera) {
-  SmallMotion turn = SmallMotion::Zero();
-  turn[3] = shift_px.y() / camera.fy;
-  turn[4] = -shift_px.x() / camera.fx;
-  return RigidTransformOf(turn);
+  return RigidMotion({shift_px.y() / camera.fy, -shift_px.x() / camera.fx, 0}, Vec3::Zero());
 }
 
 // Why an adjustment is not to be believed; empty where it is.
