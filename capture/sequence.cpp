@@ -3,17 +3,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "capture/detect_format.h"
 #include "capture/image_file.h"
 #include "capture/image_survey.h"
 #include "kernel/error.h"
+#include "kernel/quantile.h"
 
 namespace curvefusion {
 
 namespace {
 
-constexpr int kDepthScaleFrames = 3;  // looked at when opening
+constexpr int kDepthScaleFrames = 3;             // looked at when opening
+constexpr double kVideoStep = 20 * kMillimetre;  // cameras in hands move less from frame to frame
 
 void RequireSize(const Sequence& sequence, const std::filesystem::path& path, int width, int height,
                  const PinholeCamera& camera) {
@@ -45,6 +48,16 @@ Sequence OpenSequence(const std::filesystem::path& folder) {
   RequirePlausibleDepth(sequence, throw_errors);
   sequence.warnings = std::move(warnings);
   return sequence;
+}
+
+bool IsVideo(const Sequence& sequence) {
+  std::vector<double> steps;
+  for (size_t i = 1; i < sequence.frames.size(); ++i) {
+    steps.push_back((sequence.frames[i].T_world_camera.translation() -
+                     sequence.frames[i - 1].T_world_camera.translation())
+                        .norm());
+  }
+  return !steps.empty() && Quantile(std::move(steps), 0.75) < kVideoStep;
 }
 
 DepthImage LoadDepth(const Sequence& sequence, int frame) {

@@ -42,6 +42,10 @@ struct Sequence {
 /// that would spoil a reconstruction; capture/check.h finds all of them. Well under a second.
 Sequence OpenSequence(const std::filesystem::path& folder);
 
+/// Whether three quarters of the frames are as near to the next as those of a camera in a moving
+/// hand; otherwise they are views each of its own.
+bool IsVideo(const Sequence& sequence);
+
 /// Decodes one depth image to metres. Thread-safe. Throws Error(kBadInput) for a missing,
 /// truncated, 8-bit or wrongly sized image.
 DepthImage LoadDepth(const Sequence& sequence, int frame);

@@ -69,6 +69,7 @@ SegmentedScan SegmentBundles(const Sequence& sequence, const TsdfVolume& volume,
   run.colours = model.colours;
   run.magnification = Magnification(model.row_spacing, run.options.resolved_spacing);
   run.log.Count("segmentation", "row spacing, mm", model.row_spacing / kMillimetre);
+  run.log.Count("segmentation", "frame stride", model.frame_stride);
   const auto ranges =
       SplitIntoBundles(sequence.frame_count(), run.options.segmentation.bundle.frames);
   // About as many each time, so that no bundle is left to itself in the end.

@@ -39,6 +39,7 @@ PipelineOptions BestOptions() {
   options.segmentation.openness.stride = 5;
   options.segmentation.gate.frames = 10;
   options.segmentation.max_row_spacing = 0.013;
+  options.segmentation.max_frame_points = 19000;
   UseWorkableReading(options.segmentation.difference);
   options.segmentation.difference.silhouette_margin_px = 6;
   options.segmentation.difference.min_neighbours = 8;

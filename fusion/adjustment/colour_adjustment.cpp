@@ -35,7 +35,6 @@ constexpr std::array<AdjustmentRound, 6> kRounds = {{{14, 4, true, true},
                                                      {4, 0.4, false, false},
                                                      {4, 0.4, false, false}}};
 constexpr double kCornerAngle = 1.0;             // the same as for smoothing
-constexpr double kVideoStep = 20 * kMillimetre;  // cameras in hands move less from frame to frame
 constexpr int kMinStrips = 300;
 constexpr double kMinAcceptedShare = 0.1;
 // Curves that fit come to .1; more is a wire taken for the next.
@@ -45,16 +44,6 @@ constexpr double kMinGain = 0.8;  // of the residual
 constexpr double kPlaceSigma = 0.2 * kMillimetre;
 constexpr double kRollSigma = 0.0003;
 constexpr double kShiftSigmaPx = 0.15;  // of a colour image's shift, however many edges it has
-
-// Whether three quarters of the frames are as near to the next as those of a video.
-bool IsVideo(const std::vector<RigidTransform>& poses) {
-  std::vector<double> steps;
-  for (size_t i = 1; i < poses.size(); ++i) {
-    steps.push_back((poses[i].translation() - poses[i - 1].translation()).norm());
-  }
-  if (steps.empty()) return false;
-  return Quantile(std::move(steps), 0.75) < kVideoStep;
-}
 
 std::vector<int> ChooseFrames(int frame_count, int stride) {
   std::vector<int> indices;
@@ -224,7 +213,7 @@ ColourAdjustment AdjustToColours(const SkeletonGraph& skeleton, const Sequence& 
     result.skipped = "there are no curves of known radius";
     return result;
   }
-  const bool is_video = IsVideo(T_world_given);
+  const bool is_video = IsVideo(sequence);
   ColourFrames frames = LoadColourFrames(
       sequence, ChooseFrames(sequence.frame_count(), is_video ? options.frame_stride : 1));
   CurvePoseProblem problem = MakeProblem(sequence, curves, frames.indices, T_world_given, is_video);

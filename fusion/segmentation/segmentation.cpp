@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <numeric>
+#include <span>
 #include <vector>
 
 #include "fusion/segmentation/sheet_stripes.h"
 #include "kernel/parallel.h"
+#include "kernel/voxel_grid.h"
 
 namespace curvefusion {
 
@@ -14,12 +16,14 @@ namespace {
 // From so many frames it is told whether depth shows a background.
 constexpr int kBackgroundFrames = 10;
 // Frames segmented at the same time: enough to keep the cores busy, few enough to bound memory.
-constexpr int kFramesAtOnce = 8;
+constexpr size_t kFramesAtOnce = 8;
 // Of floating sheets: rows of wires have stripes on more of their area.
 constexpr double kMinStripedShare = 0.7;
 // Pixels: the outermost wires of a close row, and what block matching fattens them by, lie so far
 // beyond what the volume shows of it.
 constexpr int kCloseRowMargin = 16;
+// Where frames show very many points.
+constexpr int kCrowdedStride = 2;
 
 struct SegmentedFrame {
   WireCandidates candidates;
@@ -85,6 +89,10 @@ std::vector<int> FramesToLearnFrom(const Sequence& sequence, int count) {
   return frames;
 }
 
+double Mean(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
 // Of all pixels of the depth images.
 double MeasuredShare(const Sequence& sequence, const std::vector<int>& frames) {
   std::vector<double> shares(frames.size());
@@ -94,7 +102,7 @@ double MeasuredShare(const Sequence& sequence, const std::vector<int>& frames) {
         std::count_if(depth.data(), depth.data() + depth.size(), [](float z) { return z > 0; });
     shares[i] = static_cast<double>(measured) / static_cast<double>(depth.size());
   });
-  return std::accumulate(shares.begin(), shares.end(), 0.0) / static_cast<double>(shares.size());
+  return Mean(shares);
 }
 
 std::vector<WireCandidates> CandidatesOf(const Sequence& sequence, const std::vector<int>& frames,
@@ -120,6 +128,26 @@ SheetGrid FindSheets(const Sequence& sequence, const std::vector<int>& frames,
   }
   sheets.Pool();
   return sheets;
+}
+
+// Of the voxels of bundles those that a frame sees, on average. `candidates` are gated.
+double PointsPerFrame(const Sequence& sequence, const WireColours& colours,
+                      const SegmentationOptions& options, std::vector<WireCandidates>& candidates) {
+  std::vector<double> points(candidates.size());
+  ParallelFor(0, static_cast<int64_t>(candidates.size()), 1, [&](int64_t i) {
+    WireCandidates& frame = candidates[i];
+    GateByColour(colours, sequence, options.gate, frame);
+    VoxelNumbers voxels;
+    for (int v = 0; v < frame.mask.height(); ++v) {
+      for (int u = 0; u < frame.mask.width(); ++u) {
+        if (!frame.mask(u, v)) continue;
+        const Vec3 p_camera = sequence.depth_camera.Unproject(u, v, frame.depth(u, v));
+        voxels.Number(VoxelOf(p_camera, options.bundle.voxel_size));
+      }
+    }
+    points[i] = voxels.size();
+  });
+  return Mean(points);
 }
 
 void SetRowMargin(int margin, std::vector<WireCandidates>& candidates) {
@@ -165,6 +193,11 @@ void VisitOptions(SegmentationOptions& options, OptionVisitor& visitor) {
                  "Deviation: surfaces that float in space and have straight stripes of wire colour "
                  "no farther apart than this are rows of wires; 0 = not asked."},
                 options.max_row_spacing);
+  visitor.Visit(
+      {"max_frame_points", "points", 0, 1000000,
+       "Deviation: where the frames of a video show more points of wires than this, on "
+       "average, every second is left out: its neighbours see the same wires. 0 = never."},
+      options.max_frame_points);
   visitor.BeginSection("bundle");
   VisitOptions(options.bundle, visitor);
   visitor.BeginSection("ghosts");
@@ -194,6 +227,10 @@ SegmentationModel LearnSegmentation(const Sequence& sequence, const TsdfVolume& 
     candidates = CandidatesOf(sequence, frames, volume, model, options);
   }
   model.colours = LearnWireColours(candidates, sequence, options.gate);
+  if (options.max_frame_points > 0 && IsVideo(sequence) &&
+      PointsPerFrame(sequence, model.colours, options, candidates) > options.max_frame_points) {
+    model.frame_stride = kCrowdedStride;
+  }
   return model;
 }
 
@@ -202,24 +239,31 @@ SegmentedBundle SegmentBundle(const Sequence& sequence, int first, int last,
                               const SegmentationOptions& options) {
   SegmentedBundle segmented;
   segmented.T_world_bundle = sequence.frames[first].T_world_camera;
-  BundleDifferenceSet difference_set(options.bundle);
+  BundleOptions bundle = options.bundle;
+  bundle.min_frames = (bundle.min_frames + model.frame_stride - 1) / model.frame_stride;
+  BundleDifferenceSet difference_set(bundle);
+  std::vector<int> frames;
+  for (int frame = first; frame < last; frame += model.frame_stride) frames.push_back(frame);
   std::vector<SegmentedFrame> window(kFramesAtOnce);
-  for (int start = first; start < last; start += kFramesAtOnce) {
-    const int end = std::min(start + kFramesAtOnce, last);
-    ParallelFor(start, end, 1, [&](int64_t frame) {
-      window[frame - start] =
-          SegmentFrame(sequence, static_cast<int>(frame), volume, model, options);
+  for (size_t start = 0; start < frames.size(); start += kFramesAtOnce) {
+    const std::span at_once =
+        std::span(frames).subspan(start, std::min(kFramesAtOnce, frames.size() - start));
+    ParallelFor(0, static_cast<int64_t>(at_once.size()), 1, [&](int64_t i) {
+      window[i] = SegmentFrame(sequence, at_once[i], volume, model, options);
     });
-    for (int frame = start; frame < end; ++frame) {
-      const SegmentedFrame& current = window[frame - start];
+    for (size_t i = 0; i < at_once.size(); ++i) {
+      const auto& [candidates, on_edge] = window[i];
       difference_set.AddFrame(
-          current.candidates.mask, current.on_edge, current.candidates.depth, sequence.depth_camera,
-          segmented.T_world_bundle.inverse() * sequence.frames[frame].T_world_camera);
+          candidates.mask, on_edge, candidates.depth, sequence.depth_camera,
+          segmented.T_world_bundle.inverse() * sequence.frames[at_once[i]].T_world_camera);
     }
   }
   BundlePoints candidates = difference_set.Points();
   BundlePoints remaining = RemoveGhosts(candidates, options.ghosts);
-  segmented.frames = difference_set.FramePoints(remaining.voxels);
+  std::vector<ObservedPoints> seen = difference_set.FramePoints(remaining.voxels);
+  segmented.frames.resize(last - first);
+  for (size_t i = 0; i < frames.size(); ++i)
+    segmented.frames[frames[i] - first] = std::move(seen[i]);
   segmented.difference_set = std::move(candidates.points);
   segmented.points = std::move(remaining.points);
   return segmented;

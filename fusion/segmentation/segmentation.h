@@ -25,6 +25,7 @@ struct SegmentationOptions {
   double min_measured_share = 0;
   ColourGateOptions gate;
   double max_row_spacing = 0;
+  int max_frame_points = 0;
   ColourEdgeOptions edges;
   BundleOptions bundle;
   GhostRemovalOptions ghosts;
@@ -33,6 +34,7 @@ void VisitOptions(SegmentationOptions& options, OptionVisitor& visitor);
 
 /// What has to be known of a whole sequence before its bundles are segmented.
 struct SegmentationModel {
+  int frame_stride = 1;                ///< every so many-th frame is segmented
   bool is_background_measured = true;  ///< otherwise it is out of range, or cut off
   OpennessGrid openness{OpennessOptions{}};
   SheetGrid sheets;         ///< rows of wires that depth shows as surfaces

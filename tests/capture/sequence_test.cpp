@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "kernel/error.h"
@@ -180,6 +181,23 @@ TEST_F(SequenceTest, OpeningFailsWhereAReconstructionWould) {
 }
 
 // Figures from the data's README.
+TEST(IsVideo, TellsAMovingCameraFromViewsFarApart) {
+  const auto is_video = [](int frames, double step, int jumps) {
+    Sequence sequence;
+    sequence.frames.resize(frames);
+    for (int i = 0; i < frames; ++i) {
+      const double x = i * step + std::min(i, jumps) * 0.5;  // the first steps are longer
+      sequence.frames[i].T_world_camera = RigidTransform(Eigen::Translation3d(x, 0, 0));
+    }
+    return IsVideo(sequence);
+  };
+  EXPECT_TRUE(is_video(20, 0.015, 0));
+  EXPECT_TRUE(is_video(20, 0.015, 4));
+  EXPECT_FALSE(is_video(20, 0.015, 10));
+  EXPECT_FALSE(is_video(20, 0.025, 0));
+  EXPECT_FALSE(is_video(1, 0, 0));
+}
+
 TEST(RealSequence, Cable) {
   const auto path = SharedData("real/cable_d435i");
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";

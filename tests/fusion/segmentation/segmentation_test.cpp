@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <opencv2/imgcodecs.hpp>
+#include <string>
 
 #include "tests/fusion/wire_images.h"
 #include "tests/temporary_path.h"
@@ -34,14 +35,37 @@ class WireBefore {
   WireBefore(const WireBefore&) = delete;
   WireBefore& operator=(const WireBefore&) = delete;
 
+  // The camera moves by so much from each frame to the next, metres.
+  void Spread(double step) {
+    for (int i = 0; i < 10; ++i) {
+      sequence_.frames[i].T_world_camera.translation() = Vec3(0, i * step, 0);
+    }
+  }
+
   // Against a volume in which nothing has been integrated.
-  size_t PointsFound(double min_measured_share) const {
-    SegmentationOptions options;
+  SegmentedBundle Segment(SegmentationOptions options) const {
     options.difference.accept_where_nothing_rendered = false;
-    options.min_measured_share = min_measured_share;
     const TsdfVolume volume{TsdfOptions{}};
     const SegmentationModel model = LearnSegmentation(sequence_, volume, options);
-    return SegmentBundle(sequence_, 0, 10, volume, model, options).difference_set.size();
+    return SegmentBundle(sequence_, 0, 10, volume, model, options);
+  }
+
+  size_t PointsFound(double min_measured_share) const {
+    SegmentationOptions options;
+    options.min_measured_share = min_measured_share;
+    return Segment(options).difference_set.size();
+  }
+
+  // Which frames see points of wires, 1 or 0 a frame, where so many are enough.
+  std::string FramesThatSee(int max_frame_points, int min_frames = 1) const {
+    SegmentationOptions options;
+    options.min_measured_share = 0.5;
+    options.gate.frames = 2;
+    options.max_frame_points = max_frame_points;
+    options.bundle.min_frames = min_frames;
+    std::string seen;
+    for (const ObservedPoints& frame : Segment(options).frames) seen += frame.empty() ? '0' : '1';
+    return seen;
   }
 
  private:
@@ -58,6 +82,25 @@ TEST(Segmentation, WiresBeforeABackgroundOutOfRangeAreFound) {
 // Where nothing is rendered before a background that was measured, the surface is just not known.
 TEST(Segmentation, WhereABackgroundIsMeasuredItIsToBeRendered) {
   EXPECT_EQ(WireBefore(1).PointsFound(0.5), 0u);
+}
+
+// The wire covers 7 x 120 pixels of 1 mm, about 50 x 3 voxels of 2.5 mm.
+TEST(Segmentation, CrowdedFramesOfAVideoAreThinned) {
+  const WireBefore scan(0);
+  EXPECT_EQ(scan.FramesThatSee(50), "1010101010");
+  EXPECT_EQ(scan.FramesThatSee(500), "1111111111");
+  EXPECT_EQ(scan.FramesThatSee(0), "1111111111");
+}
+
+TEST(Segmentation, ViewsFarApartAreNeverThinned) {
+  WireBefore scan(0);
+  scan.Spread(0.03);
+  EXPECT_EQ(scan.FramesThatSee(50), "1111111111");
+}
+
+// What ten frames would have seen ten times, five see five times.
+TEST(Segmentation, ThinnedFramesNeedNotSeeAPointAsOften) {
+  EXPECT_EQ(WireBefore(0).FramesThatSee(50, 10), "1010101010");
 }
 
 }  // namespace
