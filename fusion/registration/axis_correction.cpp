@@ -8,6 +8,8 @@ namespace curvefusion {
 namespace {
 
 constexpr int64_t kPointsPerChunk = 256;
+// Within this distance, metres, nearly all points have their curve.
+constexpr double kUsualDistance = 0.01;
 
 Polyline PointsWithRadii(const SkeletonGraph& skeleton) {
   Polyline points;
@@ -21,7 +23,11 @@ Polyline PointsWithRadii(const SkeletonGraph& skeleton) {
 }  // namespace
 
 AxisCorrection::AxisCorrection(const SkeletonGraph& skeleton, double axis_depth)
-    : curve_points_(PointsWithRadii(skeleton)) {
+    : AxisCorrection(skeleton, axis_depth, PointsWithRadii(skeleton)) {}
+
+AxisCorrection::AxisCorrection(const SkeletonGraph& skeleton, double axis_depth,
+                               const Polyline& curve_points)
+    : near_(curve_points, kUsualDistance), all_(curve_points) {
   for (const EdgeId id : skeleton.Edges()) {
     for (const double radius : skeleton.edge(id).radii) distances_.push_back(axis_depth * radius);
   }
@@ -31,7 +37,9 @@ ObservedPoints AxisCorrection::Apply(const ObservedPoints& points) const {
   if (distances_.empty()) return points;
   std::vector<double> distances(points.size());
   ParallelFor(0, static_cast<int64_t>(points.size()), kPointsPerChunk, [&](int64_t i) {
-    distances[i] = distances_[curve_points_.Nearest(points.positions[i])];
+    int nearest = near_.Nearest(points.positions[i], kUsualDistance);
+    if (nearest < 0) nearest = all_.Nearest(points.positions[i]);
+    distances[i] = distances_[nearest];
   });
   return ShiftAlongRays(points, distances);
 }

@@ -4,6 +4,7 @@
 
 #include "graph/skeleton_graph.h"
 #include "kernel/observed_points.h"
+#include "kernel/point_grid.h"
 #include "kernel/spatial_search.h"
 
 namespace curvefusion {
@@ -21,8 +22,11 @@ class AxisCorrection {
   ObservedPoints Apply(const ObservedPoints& points) const;
 
  private:
+  AxisCorrection(const SkeletonGraph& skeleton, double axis_depth, const Polyline& curve_points);
+
   std::vector<double> distances_;  ///< by which points of the curves say to move, metres
-  PointIndex curve_points_;
+  PointGrid near_;                 ///< points of the curves, for points that are near one
+  PointIndex all_;                 ///< the same, for the few that are not
 };
 
 }  // namespace curvefusion

@@ -19,11 +19,13 @@ TEST(AxisCorrection, MovesAlongTheRayByTheRadiusOfTheNearestCurve) {
   ObservedPoints points;
   points.Add({0, 0.001, -0.001}, Vec3::UnitZ(), 1);
   points.Add({0.1, 0.051, -0.005}, Vec3::UnitZ(), 1);
-  points.Add({0, 0, 0}, Vec3::Zero(), 1);  // of which no ray is known
+  points.Add({0, 0, 0}, Vec3::Zero(), 1);      // of which no ray is known
+  points.Add({0, 0.07, 0}, Vec3::UnitZ(), 1);  // far from both
   const ObservedPoints moved = correction.Apply(points);
   EXPECT_TRUE(moved.positions[0].isApprox(Vec3(0, 0.001, 0.0006)));
   EXPECT_TRUE(moved.positions[1].isApprox(Vec3(0.1, 0.051, -0.0002)));
   EXPECT_TRUE(moved.positions[2].isZero());
+  EXPECT_TRUE(moved.positions[3].isApprox(Vec3(0, 0.07, 0.0048)));
 }
 
 TEST(AxisCorrection, CurvesWithoutRadiiMoveNothing) {
