@@ -47,6 +47,7 @@ PipelineOptions BestOptions() {
   options.segmentation.bundle.min_frames = 3;
   options.segmentation.edges.tolerance_px = 2;
   options.segmentation.ghosts.verified_outline = 0.35;
+  options.segmentation.ghosts.isolated_outline = 0.7;
   options.carry_points = true;
   options.registration.max_points = 700;
   options.registration.max_iterations = 12;

@@ -13,6 +13,8 @@ namespace {
 using Cluster = std::vector<int>;  // indices of points
 // What is searched first for a neighbour, metres.
 constexpr double kSearchRadius = 0.02;
+// Of the largest cluster's points: ghosts that stand alone are smaller.
+constexpr double kLargeShare = 0.05;
 
 // Clusters of at least min_cluster_points, largest first.
 std::vector<Cluster> LargeClusters(const std::vector<Vec3>& points,
@@ -67,9 +69,12 @@ bool IsNear(const std::vector<Vec3>& points, const PointGrid& others, double dis
                      [&](const Vec3& p) { return others.Nearest(p, distance) >= 0; });
 }
 
-// Clusters within isolation_distance of a larger cluster that stays; the largest always stays.
-std::vector<Cluster> WithoutIsolated(const std::vector<Vec3>& points, std::vector<Cluster> clusters,
+// Clusters within isolation_distance of a larger cluster that stays, and large ones that colour
+// verifies all around; the largest always stays.
+std::vector<Cluster> WithoutIsolated(const BundlePoints& bundle, std::vector<Cluster> clusters,
                                      const GhostRemovalOptions& options) {
+  const std::vector<Vec3>& points = bundle.points.positions;
+  const double large = clusters.empty() ? 0 : kLargeShare * clusters.front().size();
   std::vector<Cluster> kept;
   std::vector<PointGrid> kept_points;
   for (Cluster& cluster : clusters) {
@@ -77,7 +82,12 @@ std::vector<Cluster> WithoutIsolated(const std::vector<Vec3>& points, std::vecto
     const auto is_near = [&](const PointGrid& larger) {
       return IsNear(of_cluster, larger, options.isolation_distance);
     };
-    if (!kept.empty() && std::none_of(kept_points.begin(), kept_points.end(), is_near)) continue;
+    const bool stands_alone = static_cast<double>(cluster.size()) >= large &&
+                              VerifiedOutline(bundle, cluster) >= options.isolated_outline;
+    if (!kept.empty() && !stands_alone &&
+        std::none_of(kept_points.begin(), kept_points.end(), is_near)) {
+      continue;
+    }
     kept_points.emplace_back(of_cluster, kSearchRadius);
     kept.push_back(std::move(cluster));
   }
@@ -100,6 +110,11 @@ void VisitOptions(GhostRemovalOptions& options, OptionVisitor& visitor) {
                  "Clusters farther than this from every larger one are ghosts. CurveFusion 3.1, "
                  "read as said in ghost_removal.h."},
                 options.isolation_distance);
+  visitor.Visit({"isolated_outline", "", 0, 2,
+                 "Deviation: large clusters are no ghosts, however far away, where so much of "
+                 "their outline lies on colour edges: they are parts of one object, between which "
+                 "wires have no depth. More than 1 = never."},
+                options.isolated_outline);
   visitor.Visit(
       {"verified_share", "", 0, 1,
        "Clusters with a smaller share of points on colour edges are ghosts. CurveFusion 3.1."},
@@ -118,7 +133,7 @@ BundlePoints RemoveGhosts(const BundlePoints& bundle, const GhostRemovalOptions&
   };
   clusters.erase(std::remove_if(clusters.begin(), clusters.end(), unverified), clusters.end());
   std::vector<int> kept;
-  for (const Cluster& cluster : WithoutIsolated(positions, std::move(clusters), options)) {
+  for (const Cluster& cluster : WithoutIsolated(bundle, std::move(clusters), options)) {
     kept.insert(kept.end(), cluster.begin(), cluster.end());
   }
   std::sort(kept.begin(), kept.end());

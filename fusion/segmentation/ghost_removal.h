@@ -12,6 +12,7 @@ struct GhostRemovalOptions {
   int core_points = 4;
   int min_cluster_points = 10;
   double isolation_distance = 0.1;
+  double isolated_outline = 2;
   double verified_share = 0.2;
   double verified_outline = 0;
 };

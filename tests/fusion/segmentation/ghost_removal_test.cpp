@@ -39,6 +39,18 @@ TEST(RemoveGhosts, DropsIsolatedClustersButNotTheLargest) {
   for (const Vec3& p : points.positions) EXPECT_GE(p.y(), 0.5);
 }
 
+TEST(RemoveGhosts, KeepsFarPartsThatAreLargeAndVerifiedAllAround) {
+  BundlePoints bundle;
+  AddLine(bundle, {0, 0, 1}, 1000, 1);
+  AddLine(bundle, {0, 0.5, 1}, 50, 1);
+  AddLine(bundle, {0, 1, 1}, 49, 1);    // small
+  AddLine(bundle, {0, 1.5, 1}, 50, 2);  // half verified
+  EXPECT_EQ(RemoveGhosts(bundle, {}).points.size(), 1000u);
+  GhostRemovalOptions options;
+  options.isolated_outline = 0.7;
+  EXPECT_EQ(RemoveGhosts(bundle, options).points.size(), 1050u);
+}
+
 TEST(RemoveGhosts, DropsWhatColourDoesNotVerify) {
   BundlePoints bundle;
   AddLine(bundle, {0, 0, 1}, 100, 4);      // 25 % on edges
