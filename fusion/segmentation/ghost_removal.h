@@ -22,7 +22,9 @@ void VisitOptions(GhostRemovalOptions& options, OptionVisitor& visitor);
 ///
 /// The paper drops clusters "more than 10 cm away from any other cluster". Read literally that
 /// deletes an object that is alone because the segmentation was clean, so isolation is measured to
-/// larger clusters only: the largest one always stays.
+/// larger clusters only: the largest one always stays, and so do parts of the same object between
+/// which wires have no depth, clusters of at least a twentieth of the largest one's points of whose
+/// outline `isolated_outline` lies on colour edges.
 BundlePoints RemoveGhosts(const BundlePoints& bundle, const GhostRemovalOptions& options);
 
 }  // namespace curvefusion

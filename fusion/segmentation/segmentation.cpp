@@ -239,6 +239,7 @@ SegmentedBundle SegmentBundle(const Sequence& sequence, int first, int last,
                               const SegmentationOptions& options) {
   SegmentedBundle segmented;
   segmented.T_world_bundle = sequence.frames[first].T_world_camera;
+  // A point is seen in so many times fewer frames.
   BundleOptions bundle = options.bundle;
   bundle.min_frames = (bundle.min_frames + model.frame_stride - 1) / model.frame_stride;
   BundleDifferenceSet difference_set(bundle);

@@ -52,7 +52,8 @@ SegmentationModel LearnSegmentation(const Sequence& sequence, const TsdfVolume& 
 struct SegmentedBundle {
   ObservedPoints difference_set;  ///< before ghosts were removed, in the frame of the first camera
   ObservedPoints points;          ///< after, likewise
-  std::vector<ObservedPoints> frames;  ///< what each frame saw of `points`, likewise
+  std::vector<ObservedPoints> frames;  ///< what each frame saw of `points`, likewise; nothing where
+                                       ///< it was left out
   RigidTransform T_world_bundle;       ///< pose of the first camera
 };
 
