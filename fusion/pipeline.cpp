@@ -231,6 +231,7 @@ ObservedPoints LargestBundle(const SegmentedScan& scan) {
 void ContractCarriedPoints(SegmentedScan scan, RunContext& run, Reconstruction& result) {
   run.ray_noise_ratio = RayNoiseRatio(LargestBundle(scan), run.options.min_linearity);
   const RegisteredBundles bundles = RegisterBundles(scan, run);
+  scan.bundles.clear();
   SkeletonGraph first = Contract(bundles.points, bundles.ridge, "registered_bundles", run);
   AssignRadii(MeasureRadii(first, result.sequence, run), run.options.radius, first);
   if (run.ray_noise_ratio > 1) {
