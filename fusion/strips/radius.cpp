@@ -23,6 +23,7 @@ namespace {
 constexpr double kNeighbourStep = 0.002;  // metres, between points of strands kept clear of
 constexpr double kMaxClearancePx = 40;    // a strip and its background fit in
 constexpr double kBorderPx = 8;           // samples nearer to the image border are left out
+constexpr double kCrossingPx = 8;         // farther along a wire a strand may cross it
 constexpr double kAgreement = 0.25;       // strips this near to the mode count, relative
 constexpr int kMinOwnStrips = 20;         // to tell that a piece of a wire is thicker or thinner
 constexpr double kAlikeStrips = 3;        // so many strips err together
@@ -49,6 +50,53 @@ std::vector<StripWidth> MeasureBoxes(const ColorImage& image, int frame,
     if (diameter <= 0 || diameter > options.max_diameter) continue;
     widths.push_back({sample.edge, sample.arc_length, frame, diameter});
   }
+  return widths;
+}
+
+// Calls visit(frame, projected samples) for each of the frames.
+template <class Visit>
+void ForEachProjection(const std::vector<CurveSample>& samples, const SkeletonGraph& skeleton,
+                       const Sequence& sequence, const std::vector<int>& frames,
+                       const StripSight& sight, const Visit& visit) {
+  const std::vector<CurveSample> neighbours = SampleStrips(skeleton, kNeighbourStep);
+  ForEachFrame(sequence, frames, {.depth = false, .color = true}, [&](const DecodedFrame& frame) {
+    const RigidTransform T_camera_world =
+        sequence.T_color_depth * sequence.frames[frame.index].T_world_camera.inverse();
+    visit(frame, ProjectSamples(samples, neighbours, sequence.color_camera, T_camera_world,
+                                kBorderPx, kMaxClearancePx, sight));
+  });
+}
+
+// Strips with no other strand near by; of wires that have few of those the ones with none beside:
+// strands that cross the wire a little farther on leave most of its background as it is.
+std::vector<StripWidth> MeasureStrips(const SkeletonGraph& skeleton, const Sequence& sequence,
+                                      const std::vector<int>& frames,
+                                      const RadiusOptions& options) {
+  std::vector<CurveSample> samples = SampleStrips(skeleton, options.sample_step);
+  std::vector<FoundStrip> found;
+  const auto find = [&](const DecodedFrame& frame, const auto& projected) {
+    Append(FindStrips(frame.color, frame.index, projected, options), found);
+  };
+  ForEachProjection(samples, skeleton, sequence, frames, {}, find);
+  std::vector<StripWidth> widths = SolveStripWidths(found, options);
+
+  const std::map<EdgeId, int> wires = WiresOfEdges(skeleton);
+  std::map<int, int> strips_of_wire;
+  for (const StripWidth& strip : widths) ++strips_of_wire[wires.at(strip.edge)];
+  const auto is_measured = [&](const auto& place) {
+    const auto strips = strips_of_wire.find(wires.at(place.edge));
+    return strips != strips_of_wire.end() && strips->second >= options.min_strips;
+  };
+  std::erase_if(samples, is_measured);
+  if (samples.empty()) return widths;
+  std::erase_if(found, [&](const FoundStrip& strip) { return !is_measured(strip.sample); });
+  StripSight between_crossings;
+  between_crossings.max_along_px = kCrossingPx;
+  ForEachProjection(samples, skeleton, sequence, frames, between_crossings, find);
+  std::vector<StripWidth> crowded = SolveStripWidths(std::move(found), options);
+  std::erase_if(crowded, is_measured);
+  std::erase_if(widths, [&](const StripWidth& strip) { return !is_measured(strip); });
+  Append(std::move(crowded), widths);
   return widths;
 }
 
@@ -194,24 +242,17 @@ std::vector<double> InterpolatedRadii(const Polyline& points, const std::vector<
 RadiusEstimate EstimateRadius(const SkeletonGraph& skeleton, const Sequence& sequence,
                               const std::vector<int>& frames, const RadiusOptions& options) {
   RadiusEstimate estimate;
-  const std::vector<CurveSample> samples = SampleStrips(skeleton, options.sample_step);
-  const std::vector<CurveSample> neighbours = SampleStrips(skeleton, kNeighbourStep);
-  std::vector<FoundStrip> found;
-  ForEachFrame(
-      sequence, EvenlyThinned(frames, options.max_frames), {false, true},
-      [&](const DecodedFrame& frame) {
-        const RigidTransform T_camera_world =
-            sequence.T_color_depth * sequence.frames[frame.index].T_world_camera.inverse();
-        const auto projected = ProjectSamples(samples, neighbours, sequence.color_camera,
-                                              T_camera_world, kBorderPx, kMaxClearancePx);
-        if (options.strip_model) {
-          Append(FindStrips(frame.color, frame.index, projected, options), found);
-        } else {
+  const std::vector<int> chosen = EvenlyThinned(frames, options.max_frames);
+  if (options.strip_model) {
+    estimate.strips = MeasureStrips(skeleton, sequence, chosen, options);
+  } else {
+    ForEachProjection(
+        SampleStrips(skeleton, options.sample_step), skeleton, sequence, chosen, {},
+        [&](const DecodedFrame& frame, const auto& projected) {
           Append(MeasureBoxes(frame.color, frame.index, projected, sequence.color_camera, options),
                  estimate.strips);
-        }
-      });
-  if (options.strip_model) estimate.strips = SolveStripWidths(std::move(found), options);
+        });
+  }
   Summarize(skeleton, options, estimate);
   return estimate;
 }

@@ -63,7 +63,7 @@ struct RadiusEstimate {
   /// gauge, for thin wires stand close together and hide one another; else the global one.
   double unmeasured_radius = 0;
   std::vector<EdgeRadius> edges;   ///< one per edge, ascending
-  std::vector<StripWidth> strips;  ///< every accepted strip, by frame, edge and arc length
+  std::vector<StripWidth> strips;  ///< every accepted strip
 };
 
 /// Measures the width of the wires' strips in the colour images: sample points of the skeleton
@@ -74,7 +74,8 @@ struct RadiusEstimate {
 /// where that clearly differs, its own, drawn to the gauge of the wires like it. With
 /// options.along_edge an edge is cut into stretches of 30 mm, and where their diameters differ by
 /// 30 % and more than their errors explain, its radius varies. Places where another strand of the
-/// skeleton lies within 1.5 widths are left out. Throws Error(kBadInput) for images that cannot be
+/// skeleton lies within 1.5 widths are left out; wires that are hardly anywhere free of others are
+/// measured between those that cross them. Throws Error(kBadInput) for images that cannot be
 /// decoded. Cost: 10 ms a frame for 3 m of wire.
 RadiusEstimate EstimateRadius(const SkeletonGraph& skeleton, const Sequence& sequence,
                               const std::vector<int>& frames, const RadiusOptions& options);

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "capture/trajectory.h"
+#include "graph/intersections.h"
 #include "kernel/parallel.h"
 #include "tests/fusion/wire_images.h"
 #include "tests/test_data.h"
@@ -127,6 +128,30 @@ TEST_F(RadiusTest, ANeighbourInTheBackgroundDoesNotMatter) {
   WriteFrames(sequence, wires);
   const RadiusEstimate estimate = EstimateRadius(skeleton, sequence, AllFrames(), {});
   EXPECT_NEAR(2 * estimate.edges[1].radius, 0.005, 0.03 * 0.005);  // 4 % less with all strips
+}
+
+TEST_F(RadiusTest, WiresOfANarrowGridAreMeasuredBetweenTheirCrossings) {
+  // Thick wires cross three thin ones every 25 mm, 17 to 19 pixels: in all directions no place of a
+  // thin wire is 10 pixels from them, which a strip takes to be free.
+  const Rgb color{60, 160, 70};
+  std::vector<RenderedWire> wires;
+  for (const int i : {-1, 0, 1}) {
+    wires.push_back({{-0.11, 0.06 * i, 0.7}, {0.11, 0.06 * i, 0.7}, 0.004, color});
+  }
+  for (int i = -4; i <= 4; ++i) {
+    wires.push_back({{0.025 * i, -0.07, 0.7}, {0.025 * i, 0.07, 0.7}, 0.008, color});
+  }
+  SkeletonGraph skeleton;
+  for (const RenderedWire& wire : wires) skeleton.AddPolyline({wire.front, wire.back});
+  ResolveIntersections(skeleton, 0.001);
+  const Sequence sequence = MakeSequence("grid");
+  WriteFrames(sequence, wires);
+  const RadiusEstimate estimate = EstimateRadius(skeleton, sequence, AllFrames(), {});
+  for (const EdgeRadius& measured : estimate.edges) {
+    const Polyline& points = skeleton.edge(measured.edge).points;
+    if (std::abs((points.back() - points.front()).x()) < 0.02) continue;
+    EXPECT_NEAR(2 * measured.radius, 0.004, 0.1 * 0.004);  // 2.7 pixels, in four images
+  }
 }
 
 TEST_F(RadiusTest, ThePaperCountsPixels) {
