@@ -35,6 +35,7 @@ constexpr std::array<AdjustmentRound, 6> kRounds = {{{14, 4, true, true},
                                                      {4, 0.4, false, false},
                                                      {4, 0.4, false, false}}};
 constexpr double kCornerAngle = 1.0;             // the same as for smoothing
+constexpr double kMaxVertices = 5500;            // of all curves, roughly
 constexpr int kMinStrips = 300;
 constexpr double kMinAcceptedShare = 0.1;
 // Curves that fit come to .1; more is a wire taken for the next.
@@ -44,6 +45,12 @@ constexpr double kMinGain = 0.8;  // of the residual
 constexpr double kPlaceSigma = 0.2 * kMillimetre;
 constexpr double kRollSigma = 0.0003;
 constexpr double kShiftSigmaPx = 0.15;  // of a colour image's shift, however many edges it has
+
+// Time grows with the number of vertices; along much wire they are farther apart, which strips
+// tell the same of: each is read along several millimetres.
+double VertexStep(const SkeletonGraph& skeleton, double step) {
+  return std::max(step, skeleton.TotalLength() / kMaxVertices);
+}
 
 std::vector<int> ChooseFrames(int frame_count, int stride) {
   std::vector<int> indices;
@@ -186,7 +193,8 @@ void VisitOptions(ColourAdjustmentOptions& options, OptionVisitor& visitor) {
                  "curves as good as depth."},
                 options.enabled);
   visitor.Visit({"vertex_step", "m", 0.001, 0.02,
-                 "Deviation: distance of the vertices that are moved. Prototype of this stage."},
+                 "Deviation: distance of the vertices that are moved; farther apart where there are "
+                 "more than some 16 m of wire. Prototype of this stage."},
                 options.vertex_step);
   visitor.Visit({"frame_stride", "frames", 1, 30,
                  "Deviation: only every so many-th frame of a video is used, of other views all; "
@@ -206,7 +214,8 @@ ColourAdjustment AdjustToColours(const SkeletonGraph& skeleton, const Sequence& 
   for (const SequenceFrame& frame : sequence.frames) {
     result.T_world_camera.push_back(frame.T_world_camera);
   }
-  const CurveVertices curves = SampleVertices(skeleton, options.vertex_step, kCornerAngle);
+  const double step = VertexStep(skeleton, options.vertex_step);
+  const CurveVertices curves = SampleVertices(skeleton, step, kCornerAngle);
   const bool has_radii = std::all_of(curves.radii.begin(), curves.radii.end(),
                                      [](double radius) { return radius > 0; });
   if (curves.positions.empty() || !has_radii) {
@@ -239,7 +248,7 @@ ColourAdjustment AdjustToColours(const SkeletonGraph& skeleton, const Sequence& 
     for (RigidTransform& pose : poses) pose = T_anchored_world * pose;
     for (Vec3& position : moved.positions) position = T_anchored_world * position;
   }
-  result.skeleton = WithVertices(skeleton, moved, options.vertex_step);
+  result.skeleton = WithVertices(skeleton, moved, step);
   result.T_world_camera = InterpolateCorrections(T_world_given, result.frames, poses);
   for (size_t i = 0; i < poses.size(); ++i) {
     result.T_world_camera[result.frames[i]] =

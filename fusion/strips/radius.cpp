@@ -53,50 +53,64 @@ std::vector<StripWidth> MeasureBoxes(const ColorImage& image, int frame,
   return widths;
 }
 
-// Calls visit(frame, projected samples) for each of the frames.
+// The colour images of some frames, and the curves that are looked for in them.
+struct ColourViews {
+  const Sequence& sequence;
+  std::vector<int> frames;
+  std::vector<ColorImage> images;
+  std::vector<CurveSample> neighbours;
+};
+
+ColourViews LoadViews(const SkeletonGraph& skeleton, const Sequence& sequence,
+                      const std::vector<int>& frames) {
+  ColourViews views{sequence, frames, {}, SampleStrips(skeleton, kNeighbourStep)};
+  ForEachFrame(sequence, frames, {.depth = false, .color = true},
+               [&](const DecodedFrame& frame) { views.images.push_back(frame.color); });
+  return views;
+}
+
+// Calls visit(image, frame, projected samples) for each view.
 template <class Visit>
-void ForEachProjection(const std::vector<CurveSample>& samples, const SkeletonGraph& skeleton,
-                       const Sequence& sequence, const std::vector<int>& frames,
+void ForEachProjection(const ColourViews& views, const std::vector<CurveSample>& samples,
                        const StripSight& sight, const Visit& visit) {
-  const std::vector<CurveSample> neighbours = SampleStrips(skeleton, kNeighbourStep);
-  ForEachFrame(sequence, frames, {.depth = false, .color = true}, [&](const DecodedFrame& frame) {
+  const Sequence& sequence = views.sequence;
+  for (size_t i = 0; i < views.frames.size(); ++i) {
     const RigidTransform T_camera_world =
-        sequence.T_color_depth * sequence.frames[frame.index].T_world_camera.inverse();
-    visit(frame, ProjectSamples(samples, neighbours, sequence.color_camera, T_camera_world,
-                                kBorderPx, kMaxClearancePx, sight));
-  });
+        sequence.T_color_depth * sequence.frames[views.frames[i]].T_world_camera.inverse();
+    visit(views.images[i], views.frames[i],
+          ProjectSamples(samples, views.neighbours, sequence.color_camera, T_camera_world,
+                         kBorderPx, kMaxClearancePx, sight));
+  }
 }
 
 // Strips with no other strand near by; of wires that have few of those the ones with none beside:
 // strands that cross the wire a little farther on leave most of its background as it is.
-std::vector<StripWidth> MeasureStrips(const SkeletonGraph& skeleton, const Sequence& sequence,
-                                      const std::vector<int>& frames,
-                                      const RadiusOptions& options) {
-  std::vector<CurveSample> samples = SampleStrips(skeleton, options.sample_step);
+std::vector<StripWidth> MeasureStrips(const ColourViews& views, std::vector<CurveSample> samples,
+                                      const SkeletonGraph& skeleton, const RadiusOptions& options) {
   std::vector<FoundStrip> found;
-  const auto find = [&](const DecodedFrame& frame, const auto& projected) {
-    Append(FindStrips(frame.color, frame.index, projected, options), found);
+  const auto find = [&](const ColorImage& image, int frame, const auto& projected) {
+    Append(FindStrips(image, frame, projected, options), found);
   };
-  ForEachProjection(samples, skeleton, sequence, frames, {}, find);
+  ForEachProjection(views, samples, {}, find);
   std::vector<StripWidth> widths = SolveStripWidths(found, options);
 
   const std::map<EdgeId, int> wires = WiresOfEdges(skeleton);
   std::map<int, int> strips_of_wire;
   for (const StripWidth& strip : widths) ++strips_of_wire[wires.at(strip.edge)];
-  const auto is_measured = [&](const auto& place) {
-    const auto strips = strips_of_wire.find(wires.at(place.edge));
+  const auto is_measured = [&](EdgeId edge) {
+    const auto strips = strips_of_wire.find(wires.at(edge));
     return strips != strips_of_wire.end() && strips->second >= options.min_strips;
   };
-  std::erase_if(samples, is_measured);
+  std::erase_if(samples, [&](const CurveSample& sample) { return is_measured(sample.edge); });
   if (samples.empty()) return widths;
-  std::erase_if(found, [&](const FoundStrip& strip) { return !is_measured(strip.sample); });
+  std::erase_if(found, [&](const FoundStrip& strip) { return !is_measured(strip.sample.edge); });
+  std::erase_if(widths, [&](const StripWidth& strip) { return !is_measured(strip.edge); });
   StripSight between_crossings;
   between_crossings.max_along_px = kCrossingPx;
-  ForEachProjection(samples, skeleton, sequence, frames, between_crossings, find);
-  std::vector<StripWidth> crowded = SolveStripWidths(std::move(found), options);
-  std::erase_if(crowded, is_measured);
-  std::erase_if(widths, [&](const StripWidth& strip) { return !is_measured(strip); });
-  Append(std::move(crowded), widths);
+  ForEachProjection(views, samples, between_crossings, find);
+  for (const StripWidth& strip : SolveStripWidths(std::move(found), options)) {
+    if (!is_measured(strip.edge)) widths.push_back(strip);
+  }
   return widths;
 }
 
@@ -136,6 +150,7 @@ double StandardError(const Agreement& agreement) {
 
 std::vector<double> DiametersOf(const std::vector<StripWidth>& strips) {
   std::vector<double> diameters;
+  diameters.reserve(strips.size());
   for (const StripWidth& strip : strips) diameters.push_back(strip.diameter);
   return diameters;
 }
@@ -242,14 +257,15 @@ std::vector<double> InterpolatedRadii(const Polyline& points, const std::vector<
 RadiusEstimate EstimateRadius(const SkeletonGraph& skeleton, const Sequence& sequence,
                               const std::vector<int>& frames, const RadiusOptions& options) {
   RadiusEstimate estimate;
-  const std::vector<int> chosen = EvenlyThinned(frames, options.max_frames);
+  const ColourViews views =
+      LoadViews(skeleton, sequence, EvenlyThinned(frames, options.max_frames));
+  std::vector<CurveSample> samples = SampleStrips(skeleton, options.sample_step);
   if (options.strip_model) {
-    estimate.strips = MeasureStrips(skeleton, sequence, chosen, options);
+    estimate.strips = MeasureStrips(views, std::move(samples), skeleton, options);
   } else {
     ForEachProjection(
-        SampleStrips(skeleton, options.sample_step), skeleton, sequence, chosen, {},
-        [&](const DecodedFrame& frame, const auto& projected) {
-          Append(MeasureBoxes(frame.color, frame.index, projected, sequence.color_camera, options),
+        views, samples, {}, [&](const ColorImage& image, int frame, const auto& projected) {
+          Append(MeasureBoxes(image, frame, projected, sequence.color_camera, options),
                  estimate.strips);
         });
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "kernel/buckets.h"
+#include "kernel/parallel.h"
 #include "kernel/polyline.h"
 
 namespace curvefusion {
@@ -11,6 +12,7 @@ namespace curvefusion {
 namespace {
 
 constexpr double kMinDepth = 0.05;  // metres
+constexpr int64_t kGrain = 64;      // samples projected by one task
 
 struct ImagePoint {
   Vec2 pixel;
@@ -174,18 +176,17 @@ std::vector<ProjectedSample> ProjectSamples(const std::vector<CurveSample>& samp
                                             const RigidTransform& T_camera_world, double border_px,
                                             double max_clearance_px, const StripSight& sight) {
   const PointCells cells = ProjectNeighbours(neighbours, camera, T_camera_world, max_clearance_px);
-  std::vector<ProjectedSample> visible;
-  for (size_t i = 0; i < samples.size(); ++i) {
-    ProjectedSample projected;
-    if (!ProjectSample(samples[i], camera, T_camera_world, border_px, sight.max_foreshortening,
-                       projected)) {
-      continue;
-    }
-    projected.index = static_cast<int>(i);
-    projected.clearance_px = Clearance(projected, cells, max_clearance_px, sight.max_along_px);
-    visible.push_back(projected);
-  }
-  return visible;
+  std::vector<ProjectedSample> projected(samples.size());
+  ParallelFor(0, static_cast<int64_t>(samples.size()), kGrain, [&](int64_t i) {
+    ProjectedSample& sample = projected[i];
+    const bool is_visible = ProjectSample(samples[i], camera, T_camera_world, border_px,
+                                          sight.max_foreshortening, sample);
+    sample.index = is_visible ? static_cast<int>(i) : -1;
+    if (!is_visible) return;
+    sample.clearance_px = Clearance(sample, cells, max_clearance_px, sight.max_along_px);
+  });
+  std::erase_if(projected, [](const ProjectedSample& sample) { return sample.index < 0; });
+  return projected;
 }
 
 }  // namespace curvefusion

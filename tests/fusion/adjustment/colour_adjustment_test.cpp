@@ -205,6 +205,22 @@ TEST_F(ColourAdjustmentTest, NoCurvesNoRadiiNoAdjustment) {
   EXPECT_NE(AdjustToColours(without_radii, sequence, Given(sequence), {}).skipped, "");
 }
 
+TEST_F(ColourAdjustmentTest, MuchWireHasVerticesFartherApart) {
+  SkeletonGraph skeleton = WrongSkeleton();
+  const Polyline unseen = {{-11, 0, -1}, {11, 0, -1}};  // behind the cameras
+  skeleton.SetCurve(skeleton.AddPolyline(unseen), unseen, {0.002, 0.002});
+  const Sequence sequence = DriftedSequence("green");
+  const ColourAdjustment adjusted =
+      AdjustToColours(skeleton, sequence, Given(sequence), {.frame_stride = 1});
+  EXPECT_EQ(adjusted.skipped, "");
+  size_t points = 0;
+  for (const EdgeId edge : adjusted.skeleton.Edges()) {
+    points += adjusted.skeleton.edge(edge).points.size();
+  }
+  EXPECT_NEAR(static_cast<double>(points), 5500, 20);  // 7,600 every 3 mm
+  EXPECT_LT(adjusted.residual_px, 0.15);
+}
+
 TEST_F(ColourAdjustmentTest, TheSameForAnyNumberOfThreads) {
   const Sequence sequence = DriftedSequence("green");
   const auto run = [&](int threads) {
