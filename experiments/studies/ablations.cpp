@@ -196,6 +196,9 @@ std::vector<Ablation> OfColours() {
        {"colour_adjustment.enabled=false"},
        "Colour images show curves and poses to a tenth of a pixel.",
        {"colour_adjustment"}},
+      {"single edges",
+       {"colour_adjustment.edges=false"},
+       "A bar with a row of wires on one side shows no strip of its own."},
       {"silhouettes",
        {"silhouettes.max_frames=0"},
        "Every image shows a wire as wire; depth shows rungs between wires side by side and loses "

@@ -34,8 +34,8 @@ constexpr std::array<AdjustmentRound, 6> kRounds = {{{14, 4, true, true},
                                                      {5, 0.4, false, true},
                                                      {4, 0.4, false, false},
                                                      {4, 0.4, false, false}}};
-constexpr double kCornerAngle = 1.0;             // the same as for smoothing
-constexpr double kMaxVertices = 5500;            // of all curves, roughly
+constexpr double kCornerAngle = 1.0;   // the same as for smoothing
+constexpr double kMaxVertices = 5500;  // of all curves, roughly
 constexpr int kMinStrips = 300;
 constexpr double kMinAcceptedShare = 0.1;
 // Curves that fit come to .1; more is a wire taken for the next.
@@ -127,8 +127,8 @@ ColorShift UseDepth(const Sequence& sequence, const ColourFrames& frames,
 
 // Runs all rounds from `state` on; how the colour images lie.
 ColorShift RunRounds(const Sequence& sequence, const CurveVertices& curves, ColourFrames& frames,
-                     double axis_depth, CurvePoseProblem& problem, CurvePoseState& state,
-                     ColourAdjustment& result) {
+                     const ColourAdjustmentOptions& options, CurvePoseProblem& problem,
+                     CurvePoseState& state, ColourAdjustment& result) {
   ColorShift color_shift;
   color_shift.of_frames_px.assign(frames.size(), Vec2::Zero());
   LearnColours(ExpectStrips(curves, problem, state), frames);
@@ -137,8 +137,14 @@ ColorShift RunRounds(const Sequence& sequence, const CurveVertices& curves, Colo
         TrackCurves(curves, problem, state, frames, round.search_px);
     problem.strips = Observations(strips, color_shift.of_frames_px);
     if (&round == &kRounds.front()) result.start_residual_px = MedianResidual(problem, state);
+    if (options.edges) {
+      problem.edges =
+          Observations(TrackEdges(curves, problem, state, frames, round.search_px, strips),
+                       color_shift.of_frames_px);
+    }
     if (round.measures_depth) {
-      color_shift = UseDepth(sequence, frames, curves, state, strips, axis_depth, problem, result);
+      color_shift =
+          UseDepth(sequence, frames, curves, state, strips, options.axis_depth, problem, result);
     }
     state = ImproveCurvesAndPoses(problem, state, round.huber_px);
     if (round.learns_colours) LearnColours(strips, frames);
@@ -192,10 +198,11 @@ void VisitOptions(ColourAdjustmentOptions& options, OptionVisitor& visitor) {
                  "the colour images, which show them to a tenth of a pixel; the paper ends with "
                  "curves as good as depth."},
                 options.enabled);
-  visitor.Visit({"vertex_step", "m", 0.001, 0.02,
-                 "Deviation: distance of the vertices that are moved; farther apart where there are "
-                 "more than some 16 m of wire. Prototype of this stage."},
-                options.vertex_step);
+  visitor.Visit(
+      {"vertex_step", "m", 0.001, 0.02,
+       "Deviation: distance of the vertices that are moved; farther apart where there are "
+       "more than some 16 m of wire. Prototype of this stage."},
+      options.vertex_step);
   visitor.Visit({"frame_stride", "frames", 1, 30,
                  "Deviation: only every so many-th frame of a video is used, of other views all; "
                  "poses between are interpolated."},
@@ -204,6 +211,10 @@ void VisitOptions(ColourAdjustmentOptions& options, OptionVisitor& visitor) {
                  "Deviation: depth is measured so far before the axis, on the near side. Prototype "
                  "of this stage: .83 to 1."},
                 options.axis_depth);
+  visitor.Visit({"edges", "", 0, 1,
+                 "Deviation: strips that other wires touch on one side are found by their edge on "
+                 "the other: a bar with a row of wires shows no strip of its own."},
+                options.edges);
 }
 
 ColourAdjustment AdjustToColours(const SkeletonGraph& skeleton, const Sequence& sequence,
@@ -228,7 +239,7 @@ ColourAdjustment AdjustToColours(const SkeletonGraph& skeleton, const Sequence& 
   CurvePoseProblem problem = MakeProblem(sequence, curves, frames.indices, T_world_given, is_video);
   CurvePoseState state = problem.start;
   const ColorShift color_shift =
-      RunRounds(sequence, curves, frames, options.axis_depth, problem, state, result);
+      RunRounds(sequence, curves, frames, options, problem, state, result);
   result.frames = std::move(frames.indices);
   result.posteriors = std::move(frames.posteriors);
   result.skipped = ReasonToSkip(result);

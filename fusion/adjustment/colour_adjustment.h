@@ -17,6 +17,7 @@ struct ColourAdjustmentOptions {
   double vertex_step = 3 * kMillimetre;
   int frame_stride = 3;
   double axis_depth = 0.85;
+  bool edges = true;
 };
 void VisitOptions(ColourAdjustmentOptions& options, OptionVisitor& visitor);
 
@@ -39,8 +40,9 @@ struct ColourAdjustment {
 };
 
 /// Bundle adjustment of curves and camera poses: vertices every few millimetres along the edges,
-/// strips of wire colour found across them in every third colour image, and Gauss-Newton over all
-/// vertices and poses, six rounds with a shrinking search. `sequence` holds the poses that
+/// strips of wire colour found across them in every third colour image (of vertices with few strips
+/// also single edges), and Gauss-Newton over all vertices and poses, six rounds with a shrinking
+/// search. `sequence` holds the poses that
 /// `skeleton` (with radii) was made with, `T_world_given` those of the tracker, whose errors change
 /// slowly. Deviation: CurveFusion uses colour for ghosts and radii only; depth errs by several
 /// millimetres where colour edges are seen to a tenth of a pixel. Throws Error(kBadInput) for

@@ -1,8 +1,11 @@
 #include "fusion/adjustment/colour_frames.h"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "capture/frame_stream.h"
+#include "fusion/strips/edge_tracking.h"
 #include "kernel/parallel.h"
 #include "kernel/polyline.h"
 
@@ -15,6 +18,8 @@ constexpr double kMaxClearancePx = 40;
 constexpr double kCoreShare = 0.35;  // of the width to either side: wire for certain
 constexpr double kBlurredPx = 2;     // beside the strip: neither
 constexpr double kSidePx = 8;        // of background beyond
+constexpr int kFewStrips = 8;        // of a vertex
+constexpr double kEdgeSearchPx = 5;  // at most
 
 // The vertices along all edges as curve samples; nodes once for every edge that ends there.
 struct VertexSamples {
@@ -40,13 +45,43 @@ VertexSamples SampleState(const CurveVertices& curves, const CurvePoseState& sta
 
 // Calls visit(frame, projected samples) for all frames, in parallel.
 template <class Visit>
-void ProjectIntoFrames(const VertexSamples& all, const CurvePoseProblem& problem,
-                       const CurvePoseState& state, const Visit& visit) {
+void ProjectIntoFrames(const std::vector<CurveSample>& samples, const VertexSamples& all,
+                       const CurvePoseProblem& problem, const CurvePoseState& state,
+                       const StripSight& sight, const Visit& visit) {
   ParallelFor(0, static_cast<int64_t>(state.T_camera_world.size()), 1, [&](int64_t f) {
-    visit(f, ProjectSamples(all.samples, all.samples, problem.color_camera,
+    visit(f, ProjectSamples(samples, all.samples, problem.color_camera,
                             problem.T_color_depth * state.T_camera_world[f], kBorderPx,
-                            kMaxClearancePx));
+                            kMaxClearancePx, sight));
   });
+}
+
+// The samples of vertices with few strips.
+VertexSamples SamplesOfFewStrips(const VertexSamples& all, size_t vertex_count,
+                                 const std::vector<FrameStrips>& strips) {
+  std::vector<int> accepted(vertex_count);
+  for (const FrameStrips& frame : strips) {
+    for (const SeenStrip& seen : frame) accepted[seen.vertex] += seen.strip.accepted ? 1 : 0;
+  }
+  VertexSamples few;
+  for (size_t i = 0; i < all.samples.size(); ++i) {
+    if (accepted[all.vertices[i]] >= kFewStrips) continue;
+    few.samples.push_back(all.samples[i]);
+    few.vertices.push_back(all.vertices[i]);
+  }
+  return few;
+}
+
+std::optional<double> EdgeExcess(const PosteriorImage& posterior, const CurveVertices& curves,
+                                 const FrameStrips& strips) {
+  std::vector<ProjectedSample> samples;
+  std::vector<double> radii;
+  std::vector<TrackedStrip> tracked;
+  for (const SeenStrip& seen : strips) {
+    samples.push_back(seen.sample);
+    radii.push_back(curves.radii[seen.vertex]);
+    tracked.push_back(seen.strip);
+  }
+  return MeasureEdgeExcess(posterior, samples, radii, tracked);
 }
 
 int BinAt(const ColourBins& bins, const Vec2& pixel) {
@@ -88,7 +123,7 @@ std::vector<FrameStrips> ExpectStrips(const CurveVertices& curves, const CurvePo
                                       const CurvePoseState& state) {
   const VertexSamples all = SampleState(curves, state);
   std::vector<FrameStrips> seen(state.T_camera_world.size());
-  ProjectIntoFrames(all, problem, state, [&](int64_t f, std::vector<ProjectedSample> projected) {
+  const auto expect = [&](int64_t f, const std::vector<ProjectedSample>& projected) {
     for (const ProjectedSample& sample : projected) {
       const int vertex = all.vertices[sample.index];
       TrackedStrip strip;
@@ -96,7 +131,8 @@ std::vector<FrameStrips> ExpectStrips(const CurveVertices& curves, const CurvePo
       strip.accepted = sample.clearance_px > 2 * strip.width_px + kSidePx;
       seen[f].push_back({vertex, sample, strip});
     }
-  });
+  };
+  ProjectIntoFrames(all.samples, all, problem, state, {}, expect);
   return seen;
 }
 
@@ -105,7 +141,7 @@ std::vector<FrameStrips> TrackCurves(const CurveVertices& curves, const CurvePos
                                      double search_px) {
   const VertexSamples all = SampleState(curves, state);
   std::vector<FrameStrips> seen(frames.size());
-  ProjectIntoFrames(all, problem, state, [&](int64_t f, std::vector<ProjectedSample> projected) {
+  const auto track = [&](int64_t f, const std::vector<ProjectedSample>& projected) {
     std::vector<double> radii;
     for (const ProjectedSample& sample : projected) {
       radii.push_back(curves.radii[all.vertices[sample.index]]);
@@ -115,8 +151,39 @@ std::vector<FrameStrips> TrackCurves(const CurveVertices& curves, const CurvePos
       const ProjectedSample& sample = projected[strip.sample];
       seen[f].push_back({all.vertices[sample.index], sample, strip});
     }
-  });
+  };
+  ProjectIntoFrames(all.samples, all, problem, state, {}, track);
   return seen;
+}
+
+std::vector<FrameStrips> TrackEdges(const CurveVertices& curves, const CurvePoseProblem& problem,
+                                    const CurvePoseState& state, const ColourFrames& frames,
+                                    double search_px, const std::vector<FrameStrips>& strips) {
+  const VertexSamples all = SampleState(curves, state);
+  const VertexSamples few = SamplesOfFewStrips(all, curves.positions.size(), strips);
+  std::vector<FrameStrips> found(frames.size());
+  const auto track = [&](int64_t f, const std::vector<ProjectedSample>& projected) {
+    const PosteriorImage& posterior = frames.posteriors[f];
+    const std::optional<double> excess_px = EdgeExcess(posterior, curves, strips[f]);
+    if (!excess_px) return;
+    std::vector<char> is_whole(curves.positions.size(), 0);
+    for (const SeenStrip& seen : strips[f]) {
+      if (seen.strip.accepted) is_whole[seen.vertex] = 1;
+    }
+    for (const ProjectedSample& sample : projected) {
+      const int vertex = few.vertices[sample.index];
+      if (is_whole[vertex]) continue;
+      const auto offset_px = FindCentreByEdges(posterior, sample, curves.radii[vertex], *excess_px,
+                                               std::min(search_px, kEdgeSearchPx));
+      if (!offset_px) continue;
+      TrackedStrip strip;
+      strip.offset_px = *offset_px;
+      strip.accepted = true;
+      found[f].push_back({vertex, sample, strip});
+    }
+  };
+  ProjectIntoFrames(few.samples, all, problem, state, {.by_side = true}, track);
+  return found;
 }
 
 void LearnColours(const std::vector<FrameStrips>& strips, ColourFrames& frames) {

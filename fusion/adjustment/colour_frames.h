@@ -42,6 +42,13 @@ std::vector<FrameStrips> TrackCurves(const CurveVertices& curves, const CurvePos
                                      const CurvePoseState& state, const ColourFrames& frames,
                                      double search_px);
 
+/// Finds strips of vertices that have fewer than 8 accepted strips in all frames (`strips`, as
+/// TrackCurves gives them) by those edges that other strands do not touch. All have `accepted`.
+/// Parallel over frames.
+std::vector<FrameStrips> TrackEdges(const CurveVertices& curves, const CurvePoseProblem& problem,
+                                    const CurvePoseState& state, const ColourFrames& frames,
+                                    double search_px, const std::vector<FrameStrips>& strips);
+
 /// Learns the colours of wire and background around the accepted strips of all frames and looks
 /// them up in every image.
 void LearnColours(const std::vector<FrameStrips>& strips, ColourFrames& frames);

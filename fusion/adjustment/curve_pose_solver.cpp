@@ -19,6 +19,7 @@ using Row3 = Eigen::RowVector3d;
 
 constexpr double kDegree = M_PI / 180;
 constexpr double kStripSigmaPx = 0.5;
+constexpr double kEdgeSigmaPx = 1.5;
 constexpr double kBendSigma = 0.3 * kMillimetre;  // of a second difference, steps of 3 mm
 constexpr double kVertexSigma = 12 * kMillimetre;
 constexpr double kMinDepth = 0.05;
@@ -166,9 +167,10 @@ class NormalEquations {
   Eigen::MatrixXd coupling_;
 };
 
-void AddStrips(const CurvePoseProblem& problem, const CurvePoseState& state, double huber_px,
+void AddStrips(const CurvePoseProblem& problem, const CurvePoseState& state,
+               const std::vector<StripObservation>& strips, double sigma_px, double huber_px,
                NormalEquations& equations) {
-  for (const StripObservation& strip : problem.strips) {
+  for (const StripObservation& strip : strips) {
     const double residual = StripResidual(problem, state, strip);
     if (std::isnan(residual)) continue;
     const RigidTransform& T_camera_world = state.T_camera_world[strip.frame];
@@ -181,7 +183,7 @@ void AddStrips(const CurvePoseProblem& problem, const CurvePoseState& state, dou
     by_pose << by_point, -by_point * CrossMatrix(p_camera);
     const double robust = std::min(1.0, huber_px / std::max(1e-12, std::abs(residual)));
     equations.AddObservation(strip.vertex, strip.frame, by_point * T_camera_world.linear(), by_pose,
-                             residual, robust / (kStripSigmaPx * kStripSigmaPx));
+                             residual, robust / (sigma_px * sigma_px));
   }
 }
 
@@ -244,7 +246,8 @@ CurvePoseState ImproveCurvesAndPoses(const CurvePoseProblem& problem, const Curv
   assert(problem.gaps.empty() || problem.gaps.size() + 1 == state.T_camera_world.size());
   NormalEquations equations(static_cast<int>(state.positions.size()),
                             static_cast<int>(state.T_camera_world.size()));
-  AddStrips(problem, state, huber_px, equations);
+  AddStrips(problem, state, problem.strips, kStripSigmaPx, huber_px, equations);
+  AddStrips(problem, state, problem.edges, kEdgeSigmaPx, huber_px, equations);
   AddDepths(problem, state, equations);
   AddCurvePriors(problem, state, equations);
   AddPosePriors(problem, state, equations);

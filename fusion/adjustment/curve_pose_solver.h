@@ -41,6 +41,7 @@ struct CurvePoseProblem {
   /// where views are not of a video.
   std::vector<double> gaps;
   std::vector<StripObservation> strips;
+  std::vector<StripObservation> edges;  ///< strips found by their edges, less precisely
   std::vector<AxisDepthObservation> depths;
 };
 
@@ -49,12 +50,12 @@ struct CurvePoseProblem {
 double StripResidual(const CurvePoseProblem& problem, const CurvePoseState& state,
                      const StripObservation& strip);
 
-/// One Gauss-Newton step from `state` for the sum of squares of strips (sigma .5 px, Huber beyond
-/// `huber_px`), depths, second differences of vertices in a row (.3 mm), distances from the start
-/// (vertices 12 mm; poses 5 mm and .3 degrees) and, in a video, changes of a pose's correction from
-/// frame to frame (.8 mm and .04 degrees times the square root of the gap), whose first frame is
-/// held. Vertices are eliminated by a sparse factorisation; the dense Schur complement of the 6
-/// unknowns of each frame remains. Cost: vertices times frames squared.
+/// One Gauss-Newton step from `state` for the sum of squares of strips (sigma .5 px, by their edges
+/// 1.5 px, Huber beyond `huber_px`), depths, second differences of vertices in a row (.3 mm),
+/// distances from the start (vertices 12 mm; poses 5 mm and .3 degrees) and, in a video, changes of
+/// a pose's correction from frame to frame (.8 mm and .04 degrees times the square root of the
+/// gap), whose first frame is held. Vertices are eliminated by a sparse factorisation; the dense
+/// Schur complement of the 6 unknowns of each frame remains. Cost: vertices times frames squared.
 CurvePoseState ImproveCurvesAndPoses(const CurvePoseProblem& problem, const CurvePoseState& state,
                                      double huber_px);
 

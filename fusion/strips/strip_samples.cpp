@@ -13,12 +13,20 @@ namespace {
 
 constexpr double kMinDepth = 0.05;  // metres
 constexpr int64_t kGrain = 64;      // samples projected by one task
+constexpr double kMaxSideClearancePx = 16;
+constexpr double kMaxSideAlongPx = 6;
+// Nearer to the line of a curve a strand goes on with it, or lies behind it.
+constexpr double kInLinePx = 1.5;
+constexpr double kInLineSlope = 0.25;  // of the distance along it
+constexpr double kParallel = 0.7;      // cosine
 
 struct ImagePoint {
   Vec2 pixel;
   EdgeId edge = 0;
   double arc_length = 0;
   double px_per_metre = 0;
+  double depth = 0;
+  Vec2 tangent;  // unit
 };
 
 // Projected points in square cells, for queries by distance that end where nothing nearer can come.
@@ -89,11 +97,19 @@ PointCells ProjectNeighbours(const std::vector<CurveSample>& neighbours,
   for (const CurveSample& sample : neighbours) {
     const Vec3 p = T_camera_world * sample.position;
     if (p.z() < kMinDepth) continue;
-    points.push_back({camera.Project(p), sample.edge, sample.arc_length, camera.fx / p.z()});
+    const Vec2 along = ProjectionJacobian(camera, p) * (T_camera_world.linear() * sample.tangent);
+    points.push_back({camera.Project(p), sample.edge, sample.arc_length, camera.fx / p.z(), p.z(),
+                      along.normalized()});
   }
   PointCells cells(camera, max_distance_px);
   cells.Fill(points);
   return cells;
+}
+
+bool IsSameStrand(const ImagePoint& point, const ProjectedSample& sample, double distance_px) {
+  const double along_px = std::abs(point.arc_length - sample.arc_length) * point.px_per_metre;
+  // Foreshortening below .9 stretches the way along the curve 2.3 times at most.
+  return point.edge == sample.edge && along_px < 3 * distance_px + 6;
 }
 
 double Clearance(const ProjectedSample& sample, const PointCells& cells, double max_clearance_px,
@@ -104,12 +120,31 @@ double Clearance(const ProjectedSample& sample, const PointCells& cells, double 
     if (offset.squaredNorm() >= clearance * clearance) return;
     if (std::abs(offset.dot(sample.tangent)) > max_along_px) return;
     const double distance = offset.norm();
-    const double along_px = std::abs(point.arc_length - sample.arc_length) * point.px_per_metre;
-    // Foreshortening below .9 stretches the way along the curve 2.3 times at most.
-    const bool is_same_strand = point.edge == sample.edge && along_px < 3 * distance + 6;
-    if (!is_same_strand) clearance = std::min(clearance, distance);
+    if (!IsSameStrand(point, sample, distance)) clearance = distance;
   });
   return clearance;
+}
+
+std::array<double, 2> SideClearances(const ProjectedSample& sample, const PointCells& cells) {
+  std::array<double, 2> clearances = {kMaxSideClearancePx, kMaxSideClearancePx};
+  cells.VisitNearer(sample.pixel, kMaxSideClearancePx, [&](const ImagePoint& point) {
+    const Vec2 offset = point.pixel - sample.pixel;
+    const double along = std::abs(offset.dot(sample.tangent));
+    if (along > kMaxSideAlongPx) return;
+    const double distance = offset.norm();
+    if (IsSameStrand(point, sample, distance)) return;
+    const double across = offset.dot(sample.normal);
+    const bool is_in_line = std::abs(across) < kInLinePx + kInLineSlope * along;
+    const double behind_px = std::abs(point.depth - sample.depth) * point.px_per_metre;
+    if (is_in_line && behind_px < 3 * distance + 6) return;  // goes on with it
+    const bool is_parallel = std::abs(point.tangent.dot(sample.tangent)) > kParallel;
+    for (const int side : {0, 1}) {
+      const bool is_on_side = (across > 0) == (side == 1);
+      if (!is_on_side && !is_in_line && !is_parallel) continue;
+      clearances[side] = std::min(clearances[side], distance);
+    }
+  });
+  return clearances;
 }
 
 // Fills what does not depend on other samples; false where the sample cannot be measured.
@@ -184,6 +219,7 @@ std::vector<ProjectedSample> ProjectSamples(const std::vector<CurveSample>& samp
     sample.index = is_visible ? static_cast<int>(i) : -1;
     if (!is_visible) return;
     sample.clearance_px = Clearance(sample, cells, max_clearance_px, sight.max_along_px);
+    if (sight.by_side) sample.side_clearance_px = SideClearances(sample, cells);
   });
   std::erase_if(projected, [](const ProjectedSample& sample) { return sample.index < 0; });
   return projected;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <limits>
 #include <vector>
 
@@ -32,6 +33,8 @@ struct ProjectedSample {
   double depth = 0;          ///< metres along the optical axis
   double metres_per_px = 0;  ///< diameter of the cylinder whose strip is one pixel wide
   double clearance_px = 0;   ///< to the nearest strand that is not this piece of curve
+  /// With StripSight::by_side, of the side against `normal` and of that along it.
+  std::array<double, 2> side_clearance_px = {};
 };
 
 /// The derivative of the pixel by the point in the camera's frame.
@@ -43,6 +46,11 @@ struct StripSight {
   /// Strands farther away than this along the sample's curve do not count, pixels: those that cross
   /// it beside the sample are not in the way of what is read across it.
   double max_along_px = std::numeric_limits<double>::infinity();
+  /// Whether each side's clearance is wanted, exact up to 16 px: to the strands that cross the
+  /// curve or leave it on that side, less than 6 px along it, and to those beside it on either side
+  /// or behind it, of which edges may be mistaken for the curve's own. A strand that goes on with
+  /// the curve is none.
+  bool by_side = false;
 };
 
 /// Projects `samples` into a camera. Left out are samples behind or outside the image (or nearer to

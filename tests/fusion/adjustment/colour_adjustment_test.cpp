@@ -205,6 +205,42 @@ TEST_F(ColourAdjustmentTest, NoCurvesNoRadiiNoAdjustment) {
   EXPECT_NE(AdjustToColours(without_radii, sequence, Given(sequence), {}).skipped, "");
 }
 
+// Rungs every 14 mm, nowhere on the bar is 8.8 pixels from all of them, which a strip would need.
+TEST_F(ColourAdjustmentTest, ABarWithARowOfWiresIsFoundByItsEdge) {
+  const Rgb color{60, 160, 70};
+  std::vector<RenderedWire> wires = {{{-0.10, -0.05, 0.5}, {0.10, -0.05, 0.5}, 0.009, color}};
+  for (int i = -7; i <= 7; ++i) {
+    wires.push_back({{0.014 * i, -0.05, 0.5}, {0.014 * i, 0.04, 0.5}, 0.004, color});
+  }
+  wires.push_back({{-0.10, 0.09, 0.5}, {0.10, 0.09, 0.5}, 0.004, color});  // tells the colour
+  Sequence sequence = DriftedSequence("green");
+  for (int i = 0; i < kFrames; ++i) {
+    sequence.frames[i].color_path = folder_ / fmt::format("row{}.jpg", i);
+    sequence.frames[i].T_world_camera = TruePose(i);
+    WriteImage(sequence.frames[i].color_path, RenderWires(wires, Camera(), TruePose(i), 0.8));
+  }
+  SkeletonGraph skeleton;
+  for (RenderedWire wire : wires) {
+    for (Vec3* end : {&wire.front, &wire.back}) {
+      if (end->y() == -0.05) end->y() += 0.003;  // the bar and where it is reached
+    }
+    const Polyline points = {wire.front, wire.back};
+    const std::vector<double> radii(2, 0.5 * wire.diameter);
+    skeleton.SetCurve(skeleton.AddPolyline(points), points, radii);
+  }
+  const auto mean_error = [&](bool edges) {
+    const ColourAdjustment adjusted =
+        AdjustToColours(skeleton, sequence, Given(sequence), {.frame_stride = 1, .edges = edges});
+    EXPECT_EQ(adjusted.skipped, "");
+    double sum = 0;
+    const Polyline& bar = adjusted.skeleton.edge(adjusted.skeleton.Edges().front()).points;
+    for (const Vec3& p : bar) sum += p.y() + 0.05;
+    return sum / static_cast<double>(bar.size());
+  };
+  EXPECT_GT(std::abs(mean_error(false)), 0.0025);
+  EXPECT_LT(std::abs(mean_error(true)), 0.0018);  // thick wires are shaded farther in than thin ones
+}
+
 TEST_F(ColourAdjustmentTest, MuchWireHasVerticesFartherApart) {
   SkeletonGraph skeleton = WrongSkeleton();
   const Polyline unseen = {{-11, 0, -1}, {11, 0, -1}};  // behind the cameras

@@ -65,6 +65,40 @@ TEST(ProjectSamplesTest, HiddenOrEndOnSamplesAreLeftOut) {
   EXPECT_TRUE(ProjectAll(end_on, 0.01).empty());
 }
 
+// The clearances against the normal and along it of the middle of a curve along x.
+std::array<double, 2> SideClearances(const Polyline& other) {
+  SkeletonGraph skeleton;
+  const EdgeId edge = skeleton.AddPolyline({{-0.1, 0, 0.58}, {0.1, 0, 0.58}});
+  skeleton.AddPolyline(other);
+  const auto projected =
+      ProjectSamples(SampleStrips(skeleton, 0.2), SampleStrips(skeleton, 0.001), kCamera,
+                     RigidTransform::Identity(), 8, 40, {.by_side = true});
+  EXPECT_EQ(projected.front().edge, edge);
+  EXPECT_NEAR(projected.front().normal.y(), 1, 1e-9);
+  return projected.front().side_clearance_px;
+}
+
+// At 0.58 m one millimetre is one pixel.
+TEST(ProjectSamplesTest, ClearancesOfTheTwoSides) {
+  const double far = 16;
+  const auto branch = SideClearances({{0.002, 0, 0.58}, {0.002, 0.05, 0.58}});
+  EXPECT_EQ(branch[0], far);
+  EXPECT_LT(branch[1], 4);
+  const auto farther_along = SideClearances({{0.008, 0, 0.58}, {0.008, 0.05, 0.58}});
+  EXPECT_EQ(farther_along[0], far);
+  EXPECT_EQ(farther_along[1], far);
+  const auto parallel = SideClearances({{-0.05, -0.01, 0.58}, {0.05, -0.01, 0.58}});
+  EXPECT_NEAR(parallel[0], 10, 0.6);
+  EXPECT_NEAR(parallel[1], 10, 0.6);
+  const auto behind = SideClearances({{-0.05, 0, 0.7}, {0.05, 0, 0.7}});
+  EXPECT_LT(behind[0], 1);
+  EXPECT_LT(behind[1], 1);
+  // A double of the curve, as where two edges of it meet at a small angle.
+  const auto in_line = SideClearances({{-0.05, 0.001, 0.58}, {0.05, -0.001, 0.58}});
+  EXPECT_EQ(in_line[0], far);
+  EXPECT_EQ(in_line[1], far);
+}
+
 // At 0.58 m one millimetre is one pixel.
 TEST(ProjectSamplesTest, ClearanceIsTheDistanceToOtherStrands) {
   SkeletonGraph skeleton;

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "fusion/strips/strip_samples.h"
+#include "fusion/strips/strip_tracking.h"
+#include "fusion/strips/wire_posterior.h"
+
+namespace curvefusion {
+
+/// How far beyond half the expected width edges are found in one image, pixels, on average: by
+/// blur, and where radii are wrong. Measured on both edges of the accepted strips, of which
+/// `tracked` holds one per sample as TrackStrips gives them; nothing where fewer than 30 show both.
+std::optional<double> MeasureEdgeExcess(const PosteriorImage& posterior,
+                                        const std::vector<ProjectedSample>& samples,
+                                        const std::vector<double>& radii,
+                                        const std::vector<TrackedStrip>& tracked);
+
+/// The offset of a strip's centre from the projected curve along the sample's normal, pixels, by
+/// the edges on those sides that are clear of other strands: a bar with a row of wires on one side
+/// shows no strip of its own anywhere. It lies in the middle of two edges, or half a width and
+/// `excess_px` from one. Edges are looked for within search_px; nothing where one does not stand
+/// out, another is nearly as good, or two are not a width apart. `sample` must have been projected
+/// with StripSight::by_side. Ten times less precise than a whole strip.
+std::optional<double> FindCentreByEdges(const PosteriorImage& posterior,
+                                        const ProjectedSample& sample, double radius,
+                                        double excess_px, double search_px);
+
+}  // namespace curvefusion
