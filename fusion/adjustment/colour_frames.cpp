@@ -73,15 +73,13 @@ VertexSamples SamplesOfFewStrips(const VertexSamples& all, size_t vertex_count,
 
 std::optional<double> EdgeExcess(const PosteriorImage& posterior, const CurveVertices& curves,
                                  const FrameStrips& strips) {
-  std::vector<ProjectedSample> samples;
-  std::vector<double> radii;
-  std::vector<TrackedStrip> tracked;
+  std::vector<WholeStrip> whole;
   for (const SeenStrip& seen : strips) {
-    samples.push_back(seen.sample);
-    radii.push_back(curves.radii[seen.vertex]);
-    tracked.push_back(seen.strip);
+    if (!seen.strip.accepted) continue;
+    whole.push_back({seen.sample.pixel + seen.strip.offset_px * seen.sample.normal,
+                     seen.sample.normal, seen.sample.WidthPx(curves.radii[seen.vertex])});
   }
-  return MeasureEdgeExcess(posterior, samples, radii, tracked);
+  return MeasureEdgeExcess(posterior, whole);
 }
 
 int BinAt(const ColourBins& bins, const Vec2& pixel) {
@@ -127,7 +125,7 @@ std::vector<FrameStrips> ExpectStrips(const CurveVertices& curves, const CurvePo
     for (const ProjectedSample& sample : projected) {
       const int vertex = all.vertices[sample.index];
       TrackedStrip strip;
-      strip.width_px = 2 * curves.radii[vertex] / sample.metres_per_px;
+      strip.width_px = sample.WidthPx(curves.radii[vertex]);
       strip.accepted = sample.clearance_px > 2 * strip.width_px + kSidePx;
       seen[f].push_back({vertex, sample, strip});
     }

@@ -18,8 +18,6 @@ namespace {
 
 constexpr double kBorderPx = 8;
 constexpr double kMaxClearancePx = 40;
-constexpr double kClearWidths = 0.85;  // as TrackStrips asks of what it accepts
-constexpr double kClearPx = 2;
 constexpr double kMaxForeshortening = 0.96;  // what depth loses is mostly seen nearly end on
 constexpr double kCrossingPx = 4;            // half a crossing wire and its blur
 constexpr double kCornerAngle = 1.0;         // the same as for smoothing
@@ -129,8 +127,7 @@ class WireImages {
     for (const TrackedStrip& strip :
          TrackStrips(frames_.posteriors[f], projected, projected_radii, options_.search_px)) {
       const ProjectedSample& sample = projected[strip.sample];
-      const double width_px = 2 * radii[sample.index] / sample.metres_per_px;
-      if (sample.clearance_px <= kClearWidths * width_px + kClearPx) continue;
+      if (!IsClear(sample.clearance_px, sample.WidthPx(radii[sample.index]))) continue;
       ++looks[sample.index].clear;
       looks[sample.index].seen +=
           strip.accepted && std::abs(strip.offset_px) <= options_.max_offset_px ? 1 : 0;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "fusion/strips/strip_tracking.h"
 #include "kernel/quantile.h"
 
 namespace curvefusion {
@@ -16,18 +17,12 @@ constexpr int kGuard = 2;      // beside an edge: neither strip nor background
 constexpr int kSide = 8;       // of background
 constexpr int kBlur = 4;       // to either side, as far as an edge is blurred
 constexpr double kMinWidthPx = 3;
-constexpr double kMinScore = 0.35;     // as of strips
-constexpr double kMaxSecond = 0.7;     // of the best score
-constexpr double kClearWidths = 0.85;  // as TrackStrips asks
-constexpr double kClearPx = 2;
+constexpr double kMinScore = 0.35;  // as of strips
+constexpr double kMaxSecond = 0.7;  // of the best score
 constexpr double kMaxHalfWidthErrorPx = 1;
 constexpr double kLearnSearchPx = 3;
 constexpr size_t kMinLearned = 30;
 constexpr size_t kMaxLearned = 100;
-
-double ExpectedWidth(const ProjectedSample& sample, double radius) {
-  return 2 * radius / sample.metres_per_px;
-}
 
 // 0 to 1; beyond the image its border goes on.
 double Interpolated(const PosteriorImage& image, const Vec2& pixel) {
@@ -88,22 +83,14 @@ std::optional<double> FindEdge(const PosteriorImage& image, const Vec2& centre, 
 }  // namespace
 
 std::optional<double> MeasureEdgeExcess(const PosteriorImage& posterior,
-                                        const std::vector<ProjectedSample>& samples,
-                                        const std::vector<double>& radii,
-                                        const std::vector<TrackedStrip>& tracked) {
-  std::vector<size_t> whole;
-  for (size_t i = 0; i < samples.size(); ++i) {
-    const double width = ExpectedWidth(samples[i], radii[i]);
-    if (tracked[i].accepted && width >= kMinWidthPx) whole.push_back(i);
-  }
+                                        std::vector<WholeStrip> whole) {
+  std::erase_if(whole, [](const WholeStrip& strip) { return strip.width_px < kMinWidthPx; });
   std::vector<double> excess;
   const size_t stride = std::max<size_t>(1, whole.size() / kMaxLearned);
   for (size_t k = 0; k < whole.size(); k += stride) {
-    const ProjectedSample& sample = samples[whole[k]];
-    const Vec2 centre = sample.pixel + tracked[whole[k]].offset_px * sample.normal;
-    const double width = ExpectedWidth(sample, radii[whole[k]]);
-    const auto left = FindEdge(posterior, centre, -sample.normal, width, kLearnSearchPx);
-    const auto right = FindEdge(posterior, centre, sample.normal, width, kLearnSearchPx);
+    const auto& [centre, normal, width] = whole[k];
+    const auto left = FindEdge(posterior, centre, -normal, width, kLearnSearchPx);
+    const auto right = FindEdge(posterior, centre, normal, width, kLearnSearchPx);
     if (left && right) excess.push_back(0.5 * (*left + *right - width));
   }
   if (excess.size() < kMinLearned) return {};
@@ -113,12 +100,12 @@ std::optional<double> MeasureEdgeExcess(const PosteriorImage& posterior,
 std::optional<double> FindCentreByEdges(const PosteriorImage& posterior,
                                         const ProjectedSample& sample, double radius,
                                         double excess_px, double search_px) {
-  const double width = ExpectedWidth(sample, radius);
+  const double width = sample.WidthPx(radius);
   if (width < kMinWidthPx) return {};
   std::array<bool, 2> is_clear{};
   std::array<std::optional<double>, 2> edges;
   for (const int side : {0, 1}) {
-    is_clear[side] = sample.side_clearance_px[side] > kClearWidths * width + kClearPx;
+    is_clear[side] = IsClear(sample.side_clearance_px[side], width);
     const Vec2 outward = side == 0 ? Vec2(-sample.normal) : sample.normal;
     if (is_clear[side]) edges[side] = FindEdge(posterior, sample.pixel, outward, width, search_px);
     if (is_clear[side] && !edges[side]) return {};

@@ -4,18 +4,22 @@
 #include <vector>
 
 #include "fusion/strips/strip_samples.h"
-#include "fusion/strips/strip_tracking.h"
 #include "fusion/strips/wire_posterior.h"
 
 namespace curvefusion {
 
+/// A strip that shows background on both sides.
+struct WholeStrip {
+  Vec2 centre;          ///< where it was found, pixels
+  Vec2 normal;          ///< unit, across it
+  double width_px = 0;  ///< expected
+};
+
 /// How far beyond half the expected width edges are found in one image, pixels, on average: by
-/// blur, and where radii are wrong. Measured on both edges of the accepted strips, of which
-/// `tracked` holds one per sample as TrackStrips gives them; nothing where fewer than 30 show both.
+/// blur, and where radii are wrong. Measured on both edges of strips found in it; nothing where
+/// fewer than 30 show both.
 std::optional<double> MeasureEdgeExcess(const PosteriorImage& posterior,
-                                        const std::vector<ProjectedSample>& samples,
-                                        const std::vector<double>& radii,
-                                        const std::vector<TrackedStrip>& tracked);
+                                        std::vector<WholeStrip> whole);
 
 /// The offset of a strip's centre from the projected curve along the sample's normal, pixels, by
 /// the edges on those sides that are clear of other strands: a bar with a row of wires on one side

@@ -26,7 +26,7 @@ struct ImagePoint {
   double arc_length = 0;
   double px_per_metre = 0;
   double depth = 0;
-  Vec2 tangent;  // unit
+  Vec2 tangent;  // unit; 0 where it was not wanted
 };
 
 // Projected points in square cells, for queries by distance that end where nothing nearer can come.
@@ -91,15 +91,17 @@ class PointCells {
 
 PointCells ProjectNeighbours(const std::vector<CurveSample>& neighbours,
                              const PinholeCamera& camera, const RigidTransform& T_camera_world,
-                             double max_distance_px) {
+                             double max_distance_px, bool with_tangents) {
   std::vector<ImagePoint> points;
   points.reserve(neighbours.size());
   for (const CurveSample& sample : neighbours) {
     const Vec3 p = T_camera_world * sample.position;
     if (p.z() < kMinDepth) continue;
-    const Vec2 along = ProjectionJacobian(camera, p) * (T_camera_world.linear() * sample.tangent);
     points.push_back({camera.Project(p), sample.edge, sample.arc_length, camera.fx / p.z(), p.z(),
-                      along.normalized()});
+                      Vec2::Zero()});
+    if (!with_tangents) continue;
+    const Vec2 along = ProjectionJacobian(camera, p) * (T_camera_world.linear() * sample.tangent);
+    points.back().tangent = along.normalized();
   }
   PointCells cells(camera, max_distance_px);
   cells.Fill(points);
@@ -210,7 +212,8 @@ std::vector<ProjectedSample> ProjectSamples(const std::vector<CurveSample>& samp
                                             const PinholeCamera& camera,
                                             const RigidTransform& T_camera_world, double border_px,
                                             double max_clearance_px, const StripSight& sight) {
-  const PointCells cells = ProjectNeighbours(neighbours, camera, T_camera_world, max_clearance_px);
+  const PointCells cells =
+      ProjectNeighbours(neighbours, camera, T_camera_world, max_clearance_px, sight.by_side);
   std::vector<ProjectedSample> projected(samples.size());
   ParallelFor(0, static_cast<int64_t>(samples.size()), kGrain, [&](int64_t i) {
     ProjectedSample& sample = projected[i];

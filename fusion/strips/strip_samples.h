@@ -35,6 +35,9 @@ struct ProjectedSample {
   double clearance_px = 0;   ///< to the nearest strand that is not this piece of curve
   /// With StripSight::by_side, of the side against `normal` and of that along it.
   std::array<double, 2> side_clearance_px = {};
+
+  /// Of the strip of a wire of this radius, metres.
+  double WidthPx(double radius) const { return 2 * radius / metres_per_px; }
 };
 
 /// The derivative of the pixel by the point in the camera's frame.

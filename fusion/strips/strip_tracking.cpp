@@ -230,10 +230,6 @@ double Centroid(const Profile& profile, double centre_px, double width_px) {
   return kStep * (middle + std::clamp(moment / mass, -2.0, 2.0));
 }
 
-bool IsClear(const ProjectedSample& sample, double width_px) {
-  return sample.clearance_px > kClearWidths * width_px + kClearPx;
-}
-
 bool FollowsOn(const ProjectedSample& before, const ProjectedSample& sample) {
   return sample.edge == before.edge && sample.index - before.index <= 1 + kMaxRunGap;
 }
@@ -254,12 +250,18 @@ std::vector<char> MarkLeading(const std::vector<char>& is_clear) {
 
 }  // namespace
 
+bool IsClear(double clearance_px, double width_px) {
+  return clearance_px > kClearWidths * width_px + kClearPx;
+}
+
 std::vector<TrackedStrip> TrackStrips(const PosteriorImage& posterior,
                                       const std::vector<ProjectedSample>& samples,
                                       const std::vector<double>& radii, double search_px) {
-  const auto expected_px = [&](size_t i) { return 2 * radii[i] / samples[i].metres_per_px; };
+  const auto expected_px = [&](size_t i) { return samples[i].WidthPx(radii[i]); };
   std::vector<char> is_clear(samples.size());
-  for (size_t i = 0; i < samples.size(); ++i) is_clear[i] = IsClear(samples[i], expected_px(i));
+  for (size_t i = 0; i < samples.size(); ++i) {
+    is_clear[i] = IsClear(samples[i].clearance_px, expected_px(i));
+  }
   const std::vector<char> leads = MarkLeading(is_clear);
   Scores scores;
   scores.half_count = static_cast<int>(search_px / kStep);

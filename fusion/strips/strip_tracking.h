@@ -16,6 +16,9 @@ struct TrackedStrip {
   bool accepted = false;  ///< clear enough to be a measurement
 };
 
+/// Whether another strand `clearance_px` away leaves enough background beside a strip.
+bool IsClear(double clearance_px, double width_px);
+
 /// Follows the strips of curves through one image: per sample, how well strips of several widths
 /// around `2 radius / metres_per_px` and of every centre within +-search_px (steps of half a pixel)
 /// stand out from both sides; then per run of samples along one edge the best sequence of centres

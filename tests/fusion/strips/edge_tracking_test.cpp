@@ -89,21 +89,13 @@ TEST(FindCentreByEdgesTest, ThinStripsHaveNoInside) {
 
 TEST(MeasureEdgeExcessTest, WhatEdgesOfWholeStripsAreOff) {
   const PosteriorImage image = ImageOfWire(1.5);
-  std::vector<ProjectedSample> samples;
-  std::vector<TrackedStrip> tracked;
-  for (int v = 10; v < 110; ++v) {
-    samples.push_back(Expected(v, 0, 0));
-    TrackedStrip strip;
-    strip.offset_px = 1.5;
-    strip.accepted = v < 40;
-    tracked.push_back(strip);
-  }
-  const std::vector<double> radii(samples.size(), kRadius);
-  const auto excess = MeasureEdgeExcess(image, samples, radii, tracked);
+  std::vector<WholeStrip> whole;
+  for (int v = 10; v < 40; ++v) whole.push_back({Vec2(81.5, v), Vec2(1, 0), 8});
+  const auto excess = MeasureEdgeExcess(image, whole);
   ASSERT_TRUE(excess);
   EXPECT_NEAR(*excess, kExcessPx, 0.1);
-  tracked.front().accepted = false;
-  EXPECT_FALSE(MeasureEdgeExcess(image, samples, radii, tracked));
+  whole.pop_back();
+  EXPECT_FALSE(MeasureEdgeExcess(image, whole));
 }
 
 }  // namespace
