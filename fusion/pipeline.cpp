@@ -10,6 +10,7 @@
 #include "fusion/colour_stages.h"
 #include "fusion/registration/axis_correction.h"
 #include "fusion/registration/close_wires.h"
+#include "fusion/registration/frame_points.h"
 #include "fusion/registration/ray_noise.h"
 #include "fusion/run_context.h"
 #include "kernel/parallel.h"
@@ -22,6 +23,8 @@ namespace {
 constexpr size_t kBundlesAtOnce = 4;
 // Ridge points by which a bundle is registered are so many times as far apart as those of curves.
 constexpr double kBundleSpacing = 1.5;
+// What frames saw takes up to 110 MB: some 200 frames of 10 m of wire, all points of each.
+constexpr size_t kMaxFramePoints = 2'000'000;
 
 // "Removing large surfaces" needs a model of them: all frames in one volume.
 TsdfVolume FuseVolume(const Sequence& sequence, RunContext& run) {
@@ -44,7 +47,7 @@ TsdfVolume FuseVolume(const Sequence& sequence, RunContext& run) {
 // What was found thin, in the world frame.
 struct SegmentedScan {
   std::vector<ObservedPoints> bundles;
-  std::vector<ObservedPoints> frames;  // what each frame saw of its bundle's points
+  FramePoints frames{kMaxFramePoints};  // what each frame saw of its bundle's points
   std::vector<int> bundle_of_frame;
 };
 
@@ -53,7 +56,7 @@ void AddBundle(const SegmentedBundle& bundle, SegmentedScan& scan, PipelineObser
   observer.OnPoints(name + "_difference_set",
                     Transformed(bundle.difference_set, bundle.T_world_bundle));
   for (const ObservedPoints& frame : bundle.frames) {
-    scan.frames.push_back(Transformed(frame, bundle.T_world_bundle));
+    scan.frames.Add(Transformed(frame, bundle.T_world_bundle));
     scan.bundle_of_frame.push_back(static_cast<int>(scan.bundles.size()));
   }
   scan.bundles.push_back(Transformed(bundle.points, bundle.T_world_bundle));
@@ -92,6 +95,7 @@ SegmentedScan SegmentBundles(const Sequence& sequence, const TsdfVolume& volume,
   run.log.Count("segmentation", "bundles", static_cast<double>(scan.bundles.size()));
   run.log.Count("segmentation", "candidates", static_cast<double>(candidates));
   run.log.Count("segmentation", "points", static_cast<double>(points));
+  run.log.Count("segmentation", "frame point stride", static_cast<double>(scan.frames.stride()));
   return scan;
 }
 
@@ -239,7 +243,7 @@ void ContractCarriedPoints(SegmentedScan scan, RunContext& run, Reconstruction& 
     result.points = AxisCorrection(first, run.options.axis_depth).Apply(bundles.points);
   } else {
     RegisteredFrames registered = RegisterFramesToCurves(
-        std::move(scan.frames), bundles, CameraCenters(result.sequence), first, run);
+        std::move(scan.frames).Release(), bundles, CameraCenters(result.sequence), first, run);
     CorrectPoses(registered.T_registered_world, result.sequence);
     result.points = std::move(registered.points);
   }

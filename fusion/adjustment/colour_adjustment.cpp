@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "capture/frame_stream.h"
 #include "fusion/adjustment/colour_frames.h"
 #include "fusion/adjustment/curve_pose_solver.h"
 #include "fusion/adjustment/curve_vertices.h"
@@ -36,6 +37,9 @@ constexpr std::array<AdjustmentRound, 6> kRounds = {{{14, 4, true, true},
                                                      {4, 0.4, false, false}}};
 constexpr double kCornerAngle = 1.0;   // the same as for smoothing
 constexpr double kMaxVertices = 5500;  // of all curves, roughly
+// Images take some .9 MB each.
+constexpr size_t kFirstFrames = 40;
+constexpr int kOtherFrames = 80;
 constexpr int kMinStrips = 300;
 constexpr double kMinAcceptedShare = 0.1;
 // Curves that fit come to .1; more is a wire taken for the next.
@@ -52,10 +56,16 @@ double VertexStep(const SkeletonGraph& skeleton, double step) {
   return std::max(step, skeleton.TotalLength() / kMaxVertices);
 }
 
+// Of a long sequence the first frames, which tell where the world lies, and of the others so many
+// that memory and time do not grow with it.
 std::vector<int> ChooseFrames(int frame_count, int stride) {
-  std::vector<int> indices;
-  for (int i = 0; i < frame_count; i += stride) indices.push_back(i);
-  return indices;
+  std::vector<int> first, others;
+  for (int i = 0; i < frame_count; i += stride) {
+    (first.size() < kFirstFrames ? first : others).push_back(i);
+  }
+  const std::vector<int> thinned = EvenlyThinned(others, kOtherFrames);
+  first.insert(first.end(), thinned.begin(), thinned.end());
+  return first;
 }
 
 CurvePoseProblem MakeProblem(const Sequence& sequence, const CurveVertices& curves,
@@ -203,10 +213,11 @@ void VisitOptions(ColourAdjustmentOptions& options, OptionVisitor& visitor) {
        "Deviation: distance of the vertices that are moved; farther apart where there are "
        "more than some 16 m of wire. Prototype of this stage."},
       options.vertex_step);
-  visitor.Visit({"frame_stride", "frames", 1, 30,
-                 "Deviation: only every so many-th frame of a video is used, of other views all; "
-                 "poses between are interpolated."},
-                options.frame_stride);
+  visitor.Visit(
+      {"frame_stride", "frames", 1, 30,
+       "Deviation: only every so many-th frame of a video is used, of other views all, and at most "
+       "120; poses between are interpolated."},
+      options.frame_stride);
   visitor.Visit({"depth_before_axis", "radii", 0, 1.5,
                  "Deviation: depth is measured so far before the axis, on the near side. Prototype "
                  "of this stage: .83 to 1."},

@@ -238,7 +238,8 @@ TEST_F(ColourAdjustmentTest, ABarWithARowOfWiresIsFoundByItsEdge) {
     return sum / static_cast<double>(bar.size());
   };
   EXPECT_GT(std::abs(mean_error(false)), 0.0025);
-  EXPECT_LT(std::abs(mean_error(true)), 0.0018);  // thick wires are shaded farther in than thin ones
+  EXPECT_LT(std::abs(mean_error(true)),
+            0.0018);  // thick wires are shaded farther in than thin ones
 }
 
 TEST_F(ColourAdjustmentTest, MuchWireHasVerticesFartherApart) {
@@ -255,6 +256,26 @@ TEST_F(ColourAdjustmentTest, MuchWireHasVerticesFartherApart) {
   }
   EXPECT_NEAR(static_cast<double>(points), 5500, 20);  // 7,600 every 3 mm
   EXPECT_LT(adjusted.residual_px, 0.15);
+}
+
+TEST_F(ColourAdjustmentTest, OfManyFramesTheFirstAndSomeOthersAreUsed) {
+  const Sequence few = DriftedSequence("green");
+  Sequence many = few;
+  while (many.frames.size() < 400) many.frames.push_back(few.frames[many.frames.size() % kFrames]);
+  const ColourAdjustment adjusted =
+      AdjustToColours(WrongSkeleton(), many, Given(many), {.frame_stride = 1});
+  EXPECT_EQ(adjusted.skipped, "");
+  EXPECT_LT(adjusted.residual_px, 0.15);
+  ASSERT_EQ(adjusted.frames.size(), 120u);
+  ASSERT_EQ(adjusted.posteriors.size(), 120u);
+  EXPECT_EQ(adjusted.T_world_camera.size(), 400u);
+  EXPECT_EQ(adjusted.frames[39], 39);
+  for (size_t i = 40; i < adjusted.frames.size(); ++i) {
+    const int gap = adjusted.frames[i] - adjusted.frames[i - 1];
+    EXPECT_GE(gap, 1);
+    EXPECT_LE(gap, 5);  // 80 of 360
+  }
+  EXPECT_GE(adjusted.frames.back(), 395);
 }
 
 TEST_F(ColourAdjustmentTest, TheSameForAnyNumberOfThreads) {
