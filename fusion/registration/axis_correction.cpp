@@ -10,6 +10,7 @@ namespace {
 constexpr int64_t kPointsPerChunk = 256;
 // Within this distance, metres, nearly all points have their curve.
 constexpr double kUsualDistance = 0.01;
+constexpr double kCellSize = 0.004;
 
 Polyline PointsWithRadii(const SkeletonGraph& skeleton) {
   Polyline points;
@@ -27,7 +28,7 @@ AxisCorrection::AxisCorrection(const SkeletonGraph& skeleton, double axis_depth)
 
 AxisCorrection::AxisCorrection(const SkeletonGraph& skeleton, double axis_depth,
                                const Polyline& curve_points)
-    : near_(curve_points, kUsualDistance), all_(curve_points) {
+    : near_(curve_points, kCellSize), all_(curve_points) {
   for (const EdgeId id : skeleton.Edges()) {
     for (const double radius : skeleton.edge(id).radii) distances_.push_back(axis_depth * radius);
   }
