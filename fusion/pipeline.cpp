@@ -23,7 +23,7 @@ namespace {
 constexpr size_t kBundlesAtOnce = 4;
 // Ridge points by which a bundle is registered are so many times as far apart as those of curves.
 constexpr double kBundleSpacing = 1.5;
-// What frames saw takes up to 110 MB: some 200 frames of 10 m of wire, all points of each.
+// What frames saw takes up to 110 MB: all points of the first 100 to 400 frames.
 constexpr size_t kMaxFramePoints = 2'000'000;
 
 // "Removing large surfaces" needs a model of them: all frames in one volume.

@@ -49,7 +49,8 @@ WireCandidates Board(const IsGreen& is_green) {
 bool IsWire(int u, int /*v*/) { return u % 8 < 5; }
 
 bool IsSpot(int u, int v) {
-  const auto cell = static_cast<uint32_t>((u / 4) * 73856093 ^ (v / 4) * 19349669);
+  const uint32_t cell =
+      static_cast<uint32_t>(u / 4) * 73856093u ^ static_cast<uint32_t>(v / 4) * 19349669u;
   return (cell >> 4) % 5 < 3;
 }
 
