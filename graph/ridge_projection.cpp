@@ -50,7 +50,7 @@ ObservedPoints UsablePoints(const ObservedPoints& points) {
   for (size_t i = 0; i < points.size(); ++i) {
     if (points.positions[i].allFinite() && points.viewing_rays[i].allFinite() &&
         points.counts[i] > 0) {
-      usable.Add(points.positions[i], points.viewing_rays[i], points.counts[i]);
+      usable.Add(points, i);
     }
   }
   return usable;

@@ -30,6 +30,10 @@ struct ObservedPoints {
     viewing_rays.push_back(viewing_ray);
     counts.push_back(count);
   }
+  /// Adds point `i` of others.
+  void Add(const ObservedPoints& others, size_t i) {
+    Add(others.positions[i], others.viewing_rays[i], others.counts[i]);
+  }
 };
 
 /// The points after a motion or another affine map; rays are mapped as directions.

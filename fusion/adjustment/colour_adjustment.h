@@ -40,13 +40,13 @@ struct ColourAdjustment {
 };
 
 /// Bundle adjustment of curves and camera poses: vertices every few millimetres along the edges,
-/// strips of wire colour found across them in every third colour image (of vertices with few strips
-/// also single edges), and Gauss-Newton over all vertices and poses, six rounds with a shrinking
-/// search. `sequence` holds the poses that
-/// `skeleton` (with radii) was made with, `T_world_given` those of the tracker, whose errors change
-/// slowly. Deviation: CurveFusion uses colour for ghosts and radii only; depth errs by several
-/// millimetres where colour edges are seen to a tenth of a pixel. Throws Error(kBadInput) for
-/// images that cannot be decoded. Cost: .1 s a frame used for 3 m of wire.
+/// strips of wire colour found across them in every third colour image, of long sequences in 120
+/// (of vertices with few strips also single edges), and Gauss-Newton over all vertices and poses,
+/// six rounds with a shrinking search. `sequence` holds the poses that `skeleton` (with radii) was
+/// made with, `T_world_given` those of the tracker, whose errors change slowly. Deviation:
+/// CurveFusion uses colour for ghosts and radii only; depth errs by several millimetres where
+/// colour edges are seen to a tenth of a pixel. Throws Error(kBadInput) for images that cannot be
+/// decoded. Cost: .1 s a frame used for 3 m of wire.
 ColourAdjustment AdjustToColours(const SkeletonGraph& skeleton, const Sequence& sequence,
                                  const std::vector<RigidTransform>& T_world_given,
                                  const ColourAdjustmentOptions& options);

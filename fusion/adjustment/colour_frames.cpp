@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "capture/frame_stream.h"
 #include "fusion/strips/edge_tracking.h"
@@ -79,7 +80,7 @@ std::optional<double> EdgeExcess(const PosteriorImage& posterior, const CurveVer
     whole.push_back({seen.sample.pixel + seen.strip.offset_px * seen.sample.normal,
                      seen.sample.normal, seen.sample.WidthPx(curves.radii[seen.vertex])});
   }
-  return MeasureEdgeExcess(posterior, whole);
+  return MeasureEdgeExcess(posterior, std::move(whole));
 }
 
 int BinAt(const ColourBins& bins, const Vec2& pixel) {
@@ -160,6 +161,7 @@ std::vector<FrameStrips> TrackEdges(const CurveVertices& curves, const CurvePose
   const VertexSamples all = SampleState(curves, state);
   const VertexSamples few = SamplesOfFewStrips(all, curves.positions.size(), strips);
   std::vector<FrameStrips> found(frames.size());
+  if (few.samples.empty()) return found;
   const auto track = [&](int64_t f, const std::vector<ProjectedSample>& projected) {
     const PosteriorImage& posterior = frames.posteriors[f];
     const std::optional<double> excess_px = EdgeExcess(posterior, curves, strips[f]);

@@ -10,7 +10,7 @@ namespace {
 constexpr int64_t kPointsPerChunk = 256;
 // Within this distance, metres, nearly all points have their curve.
 constexpr double kUsualDistance = 0.01;
-constexpr double kCellSize = 0.004;
+constexpr double kCellSize = 0.004;  // most have it within this
 
 Polyline PointsWithRadii(const SkeletonGraph& skeleton) {
   Polyline points;

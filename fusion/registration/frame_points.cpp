@@ -10,9 +10,7 @@ namespace {
 ObservedPoints EveryNth(const ObservedPoints& points, size_t stride, size_t first) {
   ObservedPoints kept;
   kept.Reserve(points.size() / stride + 1);
-  for (size_t i = first; i < points.size(); i += stride) {
-    kept.Add(points.positions[i], points.viewing_rays[i], points.counts[i]);
-  }
+  for (size_t i = first; i < points.size(); i += stride) kept.Add(points, i);
   return kept;
 }
 

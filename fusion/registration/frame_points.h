@@ -21,7 +21,6 @@ class FramePoints {
   void Add(ObservedPoints frame);
 
   /// One entry per frame, in the order in which they were added.
-  const std::vector<ObservedPoints>& frames() const { return frames_; }
   std::vector<ObservedPoints> Release() && { return std::move(frames_); }
 
   /// Of every so many points of a frame one is kept.

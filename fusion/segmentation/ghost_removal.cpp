@@ -126,8 +126,7 @@ void VisitOptions(GhostRemovalOptions& options, OptionVisitor& visitor) {
 }
 
 BundlePoints RemoveGhosts(const BundlePoints& bundle, const GhostRemovalOptions& options) {
-  const std::vector<Vec3>& positions = bundle.points.positions;
-  std::vector<Cluster> clusters = LargeClusters(positions, options);
+  std::vector<Cluster> clusters = LargeClusters(bundle.points.positions, options);
   const auto unverified = [&](const Cluster& cluster) {
     return !IsVerified(bundle, cluster, options);
   };
@@ -139,7 +138,7 @@ BundlePoints RemoveGhosts(const BundlePoints& bundle, const GhostRemovalOptions&
   std::sort(kept.begin(), kept.end());
   BundlePoints remaining;
   for (const int i : kept) {
-    remaining.points.Add(positions[i], bundle.points.viewing_rays[i], bundle.points.counts[i]);
+    remaining.points.Add(bundle.points, static_cast<size_t>(i));
     remaining.evidence.push_back(bundle.evidence[i]);
     remaining.voxels.push_back(bundle.voxels[i]);
   }

@@ -238,8 +238,8 @@ TEST_F(ColourAdjustmentTest, ABarWithARowOfWiresIsFoundByItsEdge) {
     return sum / static_cast<double>(bar.size());
   };
   EXPECT_GT(std::abs(mean_error(false)), 0.0025);
-  EXPECT_LT(std::abs(mean_error(true)),
-            0.0018);  // thick wires are shaded farther in than thin ones
+  // Thick wires are shaded farther in than thin ones.
+  EXPECT_LT(std::abs(mean_error(true)), 0.0018);
 }
 
 TEST_F(ColourAdjustmentTest, MuchWireHasVerticesFartherApart) {

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 namespace curvefusion {
 namespace {
@@ -20,17 +22,18 @@ FramePoints Frames(int count, int places, size_t max_points) {
   return frames;
 }
 
-size_t Total(const FramePoints& frames) {
+size_t Total(const std::vector<ObservedPoints>& frames) {
   size_t total = 0;
-  for (const ObservedPoints& frame : frames.frames()) total += frame.size();
+  for (const ObservedPoints& frame : frames) total += frame.size();
   return total;
 }
 
 TEST(FramePoints, FewAreKeptAsTheyAre) {
-  const FramePoints frames = Frames(10, 100, 1000);
+  FramePoints frames = Frames(10, 100, 1000);
   EXPECT_EQ(frames.stride(), 1u);
-  ASSERT_EQ(frames.frames().size(), 10u);
-  for (const ObservedPoints& frame : frames.frames()) {
+  const std::vector<ObservedPoints> kept = std::move(frames).Release();
+  ASSERT_EQ(kept.size(), 10u);
+  for (const ObservedPoints& frame : kept) {
     EXPECT_EQ(frame.positions, Line(100).positions);
     EXPECT_EQ(frame.viewing_rays, Line(100).viewing_rays);
     EXPECT_EQ(frame.counts, Line(100).counts);
@@ -38,12 +41,13 @@ TEST(FramePoints, FewAreKeptAsTheyAre) {
 }
 
 TEST(FramePoints, OfManyEveryFrameKeepsAsManyAndEveryPlaceIsSeen) {
-  const FramePoints frames = Frames(50, 100, 1000);
+  FramePoints frames = Frames(50, 100, 1000);
   EXPECT_EQ(frames.stride(), 8u);  // 5000 of them by 1000, in powers of two
-  EXPECT_LE(Total(frames), 1000u);
-  EXPECT_GT(Total(frames), 500u);
+  const std::vector<ObservedPoints> kept = std::move(frames).Release();
+  EXPECT_LE(Total(kept), 1000u);
+  EXPECT_GT(Total(kept), 500u);
   std::vector<int> seen(100);
-  for (const ObservedPoints& frame : frames.frames()) {
+  for (const ObservedPoints& frame : kept) {
     EXPECT_NEAR(static_cast<double>(frame.size()), 100.0 / 8, 1.5);
     for (const Vec3& p : frame.positions) ++seen[static_cast<size_t>(p.x())];
   }
@@ -51,7 +55,9 @@ TEST(FramePoints, OfManyEveryFrameKeepsAsManyAndEveryPlaceIsSeen) {
 }
 
 TEST(FramePoints, MemoryDoesNotGrowWithTheNumberOfFrames) {
-  for (const int count : {20, 100, 500}) EXPECT_LE(Total(Frames(count, 100, 1000)), 1000u);
+  for (const int count : {20, 100, 500}) {
+    EXPECT_LE(Total(Frames(count, 100, 1000).Release()), 1000u);
+  }
 }
 
 TEST(FramePoints, FramesWithoutPointsHaveTheirPlace) {
@@ -59,10 +65,11 @@ TEST(FramePoints, FramesWithoutPointsHaveTheirPlace) {
   frames.Add(Line(8));
   frames.Add({});
   frames.Add(Line(8));
-  ASSERT_EQ(frames.frames().size(), 3u);
-  EXPECT_EQ(frames.frames()[0].size(), 4u);
-  EXPECT_TRUE(frames.frames()[1].empty());
-  EXPECT_EQ(frames.frames()[2].size(), 4u);
+  const std::vector<ObservedPoints> kept = std::move(frames).Release();
+  ASSERT_EQ(kept.size(), 3u);
+  EXPECT_EQ(kept[0].size(), 4u);
+  EXPECT_TRUE(kept[1].empty());
+  EXPECT_EQ(kept[2].size(), 4u);
 }
 
 }  // namespace
