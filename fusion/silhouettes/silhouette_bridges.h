@@ -7,7 +7,7 @@ namespace curvefusion {
 
 /// What ends may be joined through the silhouettes of wires.
 struct SilhouetteBridgeOptions {
-  double max_length = 0.1;  ///< metres
+  double max_length = 0.2;  ///< metres
   double min_share = 0.9;   ///< of the images that must show each place as wire
 };
 

@@ -27,9 +27,11 @@ void VisitOptions(SilhouetteOptions& options, OptionVisitor& visitor) {
   visitor.Visit({"min_share", "", 0, 1,
                  "Deviation: parts that a smaller share of the images shows as wire are false."},
                 options.min_share);
-  visitor.Visit({"max_bridge", "m", 0, 1,
-                 "Deviation: how far ends that face each other may be joined through silhouettes."},
-                options.bridges.max_length);
+  visitor.Visit(
+      {"max_bridge", "m", 0, 1,
+       "Deviation: the longest way that silhouettes may show where depth shows none of it or "
+       "little: between ends, ahead of one, or along the line of sight."},
+      options.bridges.max_length);
   visitor.Visit({"min_bridge_share", "", 0, 1,
                  "Deviation: the least share of images that must show every place of a bridge."},
                 options.bridges.min_share);

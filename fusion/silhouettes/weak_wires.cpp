@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <set>
 #include <utility>
@@ -40,6 +41,7 @@ constexpr double kMinBeside = 0.15;
 // without this limit six scans within .15 get 52 ways, most of them false, a chair within .28 and a
 // rack within .35 one false way each, and a cat within just that two true ones.
 constexpr double kMinParallax = 0.38;
+constexpr double kAllAround = 0.02;  // metres; nearer curves may be met in any direction
 constexpr int64_t kPlacesPerChunk = 1024;
 
 std::vector<Vec3> BesideCurves(const std::vector<Vec3>& places, const PointGrid& curves) {
@@ -82,6 +84,65 @@ std::vector<Vec3> MiddlesOfPieces(const std::vector<Vec3>& places) {
   return middles;
 }
 
+// The samples of curves around a place, by the directions in which they lie: for very many ways out
+// of it.
+class CurvesAround {
+ public:
+  CurvesAround(const PointGrid& curves, const Vec3& place, double reach) {
+    curves.ForEachWithin(place, reach, [&](int sample, const Vec3& p) {
+      samples_.push_back({sample, p - place});
+    });
+    const auto far = std::partition(samples_.begin(), samples_.end(), [](const Sample& sample) {
+      return sample.offset.norm() < kAllAround;
+    });
+    near_count_ = static_cast<int>(far - samples_.begin());
+    std::vector<Vec3> directions;
+    for (auto sample = far; sample != samples_.end(); ++sample)
+      directions.push_back(sample->offset.normalized());
+    far_.emplace(directions, kMiss / kAllAround);
+  }
+
+  // The first sample that a way comes to within a length, looked for at every kStep of it, and the
+  // nearest of several; -1 where there is none.
+  int Met(const Vec3& direction, double length) const {
+    Meeting first{.step = std::floor(length / kStep)};
+    for (int i = 0; i < near_count_; ++i) Meet(samples_[i], direction, first);
+    // An angle of that sine has a chord a little longer than its sine.
+    far_->ForEachWithin(direction, 1.01 * kMiss / kAllAround, [&](int i, const Vec3&) {
+      Meet(samples_[near_count_ + i], direction, first);
+    });
+    return first.sample;
+  }
+
+ private:
+  struct Sample {
+    int index;
+    Vec3 offset;
+  };
+  struct Meeting {
+    double step;
+    double squared_distance = std::numeric_limits<double>::infinity();
+    int sample = -1;
+  };
+
+  static void Meet(const Sample& sample, const Vec3& direction, Meeting& first) {
+    const double along = sample.offset.dot(direction);
+    const double squared_half =
+        kMiss * kMiss - (sample.offset.squaredNorm() - along * along);  // of the way within kMiss
+    if (squared_half < 0) return;
+    const double half = std::sqrt(squared_half);
+    const double step = std::max(1.0, std::ceil((along - half) / kStep));
+    if (step > first.step || step * kStep > along + half) return;
+    const double squared_distance = (step * kStep * direction - sample.offset).squaredNorm();
+    if (step == first.step && squared_distance >= first.squared_distance) return;
+    first = {step, squared_distance, sample.index};
+  }
+
+  std::vector<Sample> samples_;  // those that are near first
+  int near_count_ = 0;
+  std::optional<PointGrid> far_;  // directions of the others
+};
+
 // A straight way from one curve to another.
 struct Chord {
   int front = -1;  // samples of curves
@@ -106,32 +167,23 @@ class ChordSearch {
     std::vector<Vec3> near;
     for (const Vec3& p : places)
       if ((p - middle).norm() <= options_.max_length) near.push_back(p);
+    const CurvesAround curves(grid_, middle, options_.max_length);
     Chord best;
     grid_.ForEachWithin(middle, options_.max_length, [&](int back, const Vec3& end) {
       const Vec3 direction = (middle - end).normalized();
-      if (Met(middle, -direction, (middle - end).norm() - kEndReach) >= 0) return;  // before it
-      const int front = Met(middle, direction, options_.max_length);
+      if (curves.Met(-direction, (middle - end).norm() - kEndReach) >= 0) return;  // before it
+      const int front = curves.Met(direction, options_.max_length);
       if (front < 0) return;
       const Polyline way{samples_.positions[front], end};
       const Polyline inside = Inside(way);
-      if (Length(way) > options_.max_length || !IsApart(inside)) return;
+      if (Length(way) > options_.max_length || !IsWire(inside) || !IsApart(inside)) return;
       const double support = Support(way, near);
-      if (support <= best.support || !IsWire(inside)) return;
-      best = {front, back, support};
+      if (support > best.support) best = {front, back, support};
     });
     return best.front < 0 ? std::nullopt : std::optional(best);
   }
 
  private:
-  // The first curve that a way comes to within a length; -1 where there is none.
-  int Met(const Vec3& origin, const Vec3& direction, double length) const {
-    for (double t = kStep; t <= length; t += kStep) {
-      const int met = grid_.Nearest(origin + t * direction, kMiss);
-      if (met >= 0) return met;
-    }
-    return -1;
-  }
-
   // How many places lie on a way, those in its middle for most; nothing for too short a piece.
   double Support(const Polyline& way, const std::vector<Vec3>& places) const {
     double sum = 0;

@@ -46,6 +46,32 @@ TEST(WeakWires, AreOneWhereDepthShowsTwoPiecesOfOne) {
   EXPECT_EQ(graph.edge_count(), 5);
 }
 
+TEST(WeakWires, AreAsLongAsTheStrutOfADome) {
+  const std::vector<Polyline> bars = {TestLine({-0.06, 0, -0.08}, {0.06, 0, -0.08}),
+                                      TestLine({-0.06, 0, 0.08}, {0.06, 0, 0.08})};
+  const SilhouetteScan scan({bars[0], bars[1], TestLine({0, 0, -0.08}, {0, 0, 0.08})});
+  SkeletonGraph graph;
+  for (const Polyline& bar : bars) AddTestEdge(graph, bar);
+  const ObservedPoints seen = PointsAlong(TestLine({0, 0, -0.02}, {0, 0, 0.02}));
+  EXPECT_EQ(AddWeakWires(scan.Silhouettes(), {}, seen, graph), 1);
+  EXPECT_NEAR(graph.TotalLength(), 0.40, 0.004);
+}
+
+TEST(WeakWires, EndAtTheFirstCurveOnTheirWay) {
+  const Polyline rung = TestLine({0, 0, -0.06}, {0, 0, 0.06});
+  std::vector<Polyline> bars;
+  for (const double z : {-0.06, 0.0, 0.06}) bars.push_back(TestLine({-0.06, 0, z}, {0.06, 0, z}));
+  const SilhouetteScan scan({bars[0], bars[1], bars[2], rung});
+  for (const double z : {-0.048, -0.03, -0.012}) {  // near the first, amid, near the second
+    SkeletonGraph graph;
+    for (const Polyline& bar : bars) AddTestEdge(graph, bar);
+    const ObservedPoints seen = PointsAlong(TestLine({0, 0, z - 0.005}, {0, 0, z + 0.005}));
+    EXPECT_EQ(AddWeakWires(scan.Silhouettes(), {}, seen, graph), 1) << z;
+    EXPECT_NEAR(graph.TotalLength(), 0.42, 0.003) << z;
+    EXPECT_EQ(graph.ComponentCount(), 2) << z;
+  }
+}
+
 TEST(WeakWires, NeedPoints) {
   const SilhouetteScan scan({kNear, kFar, kRung});
   SkeletonGraph graph = NearAndFar();
