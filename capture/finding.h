@@ -15,6 +15,8 @@ enum class Severity {
 struct CheckFinding {
   Severity severity = Severity::kError;
   std::string message;
+  std::string cause = {};  ///< what programs know it by, e.g. "poses-inverted"; empty where it has
+                           ///< no name
 };
 
 /// What the readers call for each defect. A handler that throws ends the reading (OpenSequence does
