@@ -36,6 +36,25 @@ Json StagesJson(const std::vector<StageReport>& stages) {
   return result;
 }
 
+Json CameraJson(const PinholeCamera& camera) {
+  return {{"width", camera.width}, {"height", camera.height}, {"fx", camera.fx},
+          {"fy", camera.fy},       {"cx", camera.cx},         {"cy", camera.cy}};
+}
+
+// The cameras the run began with.
+Json CamerasJson(const RunRecord& record) {
+  const Sequence& sequence = record.sequence;
+  Json rows = Json::array();
+  for (int row = 0; row < 4; ++row) {
+    const Eigen::RowVector4d values = sequence.T_color_depth.matrix().row(row);
+    rows.push_back({values[0], values[1], values[2], values[3]});
+  }
+  return {{"depth", CameraJson(sequence.depth_camera)},
+          {"color", CameraJson(sequence.color_camera)},
+          {"T_color_depth", rows},
+          {"color_from", record.colour_camera_fitted ? "fit" : "intrinsics"}};
+}
+
 Json SequenceJson(const Sequence& sequence) {
   return {{"folder", sequence.folder.string()},
           {"format", sequence.format},
@@ -165,6 +184,7 @@ std::string ReportJson(const RunRecord& record) {
                        {"version", 1},
                        {"profile", ProfileName(record.config.profile)},
                        {"sequence", SequenceJson(record.sequence)},
+                       {"cameras", CamerasJson(record)},
                        {"seconds", record.seconds},
                        {"seconds_per_30_frames",
                         frames > 0 ? Json(record.seconds * kBundle / frames) : Json(nullptr)},

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "experiments/config.h"
 #include "apps/graph_figures.h"
 #include "capture/sequence.h"
+#include "experiments/config.h"
 #include "fusion/pipeline.h"
 #include "meshing/watertight.h"
 
@@ -25,9 +25,10 @@ struct RunRecord {
   const Sequence& sequence;
   const Config& config;
   const Reconstruction& reconstruction;
-  std::optional<MeshRecord> mesh;  ///< missing where nothing was found
-  double seconds = 0;              ///< the whole run
-  int64_t peak_memory = 0;         ///< bytes
+  std::optional<MeshRecord> mesh;     ///< missing where nothing was found
+  double seconds = 0;                 ///< the whole run
+  int64_t peak_memory = 0;            ///< bytes
+  bool colour_camera_fitted = false;  ///< that of the sequence; otherwise that of the intrinsics
 };
 
 /// The text of report.json: profile, sequence, frames, stages with seconds and counts, warnings,

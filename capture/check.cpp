@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "capture/content/colour_findings.h"
 #include "capture/detect_format.h"
 #include "capture/image_file.h"
 #include "kernel/error.h"
@@ -122,6 +123,10 @@ CheckReport CheckSequence(const std::filesystem::path& folder, const Progress& p
     report.median_depth = depth.median;
     report.depth_validity = depth.validity;
     if (has_samples) ReportDepthScale(*sequence, depth, collect);
+    if (!report.has_errors()) {
+      report.colour_camera = FitColourCamera(*sequence, {});
+      ReportColourCamera(*sequence, report.colour_camera, collect);
+    }
   }
   std::stable_partition(
       report.findings.begin(), report.findings.end(),

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "capture/content/colour_camera.h"
 #include "capture/finding.h"
 #include "capture/image_survey.h"
 #include "kernel/progress.h"
@@ -18,11 +19,12 @@ struct CheckReport {
   int frames_without_pose = 0;         ///< dropped
   int frames_without_partner = 0;      ///< colour or depth images without the other, dropped
   ImageSizes image_sizes;
-  double depth_scale = 0;        ///< depth units per metre
-  double median_depth = 0;       ///< metres, of the valid pixels; 0 = none
-  double depth_validity = 0;     ///< share of valid depth pixels
-  double trajectory_length = 0;  ///< metres
-  double duration = 0;           ///< seconds; 0 for formats without times
+  double depth_scale = 0;         ///< depth units per metre
+  double median_depth = 0;        ///< metres, of the valid pixels; 0 = none
+  double depth_validity = 0;      ///< share of valid depth pixels
+  double trajectory_length = 0;   ///< metres
+  double duration = 0;            ///< seconds; 0 for formats without times
+  ColourCameraFit colour_camera;  ///< depth edges against colour edges
 
   /// Whether a reconstruction would be refused or wrong.
   bool has_errors() const;

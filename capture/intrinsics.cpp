@@ -112,19 +112,22 @@ std::optional<double> ParseDepthScale(const json& object, const std::string& whe
   return scale;
 }
 
+// The colour camera is the depth camera where the file names no other.
+void ParseColourCamera(const json& object, const std::string& where, Intrinsics& intrinsics) {
+  intrinsics.color_camera = object.contains("color_camera")
+                                ? ParseCamera(object["color_camera"], where + ": color_camera")
+                                : intrinsics.depth_camera;
+  if (object.contains("T_color_depth")) {
+    intrinsics.T_color_depth = ParseTransform(object["T_color_depth"], where + ": T_color_depth");
+  }
+}
+
 Intrinsics ParseIntrinsics(const std::filesystem::path& path) {
   const json object = ParseJsonObject(path);
   Intrinsics intrinsics;
   intrinsics.depth_camera = ParseCamera(object, path.string());
   intrinsics.depth_scale = ParseDepthScale(object, path.string());
-  intrinsics.color_camera =
-      object.contains("color_camera")
-          ? ParseCamera(object["color_camera"], path.string() + ": color_camera")
-          : intrinsics.depth_camera;
-  if (object.contains("T_color_depth")) {
-    intrinsics.T_color_depth =
-        ParseTransform(object["T_color_depth"], path.string() + ": T_color_depth");
-  }
+  ParseColourCamera(object, path.string(), intrinsics);
   return intrinsics;
 }
 
@@ -147,8 +150,8 @@ Intrinsics ParseRedwoodIntrinsics(const std::filesystem::path& path) {
   intrinsics.depth_camera = {
       Pixels(object, "width", where), Pixels(object, "height", where), m[0], m[4], m[6], m[7]};
   RequirePlausible(intrinsics.depth_camera, where);
-  intrinsics.color_camera = intrinsics.depth_camera;
   intrinsics.depth_scale = ParseDepthScale(object, where);
+  ParseColourCamera(object, where, intrinsics);
   return intrinsics;
 }
 

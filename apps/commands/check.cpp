@@ -30,6 +30,11 @@ void PrintFigures(const CheckReport& report) {
              sizes.depth_width, sizes.depth_height, report.depth_scale, 100 * report.depth_validity,
              report.median_depth);
   fmt::print("colour       {} x {}\n", sizes.color_width, sizes.color_height);
+  if (report.colour_camera.measured) {
+    fmt::print(
+        "registration depth edges lie {:.1f} px from colour edges in the mean, {:.1f} px at best\n",
+        report.colour_camera.given_px, report.colour_camera.fitted_px);
+  }
   const std::string duration =
       report.duration > 0 ? fmt::format(" in {:.1f} s", report.duration) : "";
   fmt::print("camera path  {:.2f} m{}\n", report.trajectory_length, duration);

@@ -14,6 +14,7 @@
 #include "apps/report.h"
 #include "apps/run_observer.h"
 #include "apps/tube_warnings.h"
+#include "capture/content/colour_findings.h"
 #include "capture/trajectory.h"
 #include "experiments/pictures/png.h"
 #include "graph/graph_io.h"
@@ -35,6 +36,7 @@ struct ReconstructArguments {
   fs::path output;
   ConfigArguments config;
   StageOutputs stages;
+  std::string colour_camera = "auto";
   RunOptions run;
 };
 
@@ -92,16 +94,17 @@ void WriteReport(RunRecord& record, Clock::time_point start, const fs::path& fol
 int RunReconstruct(const ReconstructArguments& arguments) {
   const auto start = Clock::now();
   const Config config = ReadConfig(Sources(arguments.config));
-  const Sequence sequence = OpenSequence(arguments.sequence);
-  MakeOutputFolder(arguments.output);
   const ThreadLimit limit(arguments.run.threads);
+  Sequence sequence = OpenSequence(arguments.sequence);
+  MakeOutputFolder(arguments.output);
+  const bool fitted = arguments.colour_camera == "auto" && UseFittedColourCamera(sequence);
   ProgressPrinter printer = MakeProgressPrinter(arguments.run.quiet);
   RunObserver observer(printer, arguments.stages);
   const Reconstruction reconstruction = Reconstruct(sequence, config.pipeline, observer);
   printer.Finish();
   ThrowIfInterrupted();
 
-  RunRecord record{sequence, config, reconstruction, {}, 0, 0};
+  RunRecord record{sequence, config, reconstruction, {}, 0, 0, fitted};
   RemoveEarlierResult(arguments.output);
   WriteText(arguments.output / "config.toml", ConfigToml(config));
   const bool found = !reconstruction.skeleton.empty();
@@ -132,6 +135,12 @@ void AddReconstructCommand(CLI::App& app, int& exit_code) {
                    "config.toml")
       ->required();
   AddConfigArguments(*command, arguments->config);
+  command
+      ->add_option("--colour-camera", arguments->colour_camera,
+                   "auto: where colour edges lie far from depth edges, the colour camera that was "
+                   "fitted to them is used; given: always that of the intrinsics")
+      ->check(CLI::IsMember({"auto", "given"}))
+      ->capture_default_str();
   AddRunOptions(*command, arguments->run);
   command->add_option("--save-stages", arguments->stages.folder,
                       "Folder for the points and curves of every step, as PLY");
