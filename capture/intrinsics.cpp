@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "capture/distortion_keys.h"
 #include "capture/trajectory.h"
 #include "kernel/error.h"
 #include "kernel/json_input.h"
@@ -113,25 +114,36 @@ std::optional<double> ParseDepthScale(const json& object, const std::string& whe
 }
 
 // The colour camera is the depth camera where the file names no other.
-void ParseColourCamera(const json& object, const std::string& where, Intrinsics& intrinsics) {
-  intrinsics.color_camera = object.contains("color_camera")
-                                ? ParseCamera(object["color_camera"], where + ": color_camera")
-                                : intrinsics.depth_camera;
+void ParseColourCamera(const json& object, const std::string& where,
+                       const FindingHandler& on_finding, Intrinsics& intrinsics) {
+  intrinsics.color_camera = intrinsics.depth_camera;
+  intrinsics.color_distortion = intrinsics.depth_distortion;
+  if (object.contains("color_camera")) {
+    const json& camera = object["color_camera"];
+    const std::string where_color = where + ": color_camera";
+    intrinsics.color_camera = ParseCamera(camera, where_color);
+    intrinsics.color_distortion = ParseDistortion(camera, intrinsics.color_camera, where_color);
+    ReportUnknownKeys(camera, where_color, on_finding);
+  }
   if (object.contains("T_color_depth")) {
     intrinsics.T_color_depth = ParseTransform(object["T_color_depth"], where + ": T_color_depth");
   }
 }
 
-Intrinsics ParseIntrinsics(const std::filesystem::path& path) {
+Intrinsics ParseIntrinsics(const std::filesystem::path& path, const FindingHandler& on_finding) {
   const json object = ParseJsonObject(path);
+  const std::string where = path.string();
   Intrinsics intrinsics;
-  intrinsics.depth_camera = ParseCamera(object, path.string());
-  intrinsics.depth_scale = ParseDepthScale(object, path.string());
-  ParseColourCamera(object, path.string(), intrinsics);
+  intrinsics.depth_camera = ParseCamera(object, where);
+  intrinsics.depth_distortion = ParseDistortion(object, intrinsics.depth_camera, where);
+  intrinsics.depth_scale = ParseDepthScale(object, where);
+  ParseColourCamera(object, where, on_finding, intrinsics);
+  ReportUnknownKeys(object, where, on_finding);
   return intrinsics;
 }
 
-Intrinsics ParseRedwoodIntrinsics(const std::filesystem::path& path) {
+Intrinsics ParseRedwoodIntrinsics(const std::filesystem::path& path,
+                                  const FindingHandler& on_finding) {
   const json object = ParseJsonObject(path);
   const std::string where = path.string();
   const auto matrix = object.find("intrinsic_matrix");
@@ -150,8 +162,9 @@ Intrinsics ParseRedwoodIntrinsics(const std::filesystem::path& path) {
   intrinsics.depth_camera = {
       Pixels(object, "width", where), Pixels(object, "height", where), m[0], m[4], m[6], m[7]};
   RequirePlausible(intrinsics.depth_camera, where);
+  intrinsics.depth_distortion = ParseDistortion(object, intrinsics.depth_camera, where);
   intrinsics.depth_scale = ParseDepthScale(object, where);
-  ParseColourCamera(object, where, intrinsics);
+  ParseColourCamera(object, where, on_finding, intrinsics);
   return intrinsics;
 }
 
@@ -161,7 +174,7 @@ Intrinsics ReportDefect(const Parse& parse, const std::filesystem::path& path,
                         const FindingHandler& on_finding) {
   std::string message;
   try {
-    return parse(path);
+    return parse(path, on_finding);
   } catch (const Error& error) {
     message = error.what();
   }

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "capture/distortion.h"
 #include "capture/finding.h"
 #include "kernel/camera.h"
 #include "kernel/geometry.h"
@@ -13,6 +14,8 @@ namespace curvefusion {
 struct Intrinsics {
   PinholeCamera depth_camera;
   PinholeCamera color_camera;  ///< the depth camera where the file names no other
+  Distortion depth_distortion;
+  Distortion color_distortion;  ///< that of the depth camera where the file names no other camera
   RigidTransform T_color_depth = RigidTransform::Identity();
   std::optional<double> depth_scale;  ///< depth units per metre, where the file says so
 };
@@ -25,8 +28,9 @@ struct Intrinsics {
 /// ```
 /// Widths and focal lengths in pixels, principal points with pixel (0, 0) at the centre of the
 /// top-left pixel; depth_scale, color_camera and T_color_depth (metres, 4 rows or 16 numbers row by
-/// row) may be missing. Reports what cannot be: missing or wrong values, a principal point outside
-/// the image.
+/// row) may be missing. Both cameras may have k1, k2, p1, p2, k3 or "distortion": [k1, k2, p1, p2,
+/// k3]. Reports what cannot be: missing or wrong values, a principal point outside the image, other
+/// lens models; warns of unknown keys.
 Intrinsics ReadIntrinsics(const std::filesystem::path& path, const FindingHandler& on_finding);
 
 /// Reads the intrinsic.json of Open3D: width, height and a column-major 3x3 `intrinsic_matrix`;

@@ -64,14 +64,17 @@ DepthImage LoadDepth(const Sequence& sequence, int frame) {
   const SequenceFrame& entry = sequence.frames.at(static_cast<size_t>(frame));
   const Image<uint16_t> raw = DecodeDepthImage(entry.depth_path);
   RequireSize(sequence, entry.depth_path, raw.width(), raw.height(), sequence.depth_camera);
-  return MetricDepth(raw, sequence.depth_scale, sequence.invalid_depth);
+  DepthImage depth = MetricDepth(raw, sequence.depth_scale, sequence.invalid_depth);
+  if (sequence.depth_distortion.IsZero()) return depth;
+  return Undistorted(depth, sequence.depth_camera, sequence.depth_distortion);
 }
 
 ColorImage LoadColor(const Sequence& sequence, int frame) {
   const SequenceFrame& entry = sequence.frames.at(static_cast<size_t>(frame));
   ColorImage color = DecodeColorImage(entry.color_path);
   RequireSize(sequence, entry.color_path, color.width(), color.height(), sequence.color_camera);
-  return color;
+  if (sequence.color_distortion.IsZero()) return color;
+  return Undistorted(color, sequence.color_camera, sequence.color_distortion);
 }
 
 }  // namespace curvefusion

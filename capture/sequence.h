@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "capture/distortion.h"
 #include "kernel/camera.h"
 #include "kernel/geometry.h"
 #include "kernel/image.h"
@@ -25,6 +26,8 @@ struct Sequence {
   std::filesystem::path folder;
   PinholeCamera depth_camera;
   PinholeCamera color_camera;
+  Distortion depth_distortion;  ///< of the images as stored: LoadDepth and LoadColor undo it
+  Distortion color_distortion;
   RigidTransform T_color_depth = RigidTransform::Identity();
   double depth_scale = 5000;          ///< depth units per metre
   int invalid_depth = 0;              ///< raw value that means "no measurement", besides 0
@@ -46,11 +49,11 @@ Sequence OpenSequence(const std::filesystem::path& folder);
 /// hand; otherwise they are views each of its own.
 bool IsVideo(const Sequence& sequence);
 
-/// Decodes one depth image to metres. Thread-safe. Throws Error(kBadInput) for a missing,
-/// truncated, 8-bit or wrongly sized image.
+/// Decodes one depth image to metres and undoes the lens distortion. Thread-safe. Throws
+/// Error(kBadInput) for a missing, truncated, 8-bit or wrongly sized image.
 DepthImage LoadDepth(const Sequence& sequence, int frame);
 
-/// Decodes one colour image. Thread-safe. Throws like LoadDepth.
+/// Decodes one colour image and undoes the lens distortion. Thread-safe. Throws like LoadDepth.
 ColorImage LoadColor(const Sequence& sequence, int frame);
 
 }  // namespace curvefusion

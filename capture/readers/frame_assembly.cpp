@@ -55,6 +55,8 @@ NumberedImages ImagesByFrameNumber(const std::filesystem::path& folder, const st
 void UseIntrinsics(const Intrinsics& intrinsics, double default_depth_scale, Sequence& sequence) {
   sequence.depth_camera = intrinsics.depth_camera;
   sequence.color_camera = intrinsics.color_camera;
+  sequence.depth_distortion = intrinsics.depth_distortion;
+  sequence.color_distortion = intrinsics.color_distortion;
   sequence.T_color_depth = intrinsics.T_color_depth;
   sequence.depth_scale = intrinsics.depth_scale.value_or(default_depth_scale);
 }
