@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <string>
+#include <system_error>
+#include <vector>
 
 #include "capture/readers/readers.h"
 #include "kernel/error.h"
@@ -12,6 +16,8 @@ namespace curvefusion {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr size_t kMaxProposals = 3;  // chosen: a message of one line
 
 bool LooksLikeTum(const fs::path& folder) {
   return fs::exists(folder / "depth.txt") || fs::exists(folder / "associations.txt");
@@ -42,7 +48,35 @@ constexpr std::array<Format, 4> kFormats = {{
     {"7-scenes", LooksLikeSevenScenes, ReadSevenScenes},
 }};
 
+bool LooksLikeSequence(const fs::path& folder) {
+  return std::any_of(kFormats.begin(), kFormats.end(),
+                     [&](const Format& format) { return format.matches(folder); });
+}
+
+// The first scans, by name, among the folders inside a folder. Those that cannot be read are not.
+std::vector<std::string> ScansInside(const fs::path& folder) {
+  std::vector<std::string> scans;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    try {
+      if (entry.is_directory() && LooksLikeSequence(entry.path())) {
+        scans.push_back(entry.path().string());
+      }
+    } catch (const fs::filesystem_error&) {
+    }
+  }
+  std::sort(scans.begin(), scans.end());
+  if (scans.size() > kMaxProposals) scans.resize(kMaxProposals);
+  return scans;
+}
+
 [[noreturn]] void FailUnknownFormat(const fs::path& folder) {
+  const std::vector<std::string> scans = ScansInside(folder);
+  if (!scans.empty()) {
+    throw Error(ErrorKind::kBadInput,
+                fmt::format("{}: is no scan but holds {}; did you mean {}?", folder.string(),
+                            scans.size() == 1 ? "one" : "some", fmt::join(scans, " or ")));
+  }
   if (fs::is_empty(folder)) {
     throw Error(ErrorKind::kBadInput, fmt::format("{}: the folder is empty", folder.string()));
   }
@@ -50,7 +84,8 @@ constexpr std::array<Format, 4> kFormats = {{
       ErrorKind::kBadInput,
       fmt::format(
           "{}: the format of this folder is unknown; it must hold one of: rgb.txt, depth.txt and "
-          "trajectory.txt (TUM); color/, depth/ and pose/ (per-frame poses); color/, depth/ and "
+          "trajectory.txt (TUM); color/ (or rgb/, image/), depth/ and pose/ (per-frame poses); "
+          "color/, depth/ and "
           "trajectory.log (Open3D, Redwood); frame-000000.depth.png and so on (7-Scenes)",
           folder.string()));
 }

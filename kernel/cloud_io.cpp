@@ -15,6 +15,7 @@
 
 #include "kernel/atomic_file.h"
 #include "kernel/error.h"
+#include "kernel/pcd_points.h"
 #include "kernel/text_input.h"
 
 namespace curvefusion {
@@ -93,7 +94,7 @@ ObservedPoints ReadXyz(const std::filesystem::path& path, std::string_view conte
     }
     AddVertex(path, place, {columns[0], columns[1], columns[2], 0, 0, 0, 1}, points);
   }
-  if (points.empty()) Reject(path, "no point in it; a PLY or XYZ point cloud is expected");
+  if (points.empty()) Reject(path, "no point in it; a PLY, PCD or XYZ point cloud is expected");
   return points;
 }
 
@@ -262,12 +263,21 @@ ObservedPoints ReadPly(const std::filesystem::path& path, std::string_view conte
   return points;
 }
 
+ObservedPoints ReadPcd(const std::filesystem::path& path, std::string_view content) {
+  ObservedPoints points;
+  for (const Vec3& p : ReadPcdPoints(path, content)) {
+    AddVertex(path, {"measured point", points.size()}, {p.x(), p.y(), p.z(), 0, 0, 0, 1}, points);
+  }
+  return points;
+}
+
 }  // namespace
 
 ObservedPoints ReadCloud(const std::filesystem::path& path) {
   const std::string content = ReadFile(path, kMaxCloudBytes);
-  if (content.empty()) Reject(path, "the file is empty; a PLY or XYZ point cloud is expected");
+  if (content.empty()) Reject(path, "the file is empty; a PLY, PCD or XYZ point cloud is expected");
   const bool is_ply = content.starts_with("ply\n") || content.starts_with("ply\r\n");
+  if (IsPcd(content)) return ReadPcd(path, content);
   return is_ply ? ReadPly(path, content) : ReadXyz(path, content);
 }
 

@@ -97,7 +97,7 @@ void AddContractCommand(CLI::App& app, int& exit_code) {
   CLI::App* command =
       app.add_subcommand("contract", "Contract a point cloud of thin structures to its curves");
   const auto arguments = std::make_shared<ContractArguments>();
-  command->add_option("CLOUD", arguments->cloud, "PLY or XYZ file")->required();
+  command->add_option("CLOUD", arguments->cloud, "PLY, PCD or XYZ file")->required();
   command->add_option("-o,--output", arguments->output, "The skeleton.json to write")->required();
   command
       ->add_option("--scale", arguments->scale,

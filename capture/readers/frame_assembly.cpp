@@ -22,17 +22,16 @@ std::optional<long long> FrameNumber(const std::string& name) {
   return number;
 }
 
-bool IsImageName(const std::string& name, const std::string& suffix) {
-  if (!suffix.empty()) return name.ends_with(suffix);
+bool IsImageName(const std::string& name, const std::string& kind) {
   for (const char* extension : {".png", ".jpg", ".jpeg", ".PNG", ".JPG", ".JPEG"}) {
-    if (name.ends_with(extension)) return true;
+    if (name.ends_with(kind + extension)) return true;
   }
   return false;
 }
 
 }  // namespace
 
-NumberedImages ImagesByFrameNumber(const std::filesystem::path& folder, const std::string& suffix) {
+NumberedImages ImagesByFrameNumber(const std::filesystem::path& folder, const std::string& kind) {
   if (!std::filesystem::is_directory(folder)) {
     throw Error(ErrorKind::kBadInput,
                 fmt::format("{}: this folder of images is missing", folder.string()));
@@ -41,7 +40,7 @@ NumberedImages ImagesByFrameNumber(const std::filesystem::path& folder, const st
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
     const auto number = FrameNumber(name);
-    if (!number || name.front() == '.' || !IsImageName(name, suffix)) continue;
+    if (!number || name.front() == '.' || !IsImageName(name, kind)) continue;
     const auto [other, is_new] = images.emplace(*number, entry.path());
     if (is_new) continue;
     const auto [first, second] = std::minmax(other->second.filename().string(), name);
@@ -50,6 +49,13 @@ NumberedImages ImagesByFrameNumber(const std::filesystem::path& folder, const st
                             folder.string(), first, second, *number));
   }
   return images;
+}
+
+std::filesystem::path ColorFolder(const std::filesystem::path& folder) {
+  for (const char* name : {"color", "colour", "rgb", "image", "images"}) {
+    if (std::filesystem::is_directory(folder / name)) return folder / name;
+  }
+  return folder / "color";
 }
 
 void UseIntrinsics(const Intrinsics& intrinsics, double default_depth_scale, Sequence& sequence) {

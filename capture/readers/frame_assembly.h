@@ -16,10 +16,14 @@ using NumberedImages = std::map<long long, std::filesystem::path>;
 
 /// The PNG and JPEG files of a folder by frame number: the first run of digits in the name
 /// ("000012.png", "0000001-000000033000.jpg", "frame-000007"). Throws Error(kBadInput) where the
-/// folder is missing, or two files have the same number. `suffix` limits it to names that end so
-/// (".depth.png").
+/// folder is missing, or two files have the same number. `kind` limits it to names that have it
+/// before their extension (".depth").
 NumberedImages ImagesByFrameNumber(const std::filesystem::path& folder,
-                                   const std::string& suffix = "");
+                                   const std::string& kind = "");
+
+/// The folder of colour images beside depth/: the first of color, colour, rgb, image, images that
+/// is there; color where none is.
+std::filesystem::path ColorFolder(const std::filesystem::path& folder);
 
 /// Sets cameras and depth scale of a sequence; the scale is `default_depth_scale` where the
 /// intrinsics do not say.

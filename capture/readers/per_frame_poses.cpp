@@ -18,8 +18,8 @@ Sequence ReadPerFramePoses(const std::filesystem::path& folder, const FindingHan
     if (!std::filesystem::exists(path)) return std::optional<RigidTransform>();
     return ReadPoseMatrix(path, on_finding);
   };
-  AddFrames(ImagesByFrameNumber(folder / "color"), ImagesByFrameNumber(folder / "depth"), find_pose,
-            sequence);
+  AddFrames(ImagesByFrameNumber(ColorFolder(folder)), ImagesByFrameNumber(folder / "depth"),
+            find_pose, sequence);
   return sequence;
 }
 

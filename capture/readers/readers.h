@@ -14,16 +14,17 @@ namespace curvefusion {
 /// rgb.txt and depth.txt, or associations.txt; trajectory.txt or groundtruth.txt; intrinsics.json.
 Sequence ReadTum(const std::filesystem::path& folder, const FindingHandler& on_finding);
 
-/// color/, depth/ and pose/ with files of the same name; intrinsics.json. Millimetres unless it
-/// says otherwise.
+/// color/ (or colour/, rgb/, image/, images/), depth/ and pose/ with files of the same name;
+/// intrinsics.json. Millimetres unless it says otherwise.
 Sequence ReadPerFramePoses(const std::filesystem::path& folder, const FindingHandler& on_finding);
 
 /// color/, depth/, trajectory.log, intrinsic.json as Open3D and Redwood write them. The i-th depth
 /// image by name belongs to the pose whose first number is i; colour is matched by frame number.
 Sequence ReadRedwood(const std::filesystem::path& folder, const FindingHandler& on_finding);
 
-/// frame-NNNNNN.{color.png,depth.png,pose.txt}. Without an intrinsics.json the cameras are those
-/// the data set was published with (f 585, centre 320, 240), which is reported as a warning.
+/// frame-NNNNNN.{color.png,depth.png,pose.txt}; colour may be JPEG. Without an intrinsics.json the
+/// cameras are those the data set was published with (f 585, centre 320, 240), which is reported as
+/// a warning.
 Sequence ReadSevenScenes(const std::filesystem::path& folder, const FindingHandler& on_finding);
 
 }  // namespace curvefusion

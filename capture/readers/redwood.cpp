@@ -71,8 +71,8 @@ Sequence ReadRedwood(const std::filesystem::path& folder, const FindingHandler& 
     const auto pose = poses.find(rank);
     return pose == poses.end() ? std::optional<RigidTransform>() : pose->second;
   };
-  AddFrames(ImagesByFrameNumber(folder / "color"), ImagesByFrameNumber(folder / "depth"), find_pose,
-            sequence);
+  AddFrames(ImagesByFrameNumber(ColorFolder(folder)), ImagesByFrameNumber(folder / "depth"),
+            find_pose, sequence);
   return sequence;
 }
 

@@ -33,8 +33,8 @@ Sequence ReadSevenScenes(const std::filesystem::path& folder, const FindingHandl
     if (!std::filesystem::exists(path)) return std::optional<RigidTransform>();
     return ReadPoseMatrix(path, on_finding);
   };
-  AddFrames(ImagesByFrameNumber(folder, ".color.png"), ImagesByFrameNumber(folder, ".depth.png"),
-            find_pose, sequence);
+  AddFrames(ImagesByFrameNumber(folder, ".color"), ImagesByFrameNumber(folder, ".depth"), find_pose,
+            sequence);
   return sequence;
 }
 

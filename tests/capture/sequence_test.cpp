@@ -101,6 +101,37 @@ TEST_F(SequenceTest, PerFramePosesDropFramesWithoutPoseOrPartner) {
   EXPECT_EQ(sequence.frames_without_partner, 1);
 }
 
+TEST_F(SequenceTest, ColourFoldersHaveSeveralNames) {
+  for (const char* name : {"image", "images", "rgb", "colour"}) {
+    TemporaryFolder other;
+    WritePerFrameSequence(other.path());
+    std::filesystem::rename(other.path() / "color", other.path() / name);
+    EXPECT_EQ(OpenSequence(other.path()).frame_count(), kFixtureFrames) << name;
+  }
+}
+
+TEST_F(SequenceTest, SevenScenesMayHaveJpegColour) {
+  WritePerFrameSequence(folder());
+  for (int i = 0; i < kFixtureFrames; ++i) {
+    const std::string old = fmt::format("{:06}", i), frame = "frame-" + old;
+    std::filesystem::rename(folder() / "depth" / (old + ".png"), folder() / (frame + ".depth.png"));
+    std::filesystem::rename(folder() / "color" / (old + ".jpg"), folder() / (frame + ".color.jpg"));
+    std::filesystem::rename(folder() / "pose" / (old + ".txt"), folder() / (frame + ".pose.txt"));
+  }
+  std::filesystem::remove(folder() / "pose");
+  const Sequence sequence = OpenSequence(folder());
+  EXPECT_EQ(sequence.format, "7-scenes");
+  EXPECT_EQ(sequence.frame_count(), kFixtureFrames);
+}
+
+TEST_F(SequenceTest, AScanInsideTheFolderIsProposed) {
+  WritePerFrameSequence(folder() / "recordings/second");
+  WritePerFrameSequence(folder() / "recordings/first");
+  EXPECT_THAT(OpenError(folder() / "recordings"),
+              AllOf(HasSubstr("holds some; did you mean"), HasSubstr("recordings/first or "),
+                    HasSubstr("recordings/second?")));
+}
+
 TEST_F(SequenceTest, Redwood) {
   WritePerFrameSequence(folder());
   std::filesystem::remove_all(folder() / "pose");

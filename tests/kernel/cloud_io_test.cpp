@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <fstream>
 #include <limits>
@@ -52,6 +53,66 @@ std::string Bytes(double value, bool swapped) {
 }
 
 using testing::HasSubstr;
+
+std::string PcdHeader(const std::string& data, int points) {
+  return "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS rgb x y z\n"
+         "SIZE 4 4 4 4\nTYPE U F F F\nCOUNT 1 1 1 1\nWIDTH " +
+         std::to_string(points) + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " +
+         std::to_string(points) + "\nDATA " + data + "\n";
+}
+
+std::string FloatBytes(std::initializer_list<float> values) {
+  std::string bytes;
+  for (const float value : values) {
+    std::array<char, sizeof(value)> part;
+    std::memcpy(part.data(), &value, sizeof(value));
+    bytes.append(part.data(), part.size());
+  }
+  return bytes;
+}
+
+TEST_F(CloudFile, PcdAsciiWithoutUnmeasuredPoints) {
+  const ObservedPoints points =
+      Read(PcdHeader("ascii", 3) + "7 1 2 3\n7 nan nan nan\n7 0.5 -1 4\n");
+  ASSERT_EQ(points.size(), 2u);
+  EXPECT_EQ(points.positions[1], Vec3(0.5, -1, 4));
+}
+
+TEST_F(CloudFile, PcdBinary) {
+  const ObservedPoints points =
+      Read(PcdHeader("binary", 2) + FloatBytes({0, 1, 2, 3}) + FloatBytes({0, 0.5f, -1, 4}));
+  ASSERT_EQ(points.size(), 2u);
+  EXPECT_EQ(points.positions[0], Vec3(1, 2, 3));
+  EXPECT_EQ(points.positions[1], Vec3(0.5, -1, 4));
+}
+
+// Eight floats, field by field: rgb is four bytes twice, compressed to a literal of one byte and a
+// copy of seven; the others are literals.
+TEST_F(CloudFile, PcdBinaryCompressed) {
+  std::string packed{'\0', '\0', static_cast<char>(5 << 5), '\0'};
+  packed += static_cast<char>(23);
+  packed += FloatBytes({1, 0.5f, 2, -1, 3, 4});
+  std::string sizes(8, '\0');
+  sizes[0] = static_cast<char>(packed.size());
+  sizes[4] = 32;
+  const ObservedPoints points = Read(PcdHeader("binary_compressed", 2) + sizes + packed);
+  ASSERT_EQ(points.size(), 2u);
+  EXPECT_EQ(points.positions[0], Vec3(1, 2, 3));
+  EXPECT_EQ(points.positions[1], Vec3(0.5, -1, 4));
+  packed[2] = static_cast<char>(5 << 5 | 1);  // copies from before the beginning
+  EXPECT_THAT(ErrorOf(PcdHeader("binary_compressed", 2) + sizes + packed), HasSubstr("damaged"));
+}
+
+TEST_F(CloudFile, PcdDefectsAreNamed) {
+  EXPECT_THAT(ErrorOf(PcdHeader("ascii", 2) + "7 1 2 3\n"), HasSubstr("truncated: 1 of 2"));
+  EXPECT_THAT(ErrorOf(PcdHeader("ascii", 1) + "7 1 2 x\n"), HasSubstr("'x' is not a number"));
+  EXPECT_THAT(ErrorOf(PcdHeader("binary", 3) + FloatBytes({0, 1, 2, 3})),
+              HasSubstr("truncated: 1 of 3"));
+  EXPECT_THAT(ErrorOf(PcdHeader("zip", 1)), HasSubstr("'zip' is not known"));
+  EXPECT_THAT(ErrorOf("# .PCD v0.7\nFIELDS x y\nSIZE 4 4\nTYPE F F\nPOINTS 1\nDATA ascii\n1 2\n"),
+              HasSubstr("needs a field z"));
+  EXPECT_THAT(ErrorOf("# .PCD v0.7\nFIELDS x y z\nPOINTS -1\nDATA ascii\n"), HasSubstr("'-1'"));
+}
 
 TEST_F(CloudFile, WrittenCloudReadsBackToTheSameBits) {
   ObservedPoints points;
