@@ -1,33 +1,72 @@
 #include "apps/interrupt.h"
 
-#include <csignal>
+#include <fcntl.h>
+#include <unistd.h>
 
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <string_view>
+#include <system_error>
+#include <thread>
+
+#include "kernel/cancellation.h"
 #include "kernel/error.h"
+#include "kernel/unfinished_path.h"
 
 namespace curvefusion {
 
 namespace {
 
-// A signal handler can reach nothing but a global of this type.
-volatile std::sig_atomic_t interrupted = 0;
+// Half a second is what a user is promised; removing what was begun needs some of it.
+constexpr std::chrono::milliseconds kPatience(300);
+constexpr std::string_view kMessage = "curvefusion: interrupted\n";
 
-void SetInterrupted(int) { interrupted = 1; }
+// A signal handler can reach nothing but globals.
+std::array<int, 2> signal_pipe = {-1, -1};
+
+void OnSignal(int) {
+  const int saved_errno = errno;
+  RequestCancellation();
+  const char byte = 0;
+  [[maybe_unused]] const ssize_t written = write(signal_pipe[1], &byte, 1);
+  errno = saved_errno;
+}
+
+// Ends the process where the run does not end by itself soon enough, inside a long call of a
+// library or a read of a slow device, say.
+void EndAfterPatience() {
+  char byte = 0;
+  while (read(signal_pipe[0], &byte, 1) < 0) {
+    if (errno != EINTR) return;
+  }
+  std::this_thread::sleep_for(kPatience);
+  RemoveUnfinishedPaths();
+  [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, kMessage.data(), kMessage.size());
+  _exit(ExitCode(ErrorKind::kInterrupted));
+}
+
+// Where no pipe or thread is to be had, runs end where they look at the flag.
+void StartWatching() {
+  if (pipe2(signal_pipe.data(), O_CLOEXEC) != 0) return;
+  try {
+    std::thread(EndAfterPatience).detach();
+  } catch (const std::system_error&) {
+    return;
+  }
+}
 
 }  // namespace
 
 void CatchInterrupts() {
+  StartWatching();
   struct sigaction action = {};
-  action.sa_handler = SetInterrupted;
+  action.sa_handler = OnSignal;
   action.sa_flags = static_cast<int>(SA_RESETHAND);
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
-}
-
-void ThrowIfInterrupted() {
-  if (interrupted != 0) {
-    throw Error(ErrorKind::kInterrupted, "interrupted; no result was written");
-  }
 }
 
 }  // namespace curvefusion

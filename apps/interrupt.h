@@ -2,11 +2,10 @@
 
 namespace curvefusion {
 
-/// From now on SIGINT and SIGTERM only set a flag, so that a run ends where it leaves nothing
-/// half-written. A second signal ends the program at once.
+/// From now on SIGINT and SIGTERM cancel what runs (kernel/cancellation.h), so that it ends where
+/// it leaves nothing half-written. What has not ended after 0.3 s is ended: temporary files and
+/// folders are removed, and the process exits with the code of an interruption. A second signal
+/// ends the program at once.
 void CatchInterrupts();
-
-/// Throws Error(kInterrupted) once a signal has arrived. Long steps call it through their progress.
-void ThrowIfInterrupted();
 
 }  // namespace curvefusion

@@ -2,9 +2,9 @@
 
 #include <utility>
 
-#include "apps/interrupt.h"
 #include "apps/output_folder.h"
 #include "graph/graph_io.h"
+#include "kernel/cancellation.h"
 #include "kernel/cloud_io.h"
 #include "meshing/mesh_io.h"
 
@@ -17,7 +17,7 @@ RunObserver::RunObserver(ProgressPrinter& printer, StageOutputs outputs)
 }
 
 void RunObserver::OnProgress(const std::string& stage, int64_t done, int64_t total) {
-  ThrowIfInterrupted();
+  ThrowIfCancelled();
   printer_.Report(stage, done, total);
 }
 

@@ -8,6 +8,7 @@
 
 #include "kernel/error.h"
 #include "kernel/partial_folder.h"
+#include "kernel/unfinished_path.h"
 
 namespace curvefusion {
 
@@ -41,6 +42,7 @@ void WriteFileAtomically(const fs::path& path,
   fs::path temporary = path;
   temporary.replace_filename(
       fmt::format("{}.partial-{}{}", path.stem().string(), ::getpid(), path.extension().string()));
+  const UnfinishedPath marked(temporary);
   std::error_code failure;
   try {
     write(temporary);

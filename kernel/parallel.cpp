@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "kernel/cancellation.h"
+
 #ifdef CURVEFUSION_STD_THREADS
 #include <atomic>
 #include <exception>
@@ -47,6 +49,7 @@ void ParallelChunks(int64_t begin, int64_t end, int64_t grain,
   const auto work = [&] {
     for (int64_t first = next.fetch_add(grain); first < end; first = next.fetch_add(grain)) {
       try {
+        ThrowIfCancelled();
         body(first, std::min(first + grain, end));
       } catch (...) {
         const std::lock_guard<std::mutex> lock(failure_mutex);
@@ -83,6 +86,7 @@ void ParallelChunks(int64_t begin, int64_t end, int64_t grain,
       tbb::blocked_range<int64_t>(0, chunks, 1),
       [&](const tbb::blocked_range<int64_t>& range) {
         for (int64_t chunk = range.begin(); chunk < range.end(); ++chunk) {
+          ThrowIfCancelled();
           const int64_t first = begin + chunk * grain;
           body(first, std::min(first + grain, end));
         }

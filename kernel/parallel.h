@@ -19,8 +19,8 @@ class ThreadLimit {
 };
 
 /// Calls body(first, last) on disjoint chunks of [begin, end), each of at most `grain` indices, in
-/// parallel. The chunks do not depend on the number of threads, so a body that writes only to its
-/// own indices gives the same result for any number of threads. Exceptions reach the caller.
+/// parallel. The chunks do not depend on the number of threads: a body that writes only to its own
+/// indices gives the same result for any number. Exceptions, cancellation too, reach the caller.
 void ParallelChunks(int64_t begin, int64_t end, int64_t grain,
                     const std::function<void(int64_t first, int64_t last)>& body);
 

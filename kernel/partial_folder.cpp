@@ -24,23 +24,23 @@ void ThrowIf(const std::error_code& failure, const fs::path& path) {
 
 PartialFolder::PartialFolder(fs::path final_path)
     : final_path_(std::move(final_path)),
-      path_(final_path_.string() + ".partial-" + std::to_string(getpid())) {
+      unfinished_(final_path_.string() + ".partial-" + std::to_string(getpid())) {
   std::error_code failure;
-  fs::remove_all(path_, failure);
-  fs::create_directories(path_, failure);
+  fs::remove_all(path(), failure);
+  fs::create_directories(path(), failure);
   ThrowIf(failure, final_path_);
 }
 
 PartialFolder::~PartialFolder() {
   std::error_code ignored;
-  fs::remove_all(path_, ignored);
+  fs::remove_all(path(), ignored);
 }
 
 void PartialFolder::Finish() {
   std::error_code failure;
   fs::remove_all(final_path_, failure);
   ThrowIf(failure, final_path_);
-  fs::rename(path_, final_path_, failure);
+  fs::rename(path(), final_path_, failure);
   ThrowIf(failure, final_path_);
 }
 

@@ -2,6 +2,8 @@
 
 #include <filesystem>
 
+#include "kernel/unfinished_path.h"
+
 namespace curvefusion {
 
 /// A folder that is filled under a temporary name and gets its final one only when it is complete;
@@ -14,14 +16,14 @@ class PartialFolder {
   PartialFolder(const PartialFolder&) = delete;
   PartialFolder& operator=(const PartialFolder&) = delete;
 
-  const std::filesystem::path& path() const { return path_; }
+  const std::filesystem::path& path() const { return unfinished_.path(); }
 
   /// Replaces what lies under the final name. Throws Error(kResource) where that is impossible.
   void Finish();
 
  private:
   std::filesystem::path final_path_;
-  std::filesystem::path path_;
+  UnfinishedPath unfinished_;
 };
 
 }  // namespace curvefusion

@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "apps/interrupt.h"
+#include "kernel/cancellation.h"
 
 namespace curvefusion {
 
@@ -15,7 +15,7 @@ void AddRunOptions(CLI::App& command, RunOptions& options) {
 
 Progress InterruptibleProgress(ProgressPrinter& printer) {
   return [&printer](std::string_view stage, int64_t done, int64_t total) {
-    ThrowIfInterrupted();
+    ThrowIfCancelled();
     printer.Report(std::string(stage), done, total);
   };
 }

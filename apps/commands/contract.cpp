@@ -7,7 +7,6 @@
 #include <string>
 
 #include "apps/commands/command.h"
-#include "apps/interrupt.h"
 #include "apps/output_folder.h"
 #include "apps/report.h"
 #include "apps/set_radius.h"
@@ -15,6 +14,7 @@
 #include "graph/l1_contraction.h"
 #include "graph/ridge_skeleton.h"
 #include "graph/suggested_radius.h"
+#include "kernel/cancellation.h"
 #include "kernel/cloud_io.h"
 #include "kernel/parallel.h"
 
@@ -74,7 +74,7 @@ int RunContract(const ContractArguments& arguments) {
   for (Vec3& position : points.positions) position *= scale;
   MakeFolderOf(arguments.output);
   SkeletonGraph graph = ExtractAtAxis(points, arguments);
-  ThrowIfInterrupted();
+  ThrowIfCancelled();
   if (graph.empty()) {
     fmt::print(stderr,
                "curvefusion: no curve in the {} points of {}; is --scale right (metres per unit "

@@ -7,11 +7,11 @@
 
 #include "apps/commands/command.h"
 #include "apps/evaluation_table.h"
-#include "apps/interrupt.h"
 #include "apps/output_folder.h"
 #include "experiments/metrics/evaluation_files.h"
 #include "experiments/metrics/truth.h"
 #include "graph/graph_io.h"
+#include "kernel/cancellation.h"
 #include "kernel/error.h"
 #include "kernel/parallel.h"
 #include "meshing/mesh_io.h"
@@ -50,7 +50,7 @@ int RunEvaluate(const EvaluateArguments& arguments) {
   MakeFolderOf(arguments.json);
   MakeFolderOf(arguments.csv);
   const Evaluation evaluation = EvaluateFiles(arguments);
-  ThrowIfInterrupted();
+  ThrowIfCancelled();
   const fs::path& evaluated = arguments.result.empty() ? arguments.mesh : arguments.result;
   const EvaluationLabels labels{evaluated.string(), arguments.truth.string()};
   if (!arguments.json.empty()) WriteEvaluation(arguments.json, labels, evaluation);

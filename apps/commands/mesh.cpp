@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "apps/commands/command.h"
-#include "apps/interrupt.h"
 #include "apps/output_folder.h"
 #include "apps/set_radius.h"
 #include "apps/tube_warnings.h"
 #include "graph/graph_io.h"
+#include "kernel/cancellation.h"
 #include "kernel/error.h"
 #include "kernel/parallel.h"
 #include "meshing/mesh_io.h"
@@ -76,7 +76,7 @@ int MeshSkeleton(const MeshArguments& arguments) {
   MakeFolderOf(arguments.output);
   ChooseRadii(arguments, skeleton);
   const TubeMesh tubes = BuildTubes(skeleton, arguments.tubes);
-  ThrowIfInterrupted();
+  ThrowIfCancelled();
   const TriangleMesh mesh = ToTriangleMesh(tubes.surface);
   const CornerNormals normals = ComputeTubeNormals(mesh, tubes.paths);
   WriteMesh(arguments.output, mesh, {.unit = unit, .normals = &normals});

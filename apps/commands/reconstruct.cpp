@@ -8,7 +8,6 @@
 
 #include "apps/commands/command.h"
 #include "apps/commands/config_arguments.h"
-#include "apps/interrupt.h"
 #include "apps/output_folder.h"
 #include "apps/preview.h"
 #include "apps/report.h"
@@ -19,6 +18,7 @@
 #include "experiments/pictures/png.h"
 #include "graph/graph_io.h"
 #include "kernel/atomic_file.h"
+#include "kernel/cancellation.h"
 #include "kernel/error.h"
 #include "kernel/parallel.h"
 #include "kernel/peak_memory.h"
@@ -102,7 +102,7 @@ int RunReconstruct(const ReconstructArguments& arguments) {
   RunObserver observer(printer, arguments.stages);
   const Reconstruction reconstruction = Reconstruct(sequence, config.pipeline, observer);
   printer.Finish();
-  ThrowIfInterrupted();
+  ThrowIfCancelled();
 
   RunRecord record{sequence, config, reconstruction, {}, 0, 0, fitted};
   RemoveEarlierResult(arguments.output);

@@ -1,19 +1,27 @@
 #include "apps/interrupt.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 
+#include "kernel/cancellation.h"
 #include "kernel/error.h"
+#include "kernel/partial_folder.h"
+#include "tests/temporary_path.h"
 
 namespace curvefusion {
 namespace {
 
-// What main does with an error, in a process of its own: the flag lasts as long as the process.
+namespace fs = std::filesystem;
+
+// What main does with an error, in a process of its own: the request lasts as long as the process.
 [[noreturn]] void ExitAsMainWould() {
   try {
-    ThrowIfInterrupted();
+    ThrowIfCancelled();
   } catch (const Error& error) {
     std::exit(ExitCode(error.kind()));
   }
@@ -38,6 +46,21 @@ TEST(InterruptDeathTest, ASignalEndsARunWhereItAsks) {
 
 TEST(InterruptDeathTest, WithoutASignalNothingHappens) {
   EXPECT_EXIT(ExitAsMainWould(), testing::ExitedWithCode(0), "");
+}
+
+TEST(InterruptDeathTest, ARunThatNeverAsksIsEndedAndLeavesNothing) {
+  const fs::path folder = TemporaryPath("interrupt_test");
+  EXPECT_EXIT(
+      {
+        const PartialFolder partial(folder);
+        std::ofstream(partial.path() / "half.txt") << "half";
+        CatchAndRaise(SIGINT);
+        while (true) pause();
+      },
+      testing::ExitedWithCode(130), "interrupted");
+  for (const auto& entry : fs::directory_iterator(folder.parent_path())) {
+    EXPECT_NE(entry.path().stem(), folder.filename());
+  }
 }
 
 TEST(InterruptDeathTest, ASecondSignalEndsTheProgram) {
