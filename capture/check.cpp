@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "capture/content/colour_findings.h"
+#include "capture/content/geometry_check.h"
+#include "capture/content/thumbnails.h"
 #include "capture/detect_format.h"
 #include "capture/image_file.h"
 #include "kernel/error.h"
@@ -19,6 +21,8 @@ constexpr int kWindow = 32;  // frames between two progress messages
 // What decoding one frame told.
 struct FrameCheck {
   DepthSamples depth;
+  Image<uint16_t> depth_thumbnail;
+  Image<uint8_t> grey_thumbnail;
   std::vector<std::string> defects;
 };
 
@@ -36,21 +40,37 @@ void CollectDefect(const std::filesystem::path& path, const Decode& decode, Fram
 FrameCheck CheckFrame(const Sequence& sequence, const SequenceFrame& frame) {
   FrameCheck check;
   const auto decode_depth = [&] {
-    check.depth.Add(MetricDepth(DecodeDepthImage(frame.depth_path), sequence.depth_scale,
-                                sequence.invalid_depth));
+    const Image<uint16_t> raw = DecodeDepthImage(frame.depth_path);
+    check.depth_thumbnail = ShrunkDepth(sequence, raw);
+    check.depth.Add(MetricDepth(raw, sequence.depth_scale, sequence.invalid_depth));
   };
   if (ReadImageHeader(frame.depth_path).bits == 16) {
     CollectDefect(frame.depth_path, decode_depth, check);
   }
-  CollectDefect(
-      frame.color_path, [&] { DecodeColorImage(frame.color_path); }, check);
+  const auto decode_color = [&] {
+    check.grey_thumbnail = ShrunkColor(sequence, DecodeColorImage(frame.color_path));
+  };
+  CollectDefect(frame.color_path, decode_color, check);
   return check;
 }
 
-// Decodes all frames; returns the samples of their depth.
-DepthSamples CheckFrames(const Sequence& sequence, const Progress& progress,
-                         const FindingHandler& on_finding) {
-  DepthSamples samples;
+// What decoding all frames told.
+struct DecodedContent {
+  DepthSamples depth;
+  Thumbnails thumbnails;
+
+  void Add(int frame, FrameCheck& check) {
+    depth.Add(check.depth);
+    if (thumbnails.depth.empty()) return;
+    thumbnails.depth[static_cast<size_t>(frame)] = std::move(check.depth_thumbnail);
+    thumbnails.grey[static_cast<size_t>(frame)] = std::move(check.grey_thumbnail);
+  }
+};
+
+DecodedContent CheckFrames(const Sequence& sequence, const Progress& progress,
+                           const FindingHandler& on_finding) {
+  DecodedContent content;
+  content.thumbnails = EmptyThumbnails(sequence);
   const int count = sequence.frame_count();
   for (int begin = 0; begin < count; begin += kWindow) {
     progress("check", begin, count);
@@ -58,13 +78,14 @@ DepthSamples CheckFrames(const Sequence& sequence, const Progress& progress,
     std::vector<FrameCheck> checks(static_cast<size_t>(end - begin));
     ParallelFor(begin, end, 1,
                 [&](int64_t i) { checks[i - begin] = CheckFrame(sequence, sequence.frames[i]); });
-    for (const FrameCheck& check : checks) {
-      samples.Add(check.depth);
+    for (int i = begin; i < end; ++i) {
+      FrameCheck& check = checks[static_cast<size_t>(i - begin)];
       for (const std::string& defect : check.defects) on_finding({Severity::kError, defect});
+      content.Add(i, check);
     }
   }
   progress("check", count, count);
-  return samples;
+  return content;
 }
 
 double TrajectoryLength(const Sequence& sequence) {
@@ -117,12 +138,14 @@ CheckReport CheckSequence(const std::filesystem::path& folder, const Progress& p
   if (const auto sequence = TryReadSequence(folder, collect)) {
     Summarize(*sequence, report);
     report.image_sizes = SurveyImages(*sequence, collect);
-    DepthSamples samples = CheckFrames(*sequence, progress, collect);
-    const bool has_samples = samples.pixels > 0;
-    const DepthSurvey depth = SurveyDepth(std::move(samples));
+    DecodedContent content = CheckFrames(*sequence, progress, collect);
+    const bool has_samples = content.depth.pixels > 0;
+    const DepthSurvey depth = SurveyDepth(std::move(content.depth));
     report.median_depth = depth.median;
     report.depth_validity = depth.validity;
-    if (has_samples) ReportDepthScale(*sequence, depth, collect);
+    report.geometry = CheckGeometry(*sequence, content.thumbnails, collect);
+    const bool is_explained = report.geometry.correction.has_value();
+    if (has_samples && !is_explained) ReportDepthScale(*sequence, depth, collect);
     if (!report.has_errors()) {
       report.colour_camera = FitColourCamera(*sequence, {});
       ReportColourCamera(*sequence, report.colour_camera, collect);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "capture/content/colour_camera.h"
+#include "capture/content/geometry_check.h"
 #include "capture/finding.h"
 #include "capture/image_survey.h"
 #include "kernel/progress.h"
@@ -24,6 +25,7 @@ struct CheckReport {
   double depth_validity = 0;      ///< share of valid depth pixels
   double trajectory_length = 0;   ///< metres
   double duration = 0;            ///< seconds; 0 for formats without times
+  GeometryReport geometry;        ///< whether poses and depth fit
   ColourCameraFit colour_camera;  ///< depth edges against colour edges
 
   /// Whether a reconstruction would be refused or wrong.

@@ -40,6 +40,27 @@ void PrintFigures(const CheckReport& report) {
   fmt::print("camera path  {:.2f} m{}\n", report.trajectory_length, duration);
 }
 
+// "disagreement  4 / 6 / 9 mm over 1 / 3 / 10 frames (...)"
+void PrintGeometry(const GeometryReport& geometry) {
+  if (!geometry.is_judged) {
+    if (!geometry.why_not.empty()) {
+      fmt::print("poses        cannot be judged by depth: {}\n", geometry.why_not);
+    }
+    return;
+  }
+  for (const DepthDisagreement& part : geometry.by_gap) {
+    fmt::print(
+        "poses        depth {} frame{} apart differs by {:.1f} mm (spread {:.1f} mm, sensor "
+        "noise {:.1f} mm), overlap {:.0f} %\n",
+        part.gap, part.gap == 1 ? "" : "s", 1e3 * part.residual, 1e3 * part.spread,
+        1e3 * part.noise, 100 * part.overlap);
+  }
+  for (const DepthDisagreement& part : geometry.by_distance) {
+    fmt::print("             at {:.2f} m by {:.1f} mm (spread {:.1f} mm, sensor noise {:.1f} mm)\n",
+               part.distance, 1e3 * part.residual, 1e3 * part.spread, 1e3 * part.noise);
+  }
+}
+
 void PrintFindings(const CheckReport& report) {
   for (const CheckFinding& finding : report.findings) {
     fmt::print("{}: {}\n", finding.severity == Severity::kError ? "error" : "warning",
@@ -55,6 +76,7 @@ int RunCheck(const CheckArguments& arguments) {
   printer.Finish();
   if (!arguments.run.quiet) {
     PrintFigures(report);
+    PrintGeometry(report.geometry);
     PrintFindings(report);
   }
   return report.has_errors() ? ExitCode(ErrorKind::kBadInput) : 0;

@@ -14,6 +14,7 @@
 #include "apps/run_observer.h"
 #include "apps/tube_warnings.h"
 #include "capture/content/colour_findings.h"
+#include "capture/content/geometry_check.h"
 #include "capture/trajectory.h"
 #include "experiments/pictures/png.h"
 #include "graph/graph_io.h"
@@ -96,6 +97,7 @@ int RunReconstruct(const ReconstructArguments& arguments) {
   const Config config = ReadConfig(Sources(arguments.config));
   const ThreadLimit limit(arguments.run.threads);
   Sequence sequence = OpenSequence(arguments.sequence);
+  RequireFittingPoses(sequence);
   MakeOutputFolder(arguments.output);
   const bool fitted = arguments.colour_camera == "auto" && UseFittedColourCamera(sequence);
   ProgressPrinter printer = MakeProgressPrinter(arguments.run.quiet);

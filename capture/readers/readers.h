@@ -14,6 +14,9 @@ namespace curvefusion {
 /// rgb.txt and depth.txt, or associations.txt; trajectory.txt or groundtruth.txt; intrinsics.json.
 Sequence ReadTum(const std::filesystem::path& folder, const FindingHandler& on_finding);
 
+/// The trajectory file of such a folder. Throws Error(kBadInput) where there is none.
+std::filesystem::path TumTrajectoryPath(const std::filesystem::path& folder);
+
 /// color/ (or colour/, rgb/, image/, images/), depth/ and pose/ with files of the same name;
 /// intrinsics.json. Millimetres unless it says otherwise.
 Sequence ReadPerFramePoses(const std::filesystem::path& folder, const FindingHandler& on_finding);

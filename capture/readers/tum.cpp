@@ -113,7 +113,9 @@ std::vector<ImagePair> ReadPairs(const std::filesystem::path& folder,
   return pairs;
 }
 
-std::filesystem::path TrajectoryPath(const std::filesystem::path& folder) {
+}  // namespace
+
+std::filesystem::path TumTrajectoryPath(const std::filesystem::path& folder) {
   for (const char* name : {"trajectory.txt", "groundtruth.txt"}) {
     if (std::filesystem::exists(folder / name)) return folder / name;
   }
@@ -124,12 +126,10 @@ std::filesystem::path TrajectoryPath(const std::filesystem::path& folder) {
                   folder.string()));
 }
 
-}  // namespace
-
 Sequence ReadTum(const std::filesystem::path& folder, const FindingHandler& on_finding) {
   Sequence sequence;
   UseIntrinsics(ReadIntrinsics(folder / "intrinsics.json", on_finding), kTumDepthUnits, sequence);
-  const Trajectory trajectory = ReadTumTrajectory(TrajectoryPath(folder), on_finding);
+  const Trajectory trajectory = ReadTumTrajectory(TumTrajectoryPath(folder), on_finding);
   for (const ImagePair& pair : ReadPairs(folder, on_finding, sequence)) {
     const StampedPose* pose = NearestPose(trajectory, pair.depth.timestamp);
     if (pose == nullptr) {

@@ -1,0 +1,189 @@
+#include "capture/content/geometry_check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "capture/content/geometry_messages.h"
+#include "capture/content/pose_explanation.h"
+#include "capture/readers/readers.h"
+#include "kernel/error.h"
+#include "kernel/quantile.h"
+
+namespace curvefusion {
+
+namespace {
+
+constexpr int kStarts = 16;  // pairs of each gap; 64 pairs of some 100 frames
+constexpr int kSampledStarts = 6;
+// Khoshelham 2012: standard deviation of structured light, metres, of the squared distance;
+// generous for others.
+constexpr double kNoisePerSquaredMetre = 1.425e-3;
+constexpr std::array<double, 7> kDistances = {0, 0.5, 1, 1.5, 2, 3, 100};
+constexpr int kMinPoints = 200;  // of a distance or gap
+// Chosen: where poses that stand still cost no more than this factor of the given ones, any poses
+// would do.
+constexpr double kTellsFactor = 1.3;
+
+// Two measurements differ by sqrt(2) sigma, of which the median absolute value is .6745.
+double NoiseAt(double distance) {
+  return 0.6745 * std::sqrt(2.0) * kNoisePerSquaredMetre * distance * distance;
+}
+
+struct Differences {
+  std::vector<double> signed_values;
+  std::vector<double> absolute_values;
+  std::vector<double> distances;
+
+  void Add(const DepthViews::Overlap& overlap) {
+    signed_values.push_back(overlap.difference);
+    absolute_values.push_back(std::abs(overlap.difference));
+    distances.push_back(overlap.distance);
+  }
+};
+
+DepthDisagreement Summarize(const Differences& differences) {
+  DepthDisagreement summary;
+  summary.points = static_cast<int>(differences.distances.size());
+  summary.distance = Median(differences.distances);
+  summary.residual = Median(differences.absolute_values);
+  summary.spread =
+      Quantile(differences.signed_values, 0.75) - Quantile(differences.signed_values, 0.25);
+  summary.noise = NoiseAt(summary.distance);
+  return summary;
+}
+
+size_t DistanceBin(double distance) {
+  const auto next = std::upper_bound(kDistances.begin() + 1, kDistances.end() - 1, distance);
+  return static_cast<size_t>(next - kDistances.begin()) - 1;
+}
+
+// Fills the figures from the pairs that overlap.
+void Measure(const DepthViews& views, const std::vector<FramePair>& pairs, const FramePoses& poses,
+             GeometryReport& report) {
+  std::map<int, Differences> by_gap;
+  std::map<int, std::vector<double>> overlaps;
+  std::array<Differences, kDistances.size() - 1> by_distance;
+  for (const FramePair& pair : pairs) {
+    const auto& from = poses[static_cast<size_t>(pair.from)];
+    const auto& to = poses[static_cast<size_t>(pair.to)];
+    if (!from || !to) continue;
+    int samples = 0;
+    const auto found = views.Overlaps(pair.from, pair.to, to->inverse() * *from, samples);
+    if (samples == 0) continue;
+    overlaps[pair.gap()].push_back(static_cast<double>(found.size()) / samples);
+    for (const DepthViews::Overlap& overlap : found) {
+      by_gap[pair.gap()].Add(overlap);
+      by_distance[DistanceBin(overlap.distance)].Add(overlap);
+    }
+  }
+  for (const auto& [gap, differences] : by_gap) {
+    if (differences.distances.size() < kMinPoints) continue;
+    report.by_gap.push_back(Summarize(differences));
+    report.by_gap.back().gap = gap;
+    report.by_gap.back().overlap = Median(overlaps[gap]);
+  }
+  for (const Differences& differences : by_distance) {
+    if (differences.distances.size() >= kMinPoints) {
+      report.by_distance.push_back(Summarize(differences));
+    }
+  }
+}
+
+std::vector<double> TimesOf(const Sequence& sequence) {
+  std::vector<double> times;
+  for (const SequenceFrame& frame : sequence.frames) times.push_back(frame.timestamp);
+  return times;
+}
+
+double MedianStep(const std::vector<double>& times) {
+  std::vector<double> steps;
+  for (size_t i = 1; i < times.size(); ++i) steps.push_back(times[i] - times[i - 1]);
+  return steps.empty() ? 1 : Median(std::move(steps));
+}
+
+Trajectory RawTrajectory(const Sequence& sequence) {
+  if (sequence.format != "tum") return {};
+  return ReadTumTrajectory(TumTrajectoryPath(sequence.folder), [](const CheckFinding&) {});
+}
+
+MisfitEvidence EvidenceOf(const Sequence& sequence, const Thumbnails& thumbnails,
+                          std::vector<FramePair> pairs) {
+  MisfitEvidence evidence{thumbnails, sequence.depth_scale, std::move(pairs), GivenPoses(sequence)};
+  evidence.trajectory = RawTrajectory(sequence);
+  if (evidence.trajectory.empty()) return evidence;
+  evidence.times = TimesOf(sequence);
+  evidence.frame_period = MedianStep(evidence.times);
+  return evidence;
+}
+
+SequenceCorrection CorrectionOf(const Sequence& sequence, const Misfit& misfit) {
+  SequenceCorrection correction;
+  correction.depth_scale = misfit.depth_scale;
+  correction.swap_bytes = misfit.explanation.swap_bytes;
+  correction.made.push_back(misfit.remedy);
+  for (size_t i = 0; i < sequence.frames.size(); ++i) {
+    if (!misfit.poses[i]) continue;
+    correction.frames.push_back(sequence.frames[i]);
+    correction.frames.back().T_world_camera = *misfit.poses[i];
+  }
+  return correction;
+}
+
+GeometryReport Judge(const Sequence& sequence, const Thumbnails& thumbnails,
+                     const std::vector<FramePair>& pairs, const FindingHandler& on_finding) {
+  GeometryReport report;
+  report.frames = static_cast<int>(FramesOf(pairs).size());
+  const MisfitEvidence evidence = EvidenceOf(sequence, thumbnails, pairs);
+  const DepthViews views(thumbnails, sequence.depth_scale);
+  Measure(views, pairs, evidence.poses, report);
+  PoseSearch search{MeasureAgreement(views, pairs, evidence.poses), std::nullopt};
+  if (!FitsAsGiven(evidence, search.given)) search = ExplainMisfit(evidence);
+  if (search.best) {
+    report.is_judged = true;
+    const Misfit misfit = DescribeMisfit(sequence, evidence, search);
+    on_finding(misfit.finding);
+    report.correction = CorrectionOf(sequence, misfit);
+    return report;
+  }
+  if (search.given.usable < kMinJudgedPairs) {
+    report.why_not = "too few views overlap";
+    return report;
+  }
+  const PoseAgreement standing =
+      MeasureAgreement(views, pairs, StandingPoses(evidence.poses.size()));
+  const double residual = WideResidual(pairs, search.given);
+  if (residual > kMaxWideResidual) {
+    report.is_judged = true;
+    on_finding(UnexplainedMisfit(sequence, search.given, residual, standing));
+  } else if (standing.usable >= search.given.usable &&
+             standing.cost < kTellsFactor * search.given.cost) {
+    report.why_not = "the depth images hardly differ: the camera stands still or sees one plane";
+  } else {
+    report.is_judged = true;
+  }
+  return report;
+}
+
+}  // namespace
+
+GeometryReport CheckGeometry(const Sequence& sequence, const Thumbnails& thumbnails,
+                             const FindingHandler& on_finding) {
+  if (thumbnails.depth.empty()) return {};
+  return Judge(sequence, thumbnails, SpreadPairs(sequence.frame_count(), kStarts), on_finding);
+}
+
+void RequireFittingPoses(Sequence& sequence) {
+  const std::vector<FramePair> pairs = SpreadPairs(sequence.frame_count(), kSampledStarts);
+  const Thumbnails thumbnails = DepthThumbnails(sequence, FramesOf(pairs));
+  if (thumbnails.depth.empty()) return;
+  Judge(sequence, thumbnails, pairs, [&sequence](const CheckFinding& finding) {
+    if (finding.severity == Severity::kError) throw Error(ErrorKind::kBadInput, finding.message);
+    sequence.warnings.push_back(finding.message);
+  });
+}
+
+}  // namespace curvefusion

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "capture/content/thumbnails.h"
+#include "capture/finding.h"
+
+namespace curvefusion {
+
+/// How far depth of different frames disagrees where they show the same surface.
+struct DepthDisagreement {
+  int gap = 0;          ///< frames between them, 0 = all gaps
+  double distance = 0;  ///< metres, median
+  double residual = 0;  ///< metres, median of the absolute difference along the optical axis
+  double spread = 0;    ///< metres, interquartile range of the difference
+  double noise = 0;     ///< metres, what sensor noise alone would give for the residual
+  double overlap = 0;   ///< share of the measured points that the other frame sees; 0 where
+                        ///< it is by distance
+  int points = 0;
+};
+
+/// A sequence as it should have been.
+struct SequenceCorrection {
+  std::vector<SequenceFrame> frames;
+  double depth_scale = 0;
+  bool swap_bytes = false;        ///< of every depth value
+  std::vector<std::string> made;  ///< what was changed, a clause each
+};
+
+/// What the depth of a sequence says of its poses.
+struct GeometryReport {
+  bool is_judged = false;  ///< whether depth can tell right poses from wrong ones
+  std::string why_not;     ///< where it cannot
+  int frames = 0;          ///< compared
+  std::vector<DepthDisagreement> by_gap;
+  std::vector<DepthDisagreement> by_distance;
+  std::optional<SequenceCorrection> correction;  ///< where one is known
+};
+
+/// Compares the depth of frames 1, 3, 10 and 30 apart, moved by their poses, reports what is wrong
+/// with poses, depth unit, clocks and order, and names its cause. Needs the thumbnails of the
+/// frames it compares; those that are missing are left out. About .1 s; 2 s where poses do not fit.
+GeometryReport CheckGeometry(const Sequence& sequence, const Thumbnails& thumbnails,
+                             const FindingHandler& on_finding);
+
+/// The same from about 30 frames, which it decodes: for the start of a reconstruction. Throws
+/// Error(kBadInput) for what cannot work; adds to the sequence's warnings what is in doubt.
+void RequireFittingPoses(Sequence& sequence);
+
+}  // namespace curvefusion
