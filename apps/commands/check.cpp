@@ -9,7 +9,6 @@
 
 #include "apps/commands/command.h"
 #include "kernel/error.h"
-#include "kernel/parallel.h"
 
 namespace curvefusion {
 
@@ -70,7 +69,7 @@ void PrintFindings(const CheckReport& report) {
 }
 
 int RunCheck(const CheckArguments& arguments) {
-  const ThreadLimit limit(arguments.run.threads);
+  LimitThreads(arguments.run);
   ProgressPrinter printer = MakeProgressPrinter(arguments.run.quiet);
   const CheckReport report = CheckSequence(arguments.sequence, InterruptibleProgress(printer));
   printer.Finish();

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "kernel/cancellation.h"
+#include "kernel/parallel.h"
 
 namespace curvefusion {
 
@@ -11,6 +12,11 @@ void AddRunOptions(CLI::App& command, RunOptions& options) {
   command.add_option("--threads", options.threads, "Threads to use; 0 = all cores")
       ->check(CLI::Range(0, 1024));
   command.add_flag("--quiet", options.quiet, "Print nothing but errors");
+}
+
+void LimitThreads(const RunOptions& options) {
+  static const ThreadLimit* const limit = new ThreadLimit(options.threads);
+  static_cast<void>(limit);
 }
 
 Progress InterruptibleProgress(ProgressPrinter& printer) {

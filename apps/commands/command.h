@@ -34,6 +34,10 @@ struct RunOptions {
 };
 void AddRunOptions(CLI::App& command, RunOptions& options);
 
+/// Limits every parallel loop of the program from now on. There is no way back: when a limit ends,
+/// TBB starts threads, and ends the program where there is no memory for them.
+void LimitThreads(const RunOptions& options);
+
 /// Progress that is shown by `printer` and ends the step once the user interrupts.
 Progress InterruptibleProgress(ProgressPrinter& printer);
 

@@ -16,7 +16,6 @@
 #include "graph/suggested_radius.h"
 #include "kernel/cancellation.h"
 #include "kernel/cloud_io.h"
-#include "kernel/parallel.h"
 
 namespace curvefusion {
 
@@ -65,7 +64,7 @@ SkeletonGraph ExtractAtAxis(const ObservedPoints& points, const ContractArgument
 }
 
 int RunContract(const ContractArguments& arguments) {
-  const ThreadLimit limit(arguments.run.threads);
+  LimitThreads(arguments.run);
   ObservedPoints points = ReadCloud(arguments.cloud);
   const double scale = arguments.scale > 0 ? arguments.scale : GuessedScale(points);
   if (scale != 1 && arguments.scale <= 0 && !arguments.run.quiet) {

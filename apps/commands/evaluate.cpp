@@ -13,7 +13,6 @@
 #include "graph/graph_io.h"
 #include "kernel/cancellation.h"
 #include "kernel/error.h"
-#include "kernel/parallel.h"
 #include "meshing/mesh_io.h"
 
 namespace curvefusion {
@@ -46,7 +45,7 @@ int RunEvaluate(const EvaluateArguments& arguments) {
   if (arguments.result.empty() && arguments.mesh.empty()) {
     throw Error(ErrorKind::kUsage, "name a result folder, a skeleton.json or a --mesh to evaluate");
   }
-  const ThreadLimit limit(arguments.run.threads);
+  LimitThreads(arguments.run);
   MakeFolderOf(arguments.json);
   MakeFolderOf(arguments.csv);
   const Evaluation evaluation = EvaluateFiles(arguments);

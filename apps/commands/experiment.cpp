@@ -13,7 +13,6 @@
 #include "experiments/studies/studies.h"
 #include "experiments/studies/study_runner.h"
 #include "kernel/error.h"
-#include "kernel/parallel.h"
 
 namespace curvefusion {
 
@@ -142,7 +141,7 @@ int RunExperiment(const ExperimentArguments& arguments) {
     studies.push_back(Planned(study, request, arguments));
   }
   MakeOutputFolder(arguments.output);
-  const ThreadLimit limit(arguments.run.threads);
+  LimitThreads(arguments.run);
   int exit_code = 0;
   for (const PlannedStudy& study : studies) {
     exit_code = std::max(exit_code, RunOne(study, request, arguments));

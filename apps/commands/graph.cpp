@@ -14,7 +14,6 @@
 #include "graph/smoothing.h"
 #include "graph/validate.h"
 #include "kernel/error.h"
-#include "kernel/parallel.h"
 
 namespace curvefusion {
 
@@ -85,7 +84,7 @@ void CheckUsage(const GraphArguments& arguments) {
 
 int RunGraph(const GraphArguments& arguments) {
   CheckUsage(arguments);
-  const ThreadLimit limit(arguments.run.threads);
+  LimitThreads(arguments.run);
   SkeletonGraph graph = ReadSkeleton(arguments.graph);
   const bool valid = !arguments.validate || PrintViolations(graph, arguments);
   if (!arguments.convert.empty()) Export(arguments.convert, graph, arguments.run.quiet);

@@ -16,7 +16,6 @@
 #include "graph/graph_io.h"
 #include "kernel/cancellation.h"
 #include "kernel/error.h"
-#include "kernel/parallel.h"
 #include "meshing/mesh_io.h"
 #include "meshing/tube_normals.h"
 #include "meshing/tubes.h"
@@ -92,7 +91,7 @@ int MeshSkeleton(const MeshArguments& arguments) {
 }
 
 int RunMesh(const MeshArguments& arguments) {
-  const ThreadLimit limit(arguments.run.threads);
+  LimitThreads(arguments.run);
   if (!arguments.output.empty()) return MeshSkeleton(arguments);
   if (arguments.check) return CheckFile(arguments, arguments.input);
   throw Error(ErrorKind::kUsage,

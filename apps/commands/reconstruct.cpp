@@ -21,7 +21,6 @@
 #include "kernel/atomic_file.h"
 #include "kernel/cancellation.h"
 #include "kernel/error.h"
-#include "kernel/parallel.h"
 #include "kernel/peak_memory.h"
 #include "meshing/mesh_io.h"
 
@@ -95,7 +94,7 @@ void WriteReport(RunRecord& record, Clock::time_point start, const fs::path& fol
 int RunReconstruct(const ReconstructArguments& arguments) {
   const auto start = Clock::now();
   const Config config = ReadConfig(Sources(arguments.config));
-  const ThreadLimit limit(arguments.run.threads);
+  LimitThreads(arguments.run);
   Sequence sequence = OpenSequence(arguments.sequence);
   RequireFittingPoses(sequence);
   MakeOutputFolder(arguments.output);

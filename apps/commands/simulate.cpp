@@ -14,7 +14,6 @@
 #include "experiments/simulation/object_truth.h"
 #include "graph/graph_io.h"
 #include "kernel/error.h"
-#include "kernel/parallel.h"
 
 namespace curvefusion {
 
@@ -62,7 +61,7 @@ int RunSimulate(SimulateArguments arguments) {
   scan.object_options.wire_diameter = arguments.wire_diameter_mm * kMillimetre;
   ChooseObject(arguments.scene, scan);
   ProgressPrinter printer = MakeProgressPrinter(arguments.run.quiet);
-  const ThreadLimit limit(arguments.run.threads);
+  LimitThreads(arguments.run);
   SimulateScan(scan, arguments.output, InterruptibleProgress(printer));
   printer.Finish();
   if (!arguments.run.quiet) {

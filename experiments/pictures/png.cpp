@@ -1,10 +1,8 @@
 #include "experiments/pictures/png.h"
 
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "kernel/atomic_file.h"
-#include "kernel/error.h"
+#include "experiments/pictures/encoded_image.h"
 
 namespace curvefusion {
 
@@ -13,11 +11,7 @@ void WritePng(const std::filesystem::path& path, const ColorImage& picture) {
   cv::Mat image;
   cv::cvtColor(cv::Mat(copy.height(), copy.width(), CV_8UC3, copy.data()), image,
                cv::COLOR_RGB2BGR);
-  WriteFileAtomically(path, [&](const std::filesystem::path& temporary) {
-    if (!cv::imwrite(temporary.string(), image)) {
-      throw Error(ErrorKind::kResource, path.string() + ": cannot be written");
-    }
-  });
+  WriteEncoded(path, image);
 }
 
 }  // namespace curvefusion

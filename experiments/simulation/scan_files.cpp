@@ -6,22 +6,13 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "experiments/pictures/encoded_image.h"
 #include "kernel/atomic_file.h"
 
 namespace curvefusion {
 namespace {
 
 constexpr double kStartTime = 1000;  // names of equal width sort by time
-
-void WriteEncoded(const std::filesystem::path& path, const cv::Mat& image,
-                  const std::vector<int>& parameters) {
-  std::vector<uint8_t> bytes;
-  cv::imencode(path.extension().string(), image, bytes, parameters);
-  WriteStreamAtomically(path, [&](std::ostream& stream) {
-    stream.write(reinterpret_cast<const char*>(bytes.data()),
-                 static_cast<std::streamsize>(bytes.size()));
-  });
-}
 
 nlohmann::ordered_json CameraJson(const PinholeCamera& camera) {
   return {{"width", camera.width}, {"height", camera.height}, {"fx", camera.fx},
