@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "graph/graph_formats.h"
+#include "graph/validate.h"
 #include "kernel/atomic_file.h"
 #include "kernel/error.h"
 #include "kernel/text_input.h"
@@ -96,7 +97,9 @@ SkeletonGraph ReadSkeleton(const std::filesystem::path& path) {
                             "'{}'",
                             path.string(), path.extension().string()));
   }
-  return format->read(ReadFile(path), path.string());
+  SkeletonGraph graph = format->read(ReadFile(path), path.string());
+  RequireWithinBounds(graph, path.string());
+  return graph;
 }
 
 }  // namespace curvefusion

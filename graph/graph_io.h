@@ -41,8 +41,8 @@ std::vector<std::string> ExportSkeleton(const std::filesystem::path& path,
 /// Reads a graph from any of these formats but DXF, by extension; a file without one is taken as
 /// skeleton.json. From formats without nodes (SWC, PLY, OBJ) nodes are the points where other than
 /// two segments meet, and one of every closed curve. Throws Error: kUsage for another extension,
-/// kBadInput with place and reason for a file that cannot be read, has more than kMaxTextBytes, or
-/// is not a graph.
+/// kBadInput with place and reason for a file that cannot be read, has more than kMaxTextBytes, is
+/// not a graph, or has points that are not within bounds (IsWithinBounds).
 SkeletonGraph ReadSkeleton(const std::filesystem::path& path);
 
 }  // namespace curvefusion

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "kernel/point_grid.h"
 #include "kernel/parallel.h"
+#include "kernel/point_grid.h"
 #include "kernel/spatial_search.h"
 
 namespace curvefusion {
@@ -288,7 +288,7 @@ void VisitOptions(L1Options& options, OptionVisitor& visitor) {
 
 ContractedSamples ContractToMedian(const ObservedPoints& points, const L1Options& options) {
   assert(options.initial_radius > 0 && options.growth > 0);
-  RequireFinitePositions(points);
+  RequirePositionsWithinBounds(points);
   Contraction contraction(points.positions, options);
   // Scaled options may miss the last radius by rounding.
   const double last_radius = options.maximum_radius * (1 - 1e-9);

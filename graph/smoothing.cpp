@@ -9,6 +9,7 @@
 
 #include "graph/edge_curve.h"
 #include "graph/graph_smoother.h"
+#include "graph/validate.h"
 
 namespace curvefusion {
 
@@ -17,6 +18,9 @@ namespace {
 // Directions before and behind a corner are measured over this many steps: longer than the noise,
 // shorter than the bends of wires.
 constexpr double kCornerWindow = 8;
+
+// Twice what a file of curves may hold (kMaxTextBytes); takes some 6 s and 2 GB.
+constexpr double kMaxVertices = 1e6;
 
 // An edge at equal steps, and the indices of the points that are corners.
 struct SampledEdge {
@@ -281,6 +285,7 @@ SkeletonGraph SmoothGraph(const SkeletonGraph& graph, const SmoothingOptions& op
 }
 
 SkeletonGraph GraphSmoother::Smooth(const SkeletonGraph& graph, const SmoothingOptions& options) {
+  RequireLength(graph, kMaxVertices * options.step, "graph to be smoothed");
   std::vector<SampledEdge> edges;
   for (const EdgeId id : graph.Edges()) edges.push_back(Sampled(graph.edge(id), options));
   const VertexTable table(graph, edges);

@@ -24,6 +24,7 @@ SmoothingOptions PaperSmoothingOptions();
 /// edge. Nodes of degree 2 count as points inside a curve, so a closed curve is smooth all around.
 /// With keep_curvature what smoothing took away is smoothed and added again (Tukey's twicing): a
 /// curve's shape shrinks by the square of what it would, while noise of a few steps still goes.
+/// Throws Error(kBadInput) for more than a million steps.
 /// Radii and observations are interpolated, not smoothed. One sparse factorisation: nearly linear
 /// in vertices.
 SkeletonGraph SmoothGraph(const SkeletonGraph& graph, const SmoothingOptions& options);

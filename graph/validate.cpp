@@ -7,6 +7,7 @@
 
 #include "graph/contacts.h"
 #include "graph/parallel_edges.h"
+#include "kernel/bounds.h"
 #include "kernel/error.h"
 
 namespace curvefusion {
@@ -15,18 +16,18 @@ namespace {
 
 constexpr size_t kListedViolations = 5;
 
-bool AllFinite(const Polyline& points) {
-  return std::all_of(points.begin(), points.end(), [](const Vec3& p) { return p.allFinite(); });
+// The first point that is not within bounds, or the end.
+Polyline::const_iterator OutOfBounds(const Polyline& points) {
+  return std::find_if_not(points.begin(), points.end(), IsWithinBounds);
 }
 
 // What is wrong with points, the first place of each kind.
 void AddPointFaults(const SkeletonEdge& edge, const SkeletonGraph& graph,
                     std::vector<std::string>& faults) {
   const Polyline& points = edge.points;
-  const auto infinite =
-      std::find_if(points.begin(), points.end(), [](const Vec3& p) { return !p.allFinite(); });
-  if (infinite != points.end())
-    faults.push_back(fmt::format("points[{}] is not finite", infinite - points.begin()));
+  const auto outside = OutOfBounds(points);
+  if (outside != points.end())
+    faults.push_back(fmt::format("points[{}] {}", outside - points.begin(), kOutOfBounds));
   const auto repeated = std::adjacent_find(points.begin(), points.end());
   if (repeated != points.end())
     faults.push_back(
@@ -77,8 +78,8 @@ std::vector<std::string> EdgeFaults(const SkeletonEdge& edge, const SkeletonGrap
 std::vector<std::string> Faults(const SkeletonGraph& graph) {
   std::vector<std::string> violations;
   for (const NodeId node : graph.Nodes())
-    if (!graph.position(node).allFinite())
-      violations.push_back(fmt::format("node {} has a coordinate that is not finite", node));
+    if (!IsWithinBounds(graph.position(node)))
+      violations.push_back(fmt::format("node {} {}", node, kOutOfBounds));
   for (const EdgeId id : graph.Edges())
     for (const std::string& fault : EdgeFaults(graph.edge(id), graph))
       violations.push_back(fmt::format("edge {}: {}", id, fault));
@@ -104,11 +105,35 @@ void Validate(const SkeletonGraph& graph, double proximity, const std::string& s
   throw Error(ErrorKind::kBadInput, text);
 }
 
-void RequireFinite(const SkeletonGraph& graph, const std::string& subject) {
-  for (const EdgeId id : graph.Edges())
-    if (!AllFinite(graph.edge(id).points))
-      throw Error(ErrorKind::kBadInput,
-                  fmt::format("{}: edge {} has a coordinate that is not finite", subject, id));
+void RequireWithinBounds(const SkeletonGraph& graph, const std::string& subject) {
+  const auto fail = [&](const std::string& what, const char* remedy) {
+    throw Error(ErrorKind::kBadInput, fmt::format("{}: {}; {}", subject, what, remedy));
+  };
+  constexpr const char* kMove = "move the curves near the origin, or correct the value";
+  for (const NodeId node : graph.Nodes())
+    if (!IsWithinBounds(graph.position(node)))
+      fail(fmt::format("node {} {}", node, kOutOfBounds), kMove);
+  for (const EdgeId id : graph.Edges()) {
+    const SkeletonEdge& edge = graph.edge(id);
+    const auto outside = OutOfBounds(edge.points);
+    if (outside != edge.points.end())
+      fail(fmt::format("edge {}: points[{}] {}", id, outside - edge.points.begin(), kOutOfBounds),
+           kMove);
+    const auto wide = std::find_if(edge.radii.begin(), edge.radii.end(),
+                                   [](double radius) { return !(radius <= kMaxCoordinate); });
+    if (wide != edge.radii.end())
+      fail(fmt::format("edge {}: radii[{}] is {} m", id, wide - edge.radii.begin(), *wide),
+           "correct the value");
+  }
+}
+
+void RequireLength(const SkeletonGraph& graph, double limit, const std::string& subject) {
+  const double length = graph.TotalLength();
+  if (length <= limit) return;
+  throw Error(ErrorKind::kBadInput,
+              fmt::format("{}: has {:.6g} m of curves, the limit is {:g} m; are its coordinates in "
+                          "metres?",
+                          subject, length, limit));
 }
 
 }  // namespace curvefusion

@@ -8,14 +8,15 @@
 namespace curvefusion {
 
 /// What is wrong with an edge of a graph, or with one that is to be added to it ("points[3] repeats
-/// the point before it"): fewer than two points, coordinates that are not finite, segments of
+/// the point before it"): fewer than two points, points not within bounds (IsWithinBounds),
+/// segments of
 /// length zero, ends that do not equal the nodes bit for bit, radii that are not positive,
 /// observations that are negative, either not one per point or none. Of each kind the first. Its
 /// nodes must exist.
 std::vector<std::string> EdgeFaults(const SkeletonEdge& edge, const SkeletonGraph& graph);
 
 /// What is wrong with a graph whatever the distance of its edges, one sentence each: nodes that are
-/// not finite, and EdgeFaults. Every operation on graphs without faults ends in one without.
+/// not within bounds, and EdgeFaults. Every operation on graphs without faults ends in one without.
 /// Linear.
 std::vector<std::string> Faults(const SkeletonGraph& graph);
 
@@ -32,8 +33,12 @@ std::vector<std::string> Violations(const SkeletonGraph& graph, double proximity
 /// `subject` says what was validated ("skeleton.json", "the fused skeleton").
 void Validate(const SkeletonGraph& graph, double proximity, const std::string& subject);
 
-/// Throws Error(kBadInput) where a coordinate is not finite: geometric steps cannot start from
-/// that.
-void RequireFinite(const SkeletonGraph& graph, const std::string& subject);
+/// Throws Error(kBadInput) where a node or point is not within bounds (IsWithinBounds), or a radius
+/// exceeds them: geometric steps cannot start from that.
+void RequireWithinBounds(const SkeletonGraph& graph, const std::string& subject);
+
+/// Throws Error(kBadInput) where the curves have more than `limit` metres: what samples them at
+/// small steps would fill the memory.
+void RequireLength(const SkeletonGraph& graph, double limit, const std::string& subject);
 
 }  // namespace curvefusion

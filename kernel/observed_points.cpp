@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "kernel/bounds.h"
 #include "kernel/error.h"
 #include "kernel/quantile.h"
 
@@ -33,13 +34,13 @@ Vec3 RobustExtent(const ObservedPoints& points) {
   return extent;
 }
 
-void RequireFinitePositions(const ObservedPoints& points) {
+void RequirePositionsWithinBounds(const ObservedPoints& points) {
   for (size_t i = 0; i < points.size(); ++i) {
     const Vec3& p = points.positions[i];
-    if (p.allFinite()) continue;
+    if (IsWithinBounds(p)) continue;
     throw Error(ErrorKind::kBadInput,
-                fmt::format("point {} of {} is ({}, {}, {}): remove points without a position", i,
-                            points.size(), p.x(), p.y(), p.z()));
+                fmt::format("point {} of {} at ({}, {}, {}) m {}; remove such points", i,
+                            points.size(), p.x(), p.y(), p.z(), kOutOfBounds));
   }
 }
 

@@ -71,6 +71,7 @@ int RunContract(const ContractArguments& arguments) {
     fmt::print("Coordinates are taken as millimetres (--scale 1 if they are metres)\n");
   }
   for (Vec3& position : points.positions) position *= scale;
+  RequirePositionsWithinBounds(points);
   MakeFolderOf(arguments.output);
   SkeletonGraph graph = ExtractAtAxis(points, arguments);
   ThrowIfCancelled();

@@ -14,6 +14,7 @@
 namespace curvefusion {
 namespace {
 
+constexpr double kMaxControlPoints = 4000;  // those of 200 m at 50 mm; takes some 3 s
 constexpr double kNoWay = std::numeric_limits<double>::infinity();
 
 // A place on a curve.
@@ -84,8 +85,10 @@ class WayFinder {
   std::vector<std::vector<std::pair<int, double>>> neighbours_;
 };
 
-// All nodes with edges, each once, and places at most `spacing` apart between them.
-std::vector<Place> ControlPlaces(const SkeletonGraph& graph, double spacing) {
+// All nodes with edges, each once, and places `least_spacing` apart between them
+// at most; farther on long curves, as the time grows with the square of their number.
+std::vector<Place> ControlPlaces(const SkeletonGraph& graph, double least_spacing) {
+  const double spacing = std::max(least_spacing, graph.TotalLength() / kMaxControlPoints);
   std::vector<Place> places;
   for (const NodeId node : graph.Nodes()) {
     if (graph.Degree(node) == 0) continue;

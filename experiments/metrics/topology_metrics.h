@@ -18,7 +18,8 @@ TopologyScores CompareTopology(const SkeletonGraph& result, const SkeletonGraph&
 
 /// How paths are compared.
 struct PathOptions {
-  double control_spacing = 50 * kMillimetre;  ///< greatest distance of control points on a curve
+  double control_spacing = 50 * kMillimetre;  ///< greatest distance of control points on a curve,
+                                              ///< of more than 200 m of curves in proportion
   double snap_distance = 10 * kMillimetre;    ///< how far the other graph may be from one
 };
 

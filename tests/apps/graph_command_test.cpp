@@ -49,6 +49,20 @@ TEST_F(GraphCommand, ValidationNamesEveryPlaceAndIsThree) {
   EXPECT_THAT(torn.output, HasSubstr("edges[1].nodes[1] is 5, but there are 2 nodes"));
 }
 
+// Squares of such coordinates overflow, on which exact predicates end in SIGFPE.
+TEST_F(GraphCommand, CoordinatesBeyondTheBoundAreThree) {
+  std::ofstream(folder_ / "far.json")
+      << R"({"format":"curvefusion-skeleton","version":1,"units":"m",
+ "nodes":[{"position":[0,0,0]},{"position":[1e308,0,0]},{"position":[0,1e308,0]}],
+ "edges":[{"nodes":[0,1],"points":[[0,0,0],[1e308,0,0]]},
+          {"nodes":[1,2],"points":[[1e308,0,0],[0,1e308,0]]}]})";
+  for (const char* option : {"--validate", "--resolve 1 -o out.json", "--info"}) {
+    const Outcome far = Run(std::string("graph far.json ") + option);
+    EXPECT_EQ(far.exit_code, 3) << option;
+    EXPECT_THAT(far.output, HasSubstr("edges[0].points[1] is not finite or more than 10,000 km"));
+  }
+}
+
 TEST_F(GraphCommand, ResolvingMakesTheJunctionThatValidationMissed) {
   EXPECT_EQ(Run("graph crossing.json --resolve 1 --smooth 10 -o mended.graphml").exit_code, 0);
   const Outcome valid = Run("graph mended.graphml --validate --info");

@@ -52,6 +52,15 @@ TEST(Evaluate, IdentityIsPerfect) {
   EXPECT_EQ(evaluation.topology.cycles, evaluation.topology.true_cycles);
 }
 
+TEST(Evaluate, WhatIsTooLongToBeSampledIsRefused) {
+  SkeletonGraph truth;
+  truth.AddPolyline({{0, 0, 0}, {1, 0, 0}});
+  SkeletonGraph result;
+  result.AddPolyline({{0, 0, 0}, {1e6, 0, 0}});
+  EXPECT_THROW(Evaluate(result, nullptr, truth), Error);
+  EXPECT_THROW(Evaluate(truth, nullptr, result), Error);
+}
+
 TEST(Evaluate, AMissingEdgeLowersRecallAndCycles) {
   const SkeletonGraph truth = TruthSkeleton(MakeObject("cage"));
   SkeletonGraph result = truth;

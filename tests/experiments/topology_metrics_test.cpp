@@ -163,6 +163,13 @@ TEST(PathSimilarity, ADetourCostsItsRelativeLength) {
   EXPECT_NEAR(*PathSimilarity(direct, longer), 1 - 16.0 / 40, 1e-9);
 }
 
+// With control points every 50 mm this would take 20,000 searches through as many vertices.
+TEST(PathSimilarity, LongCurvesHaveFewerControlPoints) {
+  SkeletonGraph graph;
+  graph.AddPolyline({{0, 0, 0}, {1000, 0, 0}});
+  EXPECT_EQ(PathSimilarity(graph, graph), 1);
+}
+
 TEST(PathSimilarity, NothingThere) {
   const SkeletonGraph y = YShape(0.05);
   EXPECT_EQ(PathSimilarity({}, y), std::nullopt);

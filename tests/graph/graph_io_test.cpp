@@ -9,6 +9,7 @@
 #include <random>
 #include <sstream>
 
+#include "kernel/bounds.h"
 #include "kernel/error.h"
 #include "tests/graph/graph_fixtures.h"
 #include "tests/graph/random_graph.h"
@@ -103,6 +104,39 @@ TEST(GraphIo, MalformedInputIsRejectedWithPlaceAndReason) {
       EXPECT_EQ(error.kind(), ErrorKind::kBadInput);
     }
   }
+}
+
+TEST(GraphIo, CoordinatesBeyondTheBoundAreRefusedInEveryFormat) {
+  SkeletonGraph near;
+  near.AddPolyline({{0, 0, 0}, {0.99 * kMaxCoordinate, 0, 0}});
+  SkeletonGraph far;
+  far.AddPolyline({{0, 0, 0}, {1e150, 0, 0}});
+  for (const char* extension : {".json", ".graphml", ".swc", ".ply", ".obj"}) {
+    const std::string path = TemporaryPath("far").string() + extension;
+    ExportSkeleton(path, near);
+    EXPECT_NO_THROW(ReadSkeleton(path)) << extension;
+    ExportSkeleton(path, far);
+    try {
+      ReadSkeleton(path);
+      ADD_FAILURE() << "accepted: " << extension;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::kBadInput);
+      EXPECT_THAT(error.what(), HasSubstr(path));
+      EXPECT_THAT(error.what(), HasSubstr("more than 10,000 km from the origin"));
+    }
+    std::filesystem::remove(path);
+  }
+}
+
+TEST(GraphIo, RadiiBeyondTheBoundAreRefused) {
+  SkeletonGraph graph;
+  const NodeId a = graph.AddNode({0, 0, 0});
+  const NodeId b = graph.AddNode({1, 0, 0});
+  graph.AddEdge({{a, b}, {{0, 0, 0}, {1, 0, 0}}, {0.002, 1e200}, {}});
+  const std::string path = TemporaryPath("wide").string() + ".json";
+  WriteSkeleton(path, graph);
+  EXPECT_THROW(ReadSkeleton(path), Error);
+  std::filesystem::remove(path);
 }
 
 TEST(GraphIo, EveryDefectiveEdgeIsNamed) {

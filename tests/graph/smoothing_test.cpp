@@ -19,6 +19,12 @@ SmoothingOptions Literal() { return PaperSmoothingOptions(); }
 
 TEST(SmoothGraph, AnEmptyGraphStaysEmpty) { EXPECT_TRUE(SmoothGraph(SkeletonGraph(), {}).empty()); }
 
+TEST(SmoothGraph, WhatWouldTakeMoreThanAMillionStepsIsRefused) {
+  SkeletonGraph graph;
+  graph.AddPolyline({{0, 0, 0}, {1001, 0, 0}});  // a million steps of 1 mm, and a metre
+  EXPECT_THROW(SmoothGraph(graph, {}), Error);
+}
+
 TEST(SmoothGraph, AStraightLineStaysAndKeepsItsLength) {
   for (const SmoothingOptions& options : {Literal(), SmoothingOptions()}) {
     SkeletonGraph graph;
