@@ -10,6 +10,8 @@ int ExitCode(ErrorKind kind) {
       return 3;
     case ErrorKind::kResource:
       return 5;
+    case ErrorKind::kBusy:
+      return 75;
     case ErrorKind::kInterrupted:
       return 130;
   }

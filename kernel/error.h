@@ -10,6 +10,7 @@ enum class ErrorKind {
   kUsage,        ///< an option or config value that cannot be: exit code 2
   kBadInput,     ///< a file or a scan that cannot be used: exit code 3
   kResource,     ///< out of memory, disk or another resource: exit code 5
+  kBusy,         ///< another run writes to the same place: exit code 75 (EX_TEMPFAIL)
   kInterrupted,  ///< the user asked to stop: exit code 130
 };
 

@@ -1,12 +1,11 @@
 #include "kernel/partial_folder.h"
 
-#include <unistd.h>
-
 #include <string>
 #include <system_error>
 #include <utility>
 
 #include "kernel/error.h"
+#include "kernel/partial_name.h"
 
 namespace curvefusion {
 
@@ -24,8 +23,9 @@ void ThrowIf(const std::error_code& failure, const fs::path& path) {
 
 PartialFolder::PartialFolder(fs::path final_path)
     : final_path_(std::move(final_path)),
-      unfinished_(final_path_.string() + ".partial-" + std::to_string(getpid())) {
+      unfinished_(PartialFolderPath(final_path_)) {
   std::error_code failure;
+  RemoveStalePartials(final_path_);
   fs::remove_all(path(), failure);
   fs::create_directories(path(), failure);
   ThrowIf(failure, final_path_);

@@ -10,7 +10,8 @@ namespace curvefusion {
 /// otherwise it disappears, and whatever lay under the final name stays.
 class PartialFolder {
  public:
-  /// Makes the folder and those above it. Throws Error(kResource) where that is impossible.
+  /// Makes the folder and those above it, and removes what killed processes have left of it. Throws
+  /// Error(kResource) where that is impossible.
   explicit PartialFolder(std::filesystem::path final_path);
   ~PartialFolder();
   PartialFolder(const PartialFolder&) = delete;

@@ -1,11 +1,14 @@
 #include "kernel/text_input.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <charconv>
 #include <fstream>
+#include <system_error>
 
 #include "kernel/error.h"
 
@@ -27,14 +30,42 @@ std::optional<Number> Parse(std::string_view word) {
 
 }  // namespace
 
-std::string ReadFile(const std::filesystem::path& path, std::uintmax_t max_bytes) {
-  std::ifstream stream(path, std::ios::binary);
-  std::error_code ignored;
-  if (!stream || std::filesystem::is_directory(path, ignored)) {
-    throw Error(
-        ErrorKind::kBadInput,
-        fmt::format("{}: cannot be read; is the name right and the file readable?", path.string()));
+std::string ReadingObstacle(const std::filesystem::path& path) {
+  std::error_code failure;
+  const std::filesystem::file_status status = std::filesystem::status(path, failure);
+  switch (status.type()) {
+    case std::filesystem::file_type::not_found:
+      return "is not there";
+    case std::filesystem::file_type::directory:
+      return "is a folder, not a file";
+    case std::filesystem::file_type::regular:
+      break;
+    case std::filesystem::file_type::none:
+      return fmt::format("cannot be read ({})", failure.message());
+    default:
+      return "is a pipe or a device, not a regular file";
   }
+  if (::access(path.c_str(), R_OK) == 0) return "";
+  return fmt::format("cannot be read ({})", std::generic_category().message(errno));
+}
+
+std::ifstream OpenFile(const std::filesystem::path& path) {
+  std::string obstacle = ReadingObstacle(path);
+  std::ifstream stream;
+  bool lacks_descriptors = false;
+  if (obstacle.empty()) {
+    stream.open(path, std::ios::binary);
+    if (stream) return stream;
+    lacks_descriptors = errno == EMFILE || errno == ENFILE;
+    obstacle = fmt::format("cannot be opened ({})", std::generic_category().message(errno));
+  }
+  throw Error(
+      lacks_descriptors ? ErrorKind::kResource : ErrorKind::kBadInput,
+      fmt::format("{}: {}; is the name right and the file readable?", path.string(), obstacle));
+}
+
+std::string ReadFile(const std::filesystem::path& path, std::uintmax_t max_bytes) {
+  std::ifstream stream = OpenFile(path);
   std::string content;
   std::array<char, kChunkBytes> chunk;
   while (stream.read(chunk.data(), chunk.size()) || stream.gcount() > 0) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,8 +13,16 @@ namespace curvefusion {
 /// trajectory of a day. A larger file is another one by mistake, and would fill the memory.
 inline constexpr std::uintmax_t kMaxTextBytes = 128u << 20;
 
-/// The content of a file, byte by byte. Throws Error(kBadInput) where it cannot be read (missing, a
-/// folder) or has more than `max_bytes`; also where the name stands for something endless.
+/// What keeps a path from being read like a file: "is not there", "is a folder, not a file", "is a
+/// pipe or a device, not a regular file" (which could make a reader wait for ever), "cannot be read
+/// (Permission denied)". Empty where nothing does.
+std::string ReadingObstacle(const std::filesystem::path& path);
+
+/// Opens a file in binary mode. Throws Error(kBadInput) with the obstacle and a remedy.
+std::ifstream OpenFile(const std::filesystem::path& path);
+
+/// The content of a file, byte by byte. Throws Error(kBadInput) where it cannot be opened or read
+/// to its end, or has more than `max_bytes`.
 std::string ReadFile(const std::filesystem::path& path, std::uintmax_t max_bytes = kMaxTextBytes);
 
 /// Hands out a text line by line, without line ends of either kind, and counts the lines from 1.

@@ -1,8 +1,11 @@
 #include "kernel/atomic_file.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include <csignal>
 #include <fstream>
+#include <string>
 
 #include "kernel/error.h"
 #include "tests/temporary_path.h"
@@ -44,6 +47,55 @@ TEST_F(AtomicFile, AFailedWriteLeavesNothingAndKeepsTheOld) {
 
 TEST_F(AtomicFile, AMissingFolderIsAnError) {
   EXPECT_THROW(WriteStreamAtomically(folder_ / "no" / "a.txt", [](std::ostream&) {}), Error);
+}
+
+TEST_F(AtomicFile, AFileThatReachesItsLimitIsToldWithTheReason) {
+  rlimit before;
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit limit{1000, before.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &limit), 0);
+  std::string message;
+  try {
+    WriteStreamAtomically(folder_ / "a.txt",
+                          [](std::ostream& stream) { stream << std::string(100000, 'a'); });
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kResource);
+    message = error.what();
+  }
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
+  EXPECT_EQ(message, (folder_ / "a.txt").string() + ": cannot be written (File too large)");
+  EXPECT_TRUE(fs::is_empty(folder_));
+}
+
+TEST_F(AtomicFile, ErrorsNameTheFileAndNotItsTemporary) {
+  const fs::path path = folder_ / "a.txt";
+  try {
+    WriteFileAtomically(path, [](const fs::path& temporary) {
+      throw Error(ErrorKind::kBadInput, temporary.string() + ": bad");
+    });
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.what(), path.string() + ": bad");
+  }
+}
+
+TEST_F(AtomicFile, NeitherAFolderNorADeviceIsReplaced) {
+  const auto write = [](std::ostream& stream) { stream << "a"; };
+  EXPECT_THROW(WriteStreamAtomically(folder_, write), Error);
+  fs::create_symlink("/dev/null", folder_ / "null");
+  EXPECT_THROW(WriteStreamAtomically(folder_ / "null", write), Error);
+  EXPECT_TRUE(fs::is_symlink(folder_ / "null"));
+}
+
+TEST_F(AtomicFile, WhatComesIntoAFolderMeanwhileIsNotReplaced) {
+  const fs::path path = folder_ / "scan";
+  const auto write = [&](const fs::path&) {
+    fs::create_directory(path);
+    std::ofstream(path / "of_another") << "1";
+  };
+  EXPECT_THROW(WriteFolderAtomically(path, write), Error);
+  EXPECT_TRUE(fs::exists(path / "of_another"));
 }
 
 TEST_F(AtomicFile, AFolderAppearsOnlyWhenComplete) {

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <fstream>
@@ -36,12 +38,26 @@ TEST(ReadFile, GivesEveryByteUpToTheLimit) {
   EXPECT_EQ(ReadFile(path, content.size()), content);
   EXPECT_THAT(Rejection([&] { ReadFile(path, content.size() - 1); }), HasSubstr("is larger than"));
   std::filesystem::remove(path);
-  EXPECT_THAT(Rejection([&] { ReadFile(path); }), HasSubstr("cannot be read"));
-  EXPECT_THAT(Rejection([&] { ReadFile(path.parent_path()); }), HasSubstr("cannot be read"));
 }
 
-TEST(ReadFile, EndsWithAnEndlessFile) {
-  EXPECT_THAT(Rejection([] { ReadFile("/dev/zero", 1 << 20); }), HasSubstr("the 1 MiB"));
+TEST(ReadFile, TellsWhyAPathIsNoFile) {
+  const std::filesystem::path path = TemporaryPath("no_file");
+  EXPECT_THAT(Rejection([&] { ReadFile(path); }), HasSubstr("is not there"));
+  EXPECT_THAT(Rejection([&] { ReadFile(path.parent_path()); }), HasSubstr("is a folder"));
+  EXPECT_THAT(Rejection([&] { ReadFile("/dev/zero"); }), HasSubstr("is a pipe or a device"));
+  // Nobody writes to it: opening it would wait for ever.
+  ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0);
+  EXPECT_THAT(Rejection([&] { ReadFile(path); }), HasSubstr("is a pipe or a device"));
+  std::filesystem::remove(path);
+}
+
+TEST(ReadFile, TellsThatAFileIsNotReadable) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root may read everything";
+  const std::filesystem::path path = TemporaryPath("unreadable");
+  std::ofstream(path) << "a";
+  std::filesystem::permissions(path, std::filesystem::perms::none);
+  EXPECT_THAT(Rejection([&] { ReadFile(path); }), HasSubstr("cannot be read (Permission denied)"));
+  std::filesystem::remove(path);
 }
 
 TEST(LineScanner, CountsLinesOfBothKinds) {
@@ -86,6 +102,23 @@ TEST(ParseJson, RefusesWhatIsMalformedOrDeep) {
   EXPECT_THAT(Rejection([&] { ParseJson(nested(1000000), "a.json"); }), HasSubstr("deeper"));
   EXPECT_NO_THROW(
       ParseJson('"' + std::string(100, '[') + "\\\"" + std::string(100, '{') + '"', "a.json"));
+}
+
+TEST(ParseJson, TellsThePlaceInPlainWords) {
+  const auto message = [](const std::string& text) {
+    return Rejection([&] { ParseJson(text, "a.json"); });
+  };
+  EXPECT_THAT(message("{\"a\": 1,\n \"b\": x}"),
+              HasSubstr("a.json: not valid JSON: line 2, column 7: 'x' does not belong here"));
+  EXPECT_THAT(message("[1, 2"), HasSubstr("line 1, column 7: the text ends too early"));
+  EXPECT_THAT(message("[\"\xff\"]"), HasSubstr("line 1, column 3: a byte that is not UTF-8"));
+  EXPECT_THAT(message("[\"a\nb\"]"), HasSubstr("line break or control character within quotes"));
+  EXPECT_THAT(message("[1e999]"), HasSubstr("a number of more than 1.8e308"));
+  EXPECT_THAT(message("[1] 2"), HasSubstr("after the end of the value"));
+  for (const char* text : {"", "x", "[1,]", "{'a':1}", "[01]", "[\"\\x\"]", "[1] // c", "[tru]"}) {
+    EXPECT_THAT(message(text), testing::Not(HasSubstr("exception"))) << text;
+    EXPECT_THAT(message(text), testing::Not(HasSubstr("parse"))) << text;
+  }
 }
 
 // In quadratic time this would take hours.
