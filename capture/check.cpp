@@ -1,5 +1,7 @@
 #include "capture/check.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
 #include <utility>
@@ -24,6 +26,7 @@ struct FrameCheck {
   Image<uint16_t> depth_thumbnail;
   Image<uint8_t> grey_thumbnail;
   std::vector<std::string> defects;
+  std::string remark;  // on the colour image
 };
 
 // Calls `decode` on a file whose header is sound: other defects are in the survey of the headers.
@@ -48,9 +51,13 @@ FrameCheck CheckFrame(const Sequence& sequence, const SequenceFrame& frame) {
     CollectDefect(frame.depth_path, decode_depth, check);
   }
   const auto decode_color = [&] {
-    check.grey_thumbnail = ShrunkColor(sequence, DecodeColorImage(frame.color_path));
+    check.grey_thumbnail =
+        ShrunkColor(sequence, DecodeColorImage(frame.color_path, &check.remark));
   };
   CollectDefect(frame.color_path, decode_color, check);
+  if (!check.remark.empty()) {
+    check.remark = fmt::format("{}: may be damaged ({})", frame.color_path.string(), check.remark);
+  }
   return check;
 }
 
@@ -81,6 +88,7 @@ DecodedContent CheckFrames(const Sequence& sequence, const Progress& progress,
     for (int i = begin; i < end; ++i) {
       FrameCheck& check = checks[static_cast<size_t>(i - begin)];
       for (const std::string& defect : check.defects) on_finding({Severity::kError, defect});
+      if (!check.remark.empty()) on_finding({Severity::kWarning, check.remark});
       content.Add(i, check);
     }
   }

@@ -1,9 +1,11 @@
 #include "capture/detect_format.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -108,12 +110,31 @@ void ReportDroppedFrames(const Sequence& sequence, const FindingHandler& on_find
   }
 }
 
+// Throws where its files cannot be listed.
+void RequireFolder(const fs::path& folder) {
+  std::error_code failure;
+  const fs::file_status status = fs::status(folder, failure);
+  if (status.type() == fs::file_type::not_found) {
+    throw Error(ErrorKind::kBadInput, fmt::format("{}: there is no such folder", folder.string()));
+  }
+  if (fs::exists(status) && !fs::is_directory(status)) {
+    throw Error(ErrorKind::kBadInput,
+                fmt::format("{}: is a file; name the folder of the sequence", folder.string()));
+  }
+  if (!failure) fs::directory_iterator(folder, failure);
+  if (!failure && ::access(folder.c_str(), X_OK) != 0) {
+    failure = std::error_code(errno, std::generic_category());
+  }
+  if (failure) {
+    throw Error(ErrorKind::kBadInput,
+                fmt::format("{}: cannot be read ({})", folder.string(), failure.message()));
+  }
+}
+
 }  // namespace
 
 Sequence ReadSequence(const fs::path& folder, const FindingHandler& on_finding) {
-  if (!fs::is_directory(folder)) {
-    throw Error(ErrorKind::kBadInput, fmt::format("{}: there is no such folder", folder.string()));
-  }
+  RequireFolder(folder);
   for (const Format& format : kFormats) {
     if (!format.matches(folder)) continue;
     Sequence sequence = format.read(folder, on_finding);

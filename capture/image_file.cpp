@@ -1,15 +1,21 @@
 #include "capture/image_file.h"
 
 #include <fmt/format.h>
+#include <zlib.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <fstream>
+#include <new>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "capture/jpeg.h"
 #include "kernel/error.h"
+#include "kernel/text_input.h"
 
 namespace curvefusion {
 
@@ -19,6 +25,8 @@ constexpr std::string_view kPngSignature("\x89PNG\r\n\x1a\n", 8);
 constexpr std::string_view kPngEnd("IEND");
 constexpr std::string_view kJpegSignature("\xff\xd8", 2);
 constexpr std::string_view kJpegEnd("\xff\xd9", 2);
+// Chosen: the largest camera images, uncompressed; INT_MAX is what OpenCV can take.
+constexpr std::uintmax_t kMaxImageBytes = 1u << 30;
 constexpr std::streamoff kTailBytes = 1024;  // cameras append a few bytes of their own
 
 // `count` bytes at an offset; shorter at the end of the file.
@@ -31,8 +39,8 @@ std::string ReadBytes(std::ifstream& stream, std::streamoff offset, std::streamo
   return bytes;
 }
 
-int BigEndian(std::string_view bytes) {
-  int value = 0;
+uint32_t BigEndian(std::string_view bytes) {
+  uint32_t value = 0;
   for (const char byte : bytes) value = value * 256 + static_cast<unsigned char>(byte);
   return value;
 }
@@ -95,18 +103,42 @@ ImageHeader RequireUsable(const std::filesystem::path& path) {
   return header;
 }
 
-cv::Mat Decode(const std::filesystem::path& path, int flags) {
+[[noreturn]] void FailDecoding(const std::filesystem::path& path, const std::string& what) {
+  throw Error(ErrorKind::kBadInput,
+              fmt::format("{}: {}; copy it again or remove the frame", path.string(), what));
+}
+
+// The name of the first chunk of a PNG file whose checksum is wrong; empty where all are right.
+// OpenCV does not look at all of them.
+std::string DamagedChunk(std::string_view png) {
+  constexpr size_t kFrame = 12;  // bytes beside the data: length, name, checksum
+  for (size_t begin = kPngSignature.size(); begin + kFrame <= png.size();) {
+    const auto length = BigEndian(png.substr(begin, 4));
+    const std::string_view name = png.substr(begin + 4, 4);
+    if (length > png.size() - begin - kFrame) return std::string(name);
+    const auto* data = reinterpret_cast<const Bytef*>(name.data());
+    const auto checksum = BigEndian(png.substr(begin + 8 + length, 4));
+    if (::crc32(0, data, length + 4) != checksum) return std::string(name);
+    if (name == kPngEnd) return "";  // cameras append bytes of their own
+    begin += kFrame + length;
+  }
+  return "";
+}
+
+cv::Mat DecodePng(const std::filesystem::path& path, const std::string& bytes, int flags) {
+  const std::string chunk = DamagedChunk(bytes);
+  if (!chunk.empty()) {
+    FailDecoding(path, fmt::format("is damaged (wrong checksum in its part {})", chunk));
+  }
   cv::Mat pixels;
   try {
-    pixels = cv::imread(path.string(), flags);
-  } catch (const cv::Exception&) {
-    pixels.release();
+    pixels = cv::imdecode(cv::Mat(1, static_cast<int>(bytes.size()), CV_8UC1,
+                                  const_cast<char*>(bytes.data())),  // OpenCV has no constant views
+                          flags);
+  } catch (const cv::Exception& error) {
+    if (error.code == cv::Error::StsNoMem) throw std::bad_alloc();
   }
-  if (pixels.empty()) {
-    throw Error(
-        ErrorKind::kBadInput,
-        fmt::format("{}: cannot be decoded; copy it again or remove the frame", path.string()));
-  }
+  if (pixels.empty()) FailDecoding(path, "cannot be decoded");
   return pixels;
 }
 
@@ -115,10 +147,12 @@ cv::Mat Decode(const std::filesystem::path& path, int flags) {
 ImageHeader ReadImageHeader(const std::filesystem::path& path) {
   ImageHeader header;
   std::error_code error;
+  header.defect = ReadingObstacle(path);  // opening a pipe would wait for ever
+  if (!header.defect.empty()) return header;
   const auto size = static_cast<std::streamoff>(std::filesystem::file_size(path, error));
   std::ifstream stream(path, std::ios::binary);
   if (error || !stream) {
-    header.defect = "is missing or cannot be read";
+    header.defect = "cannot be read";
     return header;
   }
   const std::string signature = ReadBytes(stream, 0, 8);
@@ -142,7 +176,7 @@ Image<uint16_t> DecodeDepthImage(const std::filesystem::path& path) {
                             "export the depth again as 16-bit PNG",
                             path.string(), header.bits, header.channels));
   }
-  const cv::Mat pixels = Decode(path, cv::IMREAD_UNCHANGED);
+  const cv::Mat pixels = DecodePng(path, ReadFile(path, kMaxImageBytes), cv::IMREAD_UNCHANGED);
   assert(pixels.type() == CV_16UC1);
   Image<uint16_t> depth(pixels.cols, pixels.rows);
   for (int v = 0; v < pixels.rows; ++v) {
@@ -161,9 +195,16 @@ DepthImage MetricDepth(const Image<uint16_t>& raw, double units_per_metre, int i
   return depth;
 }
 
-ColorImage DecodeColorImage(const std::filesystem::path& path) {
+ColorImage DecodeColorImage(const std::filesystem::path& path, std::string* remark) {
   RequireUsable(path);
-  const cv::Mat bgr = Decode(path, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
+  const std::string bytes = ReadFile(path, kMaxImageBytes);
+  if (bytes.starts_with(kJpegSignature)) {
+    Jpeg jpeg = DecodeJpeg(bytes);
+    if (!jpeg.defect.empty()) FailDecoding(path, fmt::format("is damaged ({})", jpeg.defect));
+    if (remark != nullptr) *remark = jpeg.remark;
+    return std::move(jpeg.image);
+  }
+  const cv::Mat bgr = DecodePng(path, bytes, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
   ColorImage color(bgr.cols, bgr.rows);
   cv::Mat rgb(bgr.rows, bgr.cols, CV_8UC3, color.data());
   cv::cvtColor(bgr, rgb, cv::COLOR_BGR2RGB);

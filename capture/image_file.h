@@ -29,8 +29,8 @@ Image<uint16_t> DecodeDepthImage(const std::filesystem::path& path);
 DepthImage MetricDepth(const Image<uint16_t>& raw, double units_per_metre, int invalid_value);
 
 /// Decodes an 8-bit PNG or JPEG, grey or colour. Orientation tags are ignored: intrinsics belong to
-/// the stored pixels. Throws like
-/// DecodeDepthImage.
-ColorImage DecodeColorImage(const std::filesystem::path& path);
+/// the stored pixels. Throws like DecodeDepthImage. `remark` takes what is odd about the file but
+/// need not touch its pixels.
+ColorImage DecodeColorImage(const std::filesystem::path& path, std::string* remark = nullptr);
 
 }  // namespace curvefusion

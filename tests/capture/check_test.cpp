@@ -64,7 +64,7 @@ TEST_F(CheckTest, AHealthySequenceHasFiguresAndNoFindings) {
 
 TEST_F(CheckTest, MissingImage) {
   std::filesystem::remove(folder() / "depth/2.png");
-  ExpectOnly(IsError("depth/2.png: is missing or cannot be read"));
+  ExpectOnly(IsError("depth/2.png: is not there"));
   ExpectOpeningFails();
 }
 

@@ -2,10 +2,14 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
+#include <algorithm>
 #include <fstream>
+#include <opencv2/imgcodecs.hpp>
 
 #include "kernel/error.h"
+#include "kernel/text_input.h"
 #include "tests/capture/sequence_fixture.h"
 
 namespace curvefusion {
@@ -93,7 +97,70 @@ TEST_F(ImageFileTest, ABrokenPngIsFoundWhenDecoded) {
   stream << "garbage in the compressed pixels";
   stream.close();
   EXPECT_EQ(ReadImageHeader(Path("d.png")).defect, "");
-  EXPECT_THAT(MessageOf([&] { DecodeDepthImage(Path("d.png")); }), HasSubstr("cannot be decoded"));
+  EXPECT_THAT(MessageOf([&] { DecodeDepthImage(Path("d.png")); }),
+              HasSubstr("d.png: is damaged (wrong checksum in its part IDAT)"));
+}
+
+// In the text of a PNG, which no decoder needs, a wrong byte changes nothing but tells of a damage.
+TEST_F(ImageFileTest, EveryByteOfAPngIsCovered) {
+  WriteDepthPng(Path("d.png"), 16, 8, 1000);
+  const std::string bytes = ReadFile(Path("d.png"));
+  for (size_t at = 8; at < bytes.size(); ++at) {
+    std::string damaged = bytes;
+    damaged[at] = static_cast<char>(damaged[at] ^ 0x10);
+    WriteText(Path("d.png"), damaged);
+    EXPECT_THROW(DecodeDepthImage(Path("d.png")), Error) << "byte " << at;
+  }
+}
+
+// The pixels are those of OpenCV, with which everything was measured.
+TEST_F(ImageFileTest, JpegsAreDecodedAsByOpenCv) {
+  cv::Mat noise(37, 53, CV_8UC3), grey(37, 53, CV_8UC1);
+  cv::randu(noise, 0, 256);
+  cv::randu(grey, 0, 256);
+  for (const cv::Mat& picture : {noise, grey}) {
+    cv::imwrite(Path("c.jpg").string(), picture);
+    const cv::Mat expected = cv::imread(Path("c.jpg").string(), cv::IMREAD_COLOR);
+    const ColorImage image = DecodeColorImage(Path("c.jpg"));
+    ASSERT_EQ(image.width(), 53);
+    for (int v = 0; v < 37; ++v) {
+      for (int u = 0; u < 53; ++u) {
+        const cv::Vec3b bgr = expected.at<cv::Vec3b>(v, u);
+        ASSERT_EQ(image(u, v), (Rgb{bgr[2], bgr[1], bgr[0]})) << u << ", " << v;
+      }
+    }
+  }
+}
+
+TEST_F(ImageFileTest, DamagedJpegDataAreNamedWithTheirFile) {
+  cv::Mat noise(64, 64, CV_8UC3);
+  cv::randu(noise, 0, 256);
+  cv::imwrite(Path("c.jpg").string(), noise);
+  const std::string bytes = ReadFile(Path("c.jpg"));
+  std::string damaged = bytes;
+  std::fill_n(damaged.begin() + static_cast<std::ptrdiff_t>(bytes.size() / 2), 200, '\xfe');
+  WriteText(Path("c.jpg"), damaged);
+  testing::internal::CaptureStderr();
+  const std::string message = MessageOf([&] { DecodeColorImage(Path("c.jpg")); });
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");  // libjpeg has no word of its own
+  EXPECT_THAT(message, HasSubstr("c.jpg: is damaged (Corrupt JPEG data"));
+  EXPECT_THAT(message, HasSubstr("copy it again or remove the frame"));
+}
+
+TEST_F(ImageFileTest, BytesBetweenMarkersAreARemark) {
+  WriteColor(Path("c.jpg"), 16, 16);
+  std::string bytes = ReadFile(Path("c.jpg"));
+  bytes.insert(bytes.rfind("\xff\xd9"), "abc");
+  WriteText(Path("c.jpg"), bytes);
+  std::string remark;
+  DecodeColorImage(Path("c.jpg"), &remark);
+  EXPECT_THAT(remark, HasSubstr("3 extraneous bytes"));
+}
+
+TEST_F(ImageFileTest, APipeIsNoImageAndIsNotWaitedFor) {
+  ASSERT_EQ(::mkfifo(Path("p.png").c_str(), 0600), 0);
+  EXPECT_THAT(ReadImageHeader(Path("p.png")).defect, HasSubstr("is a pipe"));
+  EXPECT_THROW(DecodeColorImage(Path("p.png")), Error);
 }
 
 TEST_F(ImageFileTest, EightBitDepthIsRefused) {
@@ -104,7 +171,7 @@ TEST_F(ImageFileTest, EightBitDepthIsRefused) {
 
 TEST_F(ImageFileTest, MissingAndForeignFilesAreNamed) {
   EXPECT_THAT(MessageOf([&] { DecodeColorImage(Path("none.jpg")); }),
-              HasSubstr("none.jpg: is missing"));
+              HasSubstr("none.jpg: is not there"));
   WriteText(Path("text.png"), "this is no picture");
   EXPECT_THAT(MessageOf([&] { DecodeColorImage(Path("text.png")); }),
               HasSubstr("neither a PNG nor a JPEG"));
