@@ -3,13 +3,11 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdio>
-#include <exception>
-#include <new>
 #include <string>
 #include <vector>
 
 #include "apps/commands/command.h"
+#include "apps/failure.h"
 #include "apps/interrupt.h"
 #include "kernel/error.h"
 #include "kernel/options.h"
@@ -18,7 +16,6 @@ namespace curvefusion {
 
 namespace {
 
-constexpr int kInternalError = 1;
 constexpr int kMegabyte = 1 << 20;
 
 // CLI11 says of a mistyped command only that one is required.
@@ -39,8 +36,9 @@ int Parse(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(
       "Exit codes: 0 done, 1 a mesh with defects (mesh --check), 2 usage, 3 bad input, 4 nothing\n"
-      "thin found, 5 out of memory or disk, 130 interrupted. `curvefusion COMMAND --help` tells "
-      "more and gives examples.");
+      "thin found, 5 out of memory or disk, 75 another run writes to the same place, 130 "
+      "interrupted.\n"
+      "`curvefusion COMMAND --help` tells more and gives examples.");
   int exit_code = 0;
   AddReconstructCommand(app, exit_code);
   AddCheckCommand(app, exit_code);
@@ -62,16 +60,9 @@ int Parse(int argc, char** argv) {
 
 int Run(int argc, char** argv) {
   try {
-    return Parse(argc, argv);
-  } catch (const Error& error) {
-    fmt::print(stderr, "curvefusion: {}\n", error.what());
-    return ExitCode(error.kind());
-  } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "curvefusion: out of memory; use fewer frames or larger voxels\n");
-    return ExitCode(ErrorKind::kResource);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "curvefusion: internal error, please report it: {}\n", error.what());
-    return kInternalError;
+    return FlushedOutput(Parse(argc, argv));
+  } catch (...) {
+    return ReportFailure();
   }
 }
 
@@ -90,6 +81,7 @@ void KeepFreedMemory() {
 
 int main(int argc, char** argv) {
   curvefusion::CatchInterrupts();
+  curvefusion::IgnoreWriteSignals();
   curvefusion::KeepFreedMemory();
   return curvefusion::Run(argc, argv);
 }

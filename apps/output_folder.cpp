@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "kernel/error.h"
+#include "kernel/partial_name.h"
 
 namespace curvefusion {
 
@@ -26,7 +27,16 @@ void MakeOutputFolder(const fs::path& folder) {
 }
 
 void MakeFolderOf(const fs::path& file) {
+  if (file.empty()) return;
+  std::error_code failure;
+  const fs::file_status status = fs::status(file, failure);
+  if (fs::exists(status) && !fs::is_regular_file(status)) {
+    throw Error(ErrorKind::kResource,
+                fmt::format("{}: is {}; name a file to write", file.string(),
+                            fs::is_directory(status) ? "a folder" : "no regular file"));
+  }
   if (file.has_parent_path()) MakeOutputFolder(file.parent_path());
+  RemoveStalePartials(file);
 }
 
 }  // namespace curvefusion

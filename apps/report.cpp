@@ -194,7 +194,8 @@ std::string ReportJson(const RunRecord& record) {
                        {"skeleton", SkeletonJson(reconstruction)},
                        {"mesh", record.mesh ? MeshJson(*record.mesh) : Json(nullptr)},
                        {"warnings", AllWarnings(record)}};
-  return report.dump(2) + "\n";
+  // Names of files need not be UTF-8.
+  return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string FiguresLine(const GraphFigures& figures) {
@@ -203,20 +204,24 @@ std::string FiguresLine(const GraphFigures& figures) {
                      Counted(figures.free_ends, "free end"));
 }
 
-std::string Summary(const RunRecord& record, const std::filesystem::path& folder) {
+std::string Summary(const RunRecord& record, const std::filesystem::path& folder,
+                    const std::filesystem::path& report) {
   const SkeletonGraph& skeleton = record.reconstruction.skeleton;
   std::string text = skeleton.empty()
                          ? std::string(kNothingThinText)
                          : fmt::format("Found {}\n", FiguresLine(MeasureGraph(skeleton)));
-  const auto add_file = [&](const char* what, const char* name) {
-    text += fmt::format("  {:<9} {}\n", what, (folder / name).string());
+  const auto add_file = [&](const char* what, const std::filesystem::path& file) {
+    text += fmt::format("  {:<9} {}\n", what, file.string());
   };
   if (!skeleton.empty()) {
-    add_file("picture", "preview.png");
-    add_file("mesh", "mesh.ply");
-    add_file("skeleton", "skeleton.json");
+    add_file("picture", folder / "preview.png");
+    add_file("mesh", folder / "mesh.ply");
+    add_file("skeleton", folder / "skeleton.json");
   }
-  add_file("report", "report.json");
+  add_file("report", report);
+  if (skeleton.empty() && report.filename() != "report.json") {
+    text += fmt::format("  the result of an earlier run stays in {}\n", folder.string());
+  }
   for (const std::string& warning : AllWarnings(record)) text += "  warning: " + warning + "\n";
   return text;
 }

@@ -6,11 +6,10 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <fstream>
-#include <sstream>
 #include <utility>
 
 #include "kernel/error.h"
+#include "kernel/text_input.h"
 
 namespace curvefusion {
 
@@ -184,13 +183,10 @@ void RefuseControlCharacters(const std::string& text, const std::string& name) {
 }
 
 Source ParseFile(const std::filesystem::path& path) {
-  std::ifstream stream(path);
-  std::stringstream text;
-  text << stream.rdbuf();
-  if (!stream) ThrowUsage(fmt::format("{}: this config file cannot be read", path.string()));
-  RefuseControlCharacters(text.str(), path.string());
+  const std::string text = ReadFile(path);
+  RefuseControlCharacters(text, path.string());
   try {
-    return {toml::parse(text.str()), path.string(), true};
+    return {toml::parse(text), path.string(), true};
   } catch (const toml::parse_error& error) {
     ThrowUsage(fmt::format("{}:{}: not valid TOML: {}", path.string(), error.source().begin.line,
                            error.description()));

@@ -6,11 +6,13 @@
 #include <filesystem>
 #include <iterator>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <numbers>
 #include <utility>
 #include <vector>
 
 #include "kernel/error.h"
+#include "kernel/json_input.h"
 #include "meshing/corner_normals.h"
 #include "meshing/mesh_formats.h"
 #include "meshing/watertight.h"
@@ -242,6 +244,28 @@ class GlbReader {
   TriangleMesh result_;
 };
 
+// What keeps a file from being read, in other words than those of the library. Throws for a part
+// that is not valid JSON.
+std::string Defect(const std::string& bytes, const std::string& name) {
+  constexpr size_t kHeader = 20;  // magic, version, length; length and type of the JSON part
+  const auto number = [&bytes](size_t at) {
+    uint32_t value = 0;  // little-endian, as this machine and the file are
+    std::memcpy(&value, bytes.data() + at, sizeof(value));
+    return value;
+  };
+  if (!bytes.starts_with("glTF")) return "is not a binary glTF file";
+  if (bytes.size() < kHeader) return "is truncated";
+  if (number(4) != 2) {
+    return fmt::format("is of glTF version {}; only version 2 is read", number(4));
+  }
+  if (number(8) > bytes.size() || number(12) > bytes.size() - kHeader) {
+    return fmt::format("is truncated or damaged: it should have {} bytes and has {}", number(8),
+                       bytes.size());
+  }
+  ParseJson(bytes.substr(kHeader, number(12)), name);
+  return "its description of the meshes is damaged or incomplete; export the file again";
+}
+
 }  // namespace
 
 void WriteGlb(const TriangleMesh& mesh, std::ostream& stream) {
@@ -283,9 +307,7 @@ TriangleMesh ReadGlb(std::istream& stream, const std::string& name) {
   const bool loaded = loader.LoadBinaryFromMemory(
       &model, &error, &warning, reinterpret_cast<const unsigned char*>(bytes.data()),
       static_cast<unsigned int>(bytes.size()), std::filesystem::path(name).parent_path().string());
-  if (!loaded) {
-    throw Error(ErrorKind::kBadInput, fmt::format("{}: not a binary glTF file: {}", name, error));
-  }
+  if (!loaded) throw Error(ErrorKind::kBadInput, name + ": " + Defect(bytes, name));
   return WeldVertices(GlbReader(model, name).Read());
 }
 

@@ -10,6 +10,7 @@
 
 #include "kernel/atomic_file.h"
 #include "kernel/error.h"
+#include "kernel/text_input.h"
 #include "meshing/mesh_formats.h"
 #include "meshing/watertight.h"
 
@@ -126,10 +127,7 @@ void WriteMesh(const std::filesystem::path& path, const TriangleMesh& mesh,
 
 TriangleMesh ReadMesh(const std::filesystem::path& path) {
   const MeshFormat& format = FormatOf(path);
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) {
-    throw Error(ErrorKind::kBadInput, fmt::format("{}: cannot be opened", path.string()));
-  }
+  std::ifstream stream = OpenFile(path);
   TriangleMesh mesh = format.read(stream, path.string());
   RequireFinite(path, mesh);
   const int n = static_cast<int>(mesh.vertices.size());

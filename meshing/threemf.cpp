@@ -14,8 +14,7 @@ namespace {
 
 using NMR::PLib3MFBase;
 
-// An object of lib3MF, released at the end of its scope. Its functions return 0 for success and
-// keep a message with the object they were called for.
+// An object of lib3MF, released at the end of its scope. Its functions return 0 for success.
 class Handle {
  public:
   explicit Handle(const std::string& file) : file_(file) {}
@@ -30,10 +29,10 @@ class Handle {
 
   void Require(LIB3MFRESULT result, ErrorKind kind = ErrorKind::kBadInput) const {
     if (result == 0) return;
-    DWORD code = 0;
-    const char* message = nullptr;
-    if (object_) NMR::lib3mf_getlasterror(object_, &code, &message);
-    throw Error(kind, fmt::format("{}: 3MF: {} (error {:#x})", file_, message ? message : "failed",
+    // The library's messages speak of its own classes.
+    const char* what =
+        kind == ErrorKind::kBadInput ? "is damaged, or no 3MF file" : "cannot be made";
+    throw Error(kind, fmt::format("{}: {} (error {:#x} of lib3MF)", file_, what,
                                   static_cast<uint32_t>(result)));
   }
 

@@ -1,7 +1,8 @@
 #include "experiments/config.h"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <memory>
 #include <optional>
 
@@ -19,7 +20,7 @@ void AddConfigCommand(CLI::App& app, int& exit_code) {
       "Example:\n  curvefusion config > my.toml\n"
       "  curvefusion config --profile paper --set volume.voxel_size=0.01");
   command->callback([arguments, &exit_code] {
-    std::fputs(ConfigToml(ReadConfig(Sources(*arguments))).c_str(), stdout);
+    fmt::print("{}", ConfigToml(ReadConfig(Sources(*arguments))));
     exit_code = 0;
   });
 }

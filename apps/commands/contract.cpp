@@ -8,6 +8,7 @@
 
 #include "apps/commands/command.h"
 #include "apps/output_folder.h"
+#include "apps/output_guard.h"
 #include "apps/report.h"
 #include "apps/set_radius.h"
 #include "graph/graph_io.h"
@@ -65,6 +66,7 @@ SkeletonGraph ExtractAtAxis(const ObservedPoints& points, const ContractArgument
 
 int RunContract(const ContractArguments& arguments) {
   LimitThreads(arguments.run);
+  RequireApart({arguments.cloud}, arguments.output);
   ObservedPoints points = ReadCloud(arguments.cloud);
   const double scale = arguments.scale > 0 ? arguments.scale : GuessedScale(points);
   if (scale != 1 && arguments.scale <= 0 && !arguments.run.quiet) {

@@ -4,10 +4,15 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
+#include <system_error>
+#include <vector>
 
 #include "apps/commands/command.h"
 #include "apps/evaluation_table.h"
 #include "apps/output_folder.h"
+#include "apps/output_guard.h"
+#include "apps/result_folder.h"
 #include "experiments/metrics/evaluation_files.h"
 #include "experiments/metrics/truth.h"
 #include "graph/graph_io.h"
@@ -41,11 +46,36 @@ Evaluation EvaluateFiles(const EvaluateArguments& arguments) {
   return Evaluate(result, mesh ? &*mesh : nullptr, truth);
 }
 
+// A file itself, or all files of a folder.
+std::vector<fs::path> FilesOf(const fs::path& path) {
+  std::error_code failure;
+  if (!fs::is_directory(path, failure)) return {path};
+  std::vector<fs::path> files;
+  for (fs::directory_iterator entry(path, failure), end; !failure && entry != end;
+       entry.increment(failure)) {
+    files.push_back(entry->path());
+  }
+  return files;
+}
+
+// Scores may lie in the folder of a result: only what a reconstruction has written there is input.
+std::vector<fs::path> InputFiles(const EvaluateArguments& arguments) {
+  std::vector<fs::path> files = FilesOf(arguments.truth);
+  files.push_back(arguments.mesh);
+  files.push_back(arguments.result);
+  for (const std::string& name : ResultNames()) files.push_back(arguments.result / name);
+  return files;
+}
+
 int RunEvaluate(const EvaluateArguments& arguments) {
   if (arguments.result.empty() && arguments.mesh.empty()) {
     throw Error(ErrorKind::kUsage, "name a result folder, a skeleton.json or a --mesh to evaluate");
   }
   LimitThreads(arguments.run);
+  const std::vector<fs::path> inputs = InputFiles(arguments);
+  RequireApart(inputs, arguments.json);
+  RequireApart(inputs, arguments.csv);
+  RequireApart({arguments.json}, arguments.csv);
   MakeFolderOf(arguments.json);
   MakeFolderOf(arguments.csv);
   const Evaluation evaluation = EvaluateFiles(arguments);

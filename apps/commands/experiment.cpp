@@ -9,10 +9,12 @@
 
 #include "apps/commands/command.h"
 #include "apps/output_folder.h"
+#include "apps/output_guard.h"
 #include "experiments/studies/regression_check.h"
 #include "experiments/studies/studies.h"
 #include "experiments/studies/study_runner.h"
 #include "kernel/error.h"
+#include "kernel/run_lock.h"
 
 namespace curvefusion {
 
@@ -135,6 +137,7 @@ std::vector<Study> StudiesOf(const std::vector<std::string>& names) {
 }
 
 int RunExperiment(const ExperimentArguments& arguments) {
+  RequireApart({arguments.baseline}, arguments.output);
   const StudyRequest request = RequestOf(arguments);
   std::vector<PlannedStudy> studies;
   for (const Study& study : StudiesOf(arguments.names)) {
@@ -142,6 +145,7 @@ int RunExperiment(const ExperimentArguments& arguments) {
   }
   MakeOutputFolder(arguments.output);
   LimitThreads(arguments.run);
+  const RunLock lock(arguments.output / "curvefusion.lock", arguments.output);
   int exit_code = 0;
   for (const PlannedStudy& study : studies) {
     exit_code = std::max(exit_code, RunOne(study, request, arguments));

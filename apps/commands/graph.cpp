@@ -9,6 +9,7 @@
 #include "apps/commands/command.h"
 #include "apps/graph_figures.h"
 #include "apps/output_folder.h"
+#include "apps/output_guard.h"
 #include "graph/graph_io.h"
 #include "graph/intersections.h"
 #include "graph/smoothing.h"
@@ -85,6 +86,8 @@ void CheckUsage(const GraphArguments& arguments) {
 int RunGraph(const GraphArguments& arguments) {
   CheckUsage(arguments);
   LimitThreads(arguments.run);
+  RequireApart({arguments.graph}, arguments.convert);
+  RequireApart({arguments.graph, arguments.convert}, arguments.output);
   SkeletonGraph graph = ReadSkeleton(arguments.graph);
   const bool valid = !arguments.validate || PrintViolations(graph, arguments);
   if (!arguments.convert.empty()) Export(arguments.convert, graph, arguments.run.quiet);

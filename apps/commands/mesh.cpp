@@ -11,6 +11,7 @@
 
 #include "apps/commands/command.h"
 #include "apps/output_folder.h"
+#include "apps/output_guard.h"
 #include "apps/set_radius.h"
 #include "apps/tube_warnings.h"
 #include "graph/graph_io.h"
@@ -70,6 +71,7 @@ void ChooseRadii(const MeshArguments& arguments, SkeletonGraph& skeleton) {
 }
 
 int MeshSkeleton(const MeshArguments& arguments) {
+  RequireApart({arguments.input}, arguments.output);
   const MeshUnit unit = arguments.unit.value_or(DefaultUnit(arguments.output));
   SkeletonGraph skeleton = ReadSkeleton(arguments.input);
   MakeFolderOf(arguments.output);

@@ -2,15 +2,18 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "apps/commands/command.h"
 #include "apps/commands/config_arguments.h"
-#include "apps/output_folder.h"
+#include "apps/output_guard.h"
 #include "apps/preview.h"
 #include "apps/report.h"
+#include "apps/result_folder.h"
 #include "apps/run_observer.h"
 #include "apps/tube_warnings.h"
 #include "capture/content/colour_findings.h"
@@ -21,6 +24,7 @@
 #include "kernel/atomic_file.h"
 #include "kernel/cancellation.h"
 #include "kernel/error.h"
+#include "kernel/free_space.h"
 #include "kernel/peak_memory.h"
 #include "meshing/mesh_io.h"
 
@@ -35,6 +39,7 @@ struct ReconstructArguments {
   fs::path sequence;
   fs::path output;
   ConfigArguments config;
+  bool force = false;
   StageOutputs stages;
   std::string colour_camera = "auto";
   RunOptions run;
@@ -46,13 +51,6 @@ double SecondsSince(Clock::time_point start) {
 
 void WriteText(const fs::path& path, const std::string& text) {
   WriteStreamAtomically(path, [&](std::ostream& stream) { stream << text; });
-}
-
-// An earlier result must not be taken for this run's, which has none.
-void RemoveEarlierResult(const fs::path& folder) {
-  for (const char* name :
-       {"skeleton.json", "trajectory.txt", "mesh.ply", "preview.png", "report.json"})
-    fs::remove(folder / name);
 }
 
 Trajectory CorrectedTrajectory(const Sequence& sequence) {
@@ -71,24 +69,59 @@ void WriteSkeletonAndPicture(const RunRecord& record, const fs::path& folder) {
                        FiguresLine(MeasureGraph(reconstruction.skeleton))));
 }
 
-// Sweeps and writes the tubes. Where that fails the skeleton stays.
 MeshRecord WriteTubes(const RunRecord& record, const fs::path& folder) {
   const auto start = Clock::now();
-  try {
-    const TubeMesh tubes = BuildTubes(record.reconstruction.skeleton, record.config.tubes);
-    WriteMesh(folder / "mesh.ply", ToTriangleMesh(tubes.surface), {});
-    return {tubes.report, SecondsSince(start),
-            TubeWarnings(record.reconstruction.skeleton, tubes, record.config.tubes)};
-  } catch (const Error& error) {
-    throw Error(error.kind(), fmt::format("{}; {} is complete", error.what(),
-                                          (folder / "skeleton.json").string()));
-  }
+  const TubeMesh tubes = BuildTubes(record.reconstruction.skeleton, record.config.tubes);
+  WriteMesh(folder / "mesh.ply", ToTriangleMesh(tubes.surface), {});
+  return {tubes.report, SecondsSince(start),
+          TubeWarnings(record.reconstruction.skeleton, tubes, record.config.tubes)};
 }
 
+// The report tells of all that came before it.
 void WriteReport(RunRecord& record, Clock::time_point start, const fs::path& folder) {
+  WriteText(folder / "config.toml", ConfigToml(record.config));
   record.seconds = SecondsSince(start);
   record.peak_memory = PeakMemory();
   WriteText(folder / "report.json", ReportJson(record));
+}
+
+// Where the curves have no sound mesh the other files are complete without it; the error follows.
+void WriteResult(RunRecord& record, Clock::time_point start, const ResultFolder& output) {
+  std::optional<Error> failure;
+  output.Replace([&](const fs::path& folder) {
+    WriteSkeletonAndPicture(record, folder);
+    try {
+      record.mesh = WriteTubes(record, folder);
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::kBadInput) throw;
+      failure = WithPathReplaced(error, folder, output.path());
+    }
+    WriteReport(record, start, folder);
+  });
+  if (!failure) return;
+  throw Error(failure->kind(), fmt::format("{}; {} is complete", failure->what(),
+                                           (output.path() / "skeleton.json").string()));
+}
+
+void RequireInputStays(const ReconstructArguments& arguments) {
+  const fs::path& volume = arguments.stages.volume;
+  for (const fs::path& output : {arguments.output, arguments.stages.folder, volume}) {
+    RequireOutside(arguments.sequence, output);
+  }
+  RequireApart({arguments.config.file}, arguments.output / "config.toml");
+  RequireApart({arguments.config.file}, volume);
+}
+
+void RequireRoom(const ReconstructArguments& arguments, const Sequence& sequence) {
+  // Chosen: ten times what a wire cube takes, whose result has 1.5 MB, volume 1 MB.
+  constexpr std::uintmax_t kFiles = 16u << 20;
+  // Measured (25 frames of that cube, --save-stages): 57 kB a frame; the double for larger objects.
+  constexpr std::uintmax_t kStagesOfFrame = 114000;
+  RequireFreeSpace(arguments.output, kFiles);
+  const auto frames = static_cast<std::uintmax_t>(sequence.frame_count());
+  const StageOutputs& stages = arguments.stages;
+  if (!stages.folder.empty()) RequireFreeSpace(stages.folder, kStagesOfFrame * frames);
+  if (!stages.volume.empty()) RequireFreeSpace(stages.volume, kFiles);
 }
 
 int RunReconstruct(const ReconstructArguments& arguments) {
@@ -96,8 +129,11 @@ int RunReconstruct(const ReconstructArguments& arguments) {
   const Config config = ReadConfig(Sources(arguments.config));
   LimitThreads(arguments.run);
   Sequence sequence = OpenSequence(arguments.sequence);
+  RequireInputStays(arguments);
+  RequireRoom(arguments, sequence);
+  const ResultFolder output(arguments.output, {arguments.stages.folder, arguments.stages.volume},
+                            arguments.force);
   RequireFittingPoses(sequence);
-  MakeOutputFolder(arguments.output);
   const bool fitted = arguments.colour_camera == "auto" && UseFittedColourCamera(sequence);
   ProgressPrinter printer = MakeProgressPrinter(arguments.run.quiet);
   RunObserver observer(printer, arguments.stages);
@@ -106,20 +142,14 @@ int RunReconstruct(const ReconstructArguments& arguments) {
   ThrowIfCancelled();
 
   RunRecord record{sequence, config, reconstruction, {}, 0, 0, fitted};
-  RemoveEarlierResult(arguments.output);
-  WriteText(arguments.output / "config.toml", ConfigToml(config));
   const bool found = !reconstruction.skeleton.empty();
+  const fs::path report = found ? output.path() / "report.json" : output.NothingFoundReport();
   if (found) {
-    WriteSkeletonAndPicture(record, arguments.output);
-    try {
-      record.mesh = WriteTubes(record, arguments.output);
-    } catch (const Error&) {
-      WriteReport(record, start, arguments.output);
-      throw;
-    }
+    WriteResult(record, start, output);
+  } else {
+    output.AddNothingFound([&](const fs::path& folder) { WriteReport(record, start, folder); });
   }
-  WriteReport(record, start, arguments.output);
-  if (!arguments.run.quiet) fmt::print("{}", Summary(record, arguments.output));
+  if (!arguments.run.quiet) fmt::print("{}", Summary(record, output.path(), report));
   return found ? 0 : kNothingThin;
 }
 
@@ -135,6 +165,8 @@ void AddReconstructCommand(CLI::App& app, int& exit_code) {
                    "Folder for skeleton.json, trajectory.txt, mesh.ply, preview.png, report.json, "
                    "config.toml")
       ->required();
+  command->add_flag("--force", arguments->force,
+                    "Take an output folder that holds other things; they stay as they are");
   AddConfigArguments(*command, arguments->config);
   command
       ->add_option("--colour-camera", arguments->colour_camera,

@@ -9,11 +9,13 @@
 #include <string>
 
 #include "apps/commands/command.h"
+#include "apps/output_folder.h"
 #include "experiments/simulation/depth_sensor.h"
 #include "experiments/simulation/drift.h"
 #include "experiments/simulation/object_truth.h"
 #include "graph/graph_io.h"
 #include "kernel/error.h"
+#include "kernel/run_lock.h"
 
 namespace curvefusion {
 
@@ -54,12 +56,21 @@ double SpacingOf(const SimulateArguments& arguments) {
   return *arguments.spacing_mm * kMillimetre;
 }
 
+// Beside the folder, which appears only in the end.
+RunLock LockOf(const std::filesystem::path& folder) {
+  std::filesystem::path named = std::filesystem::absolute(folder).lexically_normal();
+  if (!named.has_filename()) named = named.parent_path();
+  MakeOutputFolder(named.parent_path());
+  return {named.string() + ".lock", folder};
+}
+
 int RunSimulate(SimulateArguments arguments) {
   SimulationOptions& scan = arguments.scan;
   scan.large_color = arguments.color_size == kLargeColor;
   scan.object_options.spacing = SpacingOf(arguments);
   scan.object_options.wire_diameter = arguments.wire_diameter_mm * kMillimetre;
   ChooseObject(arguments.scene, scan);
+  const RunLock lock = LockOf(arguments.output);
   ProgressPrinter printer = MakeProgressPrinter(arguments.run.quiet);
   LimitThreads(arguments.run);
   SimulateScan(scan, arguments.output, InterruptibleProgress(printer));

@@ -1,12 +1,12 @@
 #include "experiments/metrics/evaluation_files.h"
 
-#include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "experiments/csv_cell.h"
 #include "kernel/atomic_file.h"
 #include "kernel/error.h"
+#include "kernel/text_input.h"
 
 namespace curvefusion {
 namespace {
@@ -174,15 +174,16 @@ void AppendCell(const std::string& name, const Json& value, CsvRow& row) {
 }
 
 std::string ReadIfThere(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
+  return std::filesystem::exists(path) ? ReadFile(path) : "";
 }
 
 }  // namespace
 
 void WriteEvaluation(const std::filesystem::path& path, const EvaluationLabels& labels,
                      const Evaluation& evaluation) {
-  const std::string text = EvaluationJson(labels, evaluation).dump(1);
+  const std::string text =
+      EvaluationJson(labels, evaluation)
+          .dump(1, ' ', false, Json::error_handler_t::replace);  // names of files need not be UTF-8
   WriteStreamAtomically(path, [&](std::ostream& stream) { stream << text << "\n"; });
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
@@ -35,6 +36,9 @@ struct SimulationOptions {
 
 void VisitOptions(SimulationOptions& options, OptionVisitor& visitor);
 
+/// About the most that a scan takes on the disk.
+std::uintmax_t ScanBytes(const SimulationOptions& options);
+
 /// Simulates a scan into `folder`, which must not exist or be empty: a TUM sequence with depth/,
 /// rgb/, depth.txt, rgb.txt, associations.txt, trajectory.txt with the pose source's errors and
 /// intrinsics.json; and the truth: truth/skeleton.json with radii, truth/curves.json,
@@ -43,7 +47,7 @@ void VisitOptions(SimulationOptions& options, OptionVisitor& visitor);
 /// parallel; one takes about .4 s of one core. Throws Error(kUsage) for an unknown name, a count
 /// that is not positive, a readout longer than a frame, a distance out of the sensor's range, wires
 /// thicker than their spacing, or a folder that is not empty; Error(kResource) where a file cannot
-/// be written.
+/// be written or the disk has less room than ScanBytes.
 void SimulateScan(const SimulationOptions& options, const std::filesystem::path& folder,
                   const Progress& progress);
 

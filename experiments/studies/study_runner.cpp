@@ -1,6 +1,7 @@
 #include "experiments/studies/study_runner.h"
 
 #include <cmath>
+#include <cstdint>
 #include <exception>
 #include <map>
 #include <mutex>
@@ -14,6 +15,7 @@
 #include "experiments/studies/run_files.h"
 #include "experiments/studies/scan_cache.h"
 #include "kernel/error.h"
+#include "kernel/free_space.h"
 #include "kernel/partial_folder.h"
 
 namespace curvefusion {
@@ -90,6 +92,7 @@ class StudyRunner {
 
  private:
   bool IsSimulated(const ScanGroup& group) const;
+  std::uintmax_t BytesOf(const std::vector<ScanGroup>& groups) const;
   void MeasureGroup(const ScanGroup& group, StepCounter& steps);
   void MeasureCase(size_t index, const fs::path& scan, StepCounter& steps);
   RunOutcome RunCase(const RunInput& input) const;
@@ -131,6 +134,7 @@ void StudyRunner::Measure(const std::vector<ScanGroup>& groups, int jobs,
   for (const ScanGroup& group : groups) {
     total += static_cast<int64_t>(group.cases.size()) + (IsSimulated(group) ? 0 : 1);
   }
+  RequireFreeSpace(folder_, BytesOf(groups));
   StepCounter steps(progress, study_.name, total);
   std::mutex mutex;
   size_t next = 0;
@@ -161,6 +165,18 @@ void StudyRunner::Measure(const std::vector<ScanGroup>& groups, int jobs,
 // Whether the group needs no scan any more.
 bool StudyRunner::IsSimulated(const ScanGroup& group) const {
   return group.scan == nullptr || fs::exists(ScanFolder(folder_ / "scans", *group.scan));
+}
+
+// What the scans and runs will take on the disk at most.
+std::uintmax_t StudyRunner::BytesOf(const std::vector<ScanGroup>& groups) const {
+  // Chosen: five times the result of a wire cube, whose files take 1.5 MB.
+  constexpr std::uintmax_t kRunBytes = 8u << 20;
+  std::uintmax_t bytes = 0;
+  for (const ScanGroup& group : groups) {
+    if (!IsSimulated(group)) bytes += ScanBytes(*group.scan);
+    bytes += kRunBytes * group.cases.size();
+  }
+  return bytes;
 }
 
 void StudyRunner::MeasureGroup(const ScanGroup& group, StepCounter& steps) {

@@ -97,10 +97,8 @@ TEST_F(CommandLine, BadInputIsThree) {
   EXPECT_EQ(Run("contract none.ply -o a.json").exit_code, 3);
 }
 
-TEST_F(CommandLine, NothingThinIsFourAndLeavesNoEarlierResult) {
+TEST_F(CommandLine, NothingThinIsFourWithAReport) {
   ASSERT_EQ(SimulateCube(3).exit_code, 0);
-  fs::create_directories(folder_ / "out");
-  std::ofstream(folder_ / "out/skeleton.json") << "of an earlier run";
   // The object has less than 10 m of curve.
   const Outcome outcome = Run("reconstruct scan -o out --set ridge_skeleton.min_component=10");
   EXPECT_EQ(outcome.exit_code, 4);

@@ -106,7 +106,7 @@ TEST(Report, TellsWhatEdgesAndJunctionsRestOn) {
 
 TEST(Summary, NamesFindingsFilesAndWarnings) {
   YRun run;
-  const std::string summary = Summary(run.Record(), "out");
+  const std::string summary = Summary(run.Record(), "out", "out/report.json");
   EXPECT_THAT(summary, HasSubstr("3 curves, 0.30 m, diameter 4.0 to 6.0 mm, 1 junction, 3 free"));
   for (const char* file : {"out/skeleton.json", "out/mesh.ply", "out/preview.png"}) {
     EXPECT_THAT(summary, HasSubstr(file));
@@ -118,7 +118,7 @@ TEST(Summary, NamesFindingsFilesAndWarnings) {
 TEST(Summary, OfNothingNamesNoFilesThatAreNotThere) {
   YRun run;
   run.reconstruction.skeleton = SkeletonGraph();
-  const std::string summary = Summary(run.Record(), "out");
+  const std::string summary = Summary(run.Record(), "out", "out/report.json");
   EXPECT_THAT(summary, HasSubstr("nothing thin"));
   EXPECT_THAT(summary, Not(HasSubstr("mesh.ply")));
 }
