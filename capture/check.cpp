@@ -11,6 +11,7 @@
 #include "capture/content/thumbnails.h"
 #include "capture/detect_format.h"
 #include "capture/image_file.h"
+#include "capture/readers/readers.h"
 #include "kernel/error.h"
 #include "kernel/parallel.h"
 
@@ -118,6 +119,17 @@ std::optional<Sequence> TryReadSequence(const std::filesystem::path& folder,
   return std::nullopt;
 }
 
+// Where most frames of a TUM sequence have no pose, the clocks may be far apart.
+GeometryReport CheckPoses(const Sequence& sequence, const Thumbnails& thumbnails,
+                          const FindingHandler& on_finding) {
+  if (sequence.format == "tum" && sequence.frames_without_pose > sequence.frame_count()) {
+    const Sequence images = ReadTumImages(sequence.folder, [](const CheckFinding&) {});
+    GeometryReport report = CheckClocks(images, on_finding);
+    if (report.correction) return report;
+  }
+  return CheckGeometry(sequence, thumbnails, on_finding);
+}
+
 void Summarize(const Sequence& sequence, CheckReport& report) {
   report.format = sequence.format;
   report.frames = sequence.frame_count();
@@ -151,7 +163,7 @@ CheckReport CheckSequence(const std::filesystem::path& folder, const Progress& p
     const DepthSurvey depth = SurveyDepth(std::move(content.depth));
     report.median_depth = depth.median;
     report.depth_validity = depth.validity;
-    report.geometry = CheckGeometry(*sequence, content.thumbnails, collect);
+    report.geometry = CheckPoses(*sequence, content.thumbnails, collect);
     const bool is_explained = report.geometry.correction.has_value();
     if (has_samples && !is_explained) ReportDepthScale(*sequence, depth, collect);
     if (!report.has_errors()) {

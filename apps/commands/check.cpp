@@ -1,6 +1,7 @@
 #include "capture/check.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -8,6 +9,7 @@
 #include <string>
 
 #include "apps/commands/command.h"
+#include "capture/content/repair.h"
 #include "kernel/error.h"
 
 namespace curvefusion {
@@ -16,6 +18,7 @@ namespace {
 
 struct CheckArguments {
   std::filesystem::path sequence;
+  std::filesystem::path repaired;
   RunOptions run;
 };
 
@@ -68,6 +71,26 @@ void PrintFindings(const CheckReport& report) {
   if (report.findings.empty()) fmt::print("nothing is wrong with this sequence\n");
 }
 
+// Writes the corrected copy and checks it; the exit code is that of the copy.
+int Repair(const CheckArguments& arguments, const CheckReport& report) {
+  if (!report.geometry.correction) {
+    if (!arguments.run.quiet) fmt::print("nothing that --repair can correct: no copy is written\n");
+    return report.has_errors() ? ExitCode(ErrorKind::kBadInput) : 0;
+  }
+  const SequenceCorrection& correction = *report.geometry.correction;
+  WriteRepairedSequence(correction, arguments.repaired);
+  const CheckReport repaired = CheckSequence(arguments.repaired, NoProgress);
+  if (!arguments.run.quiet) {
+    fmt::print("\nWrote {} with {} frames ({}){}\n", arguments.repaired.string(),
+               correction.sequence.frames.size(), fmt::join(correction.made, "; "),
+               correction.swap_bytes ? "; its depth images are written anew, colour is linked"
+                                     : "; its images are links");
+    PrintGeometry(repaired.geometry);
+    PrintFindings(repaired);
+  }
+  return repaired.has_errors() ? ExitCode(ErrorKind::kBadInput) : 0;
+}
+
 int RunCheck(const CheckArguments& arguments) {
   LimitThreads(arguments.run);
   ProgressPrinter printer = MakeProgressPrinter(arguments.run.quiet);
@@ -78,6 +101,7 @@ int RunCheck(const CheckArguments& arguments) {
     PrintGeometry(report.geometry);
     PrintFindings(report);
   }
+  if (!arguments.repaired.empty()) return Repair(arguments, report);
   return report.has_errors() ? ExitCode(ErrorKind::kBadInput) : 0;
 }
 
@@ -88,8 +112,12 @@ void AddCheckCommand(CLI::App& app, int& exit_code) {
       app.add_subcommand("check", "Tell what is wrong with a sequence before it is reconstructed");
   const auto arguments = std::make_shared<CheckArguments>();
   command->add_option("SEQUENCE", arguments->sequence, "Folder of the sequence")->required();
+  command->add_option("--repair", arguments->repaired,
+                      "Folder for a corrected copy where poses, depth unit, clocks or order are "
+                      "wrong; its images are links");
   AddRunOptions(*command, arguments->run);
-  command->footer("Example:\n  curvefusion check scan");
+  command->footer(
+      "Example:\n  curvefusion check scan\n  curvefusion check scan --repair scan_repaired");
   command->callback([arguments, &exit_code] { exit_code = RunCheck(*arguments); });
 }
 

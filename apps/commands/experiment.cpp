@@ -184,6 +184,11 @@ void AddRequestOptions(CLI::App& command, ExperimentArguments& arguments) {
       .add_option("--objects", arguments.request.objects,
                   "Objects of the studies objects, ablation and sweep, separated by commas")
       ->delimiter(',');
+  command
+      .add_option("--scans", arguments.request.scans,
+                  "Folders of good real scans for the study check, separated by commas")
+      ->delimiter(',')
+      ->check(CLI::ExistingDirectory);
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <map>
 
+#include "capture/content/clock_search.h"
+#include "capture/content/geometry_details.h"
 #include "capture/content/geometry_messages.h"
 #include "capture/content/pose_explanation.h"
 #include "capture/readers/readers.h"
@@ -121,14 +123,13 @@ MisfitEvidence EvidenceOf(const Sequence& sequence, const Thumbnails& thumbnails
 }
 
 SequenceCorrection CorrectionOf(const Sequence& sequence, const Misfit& misfit) {
-  SequenceCorrection correction;
-  correction.depth_scale = misfit.depth_scale;
-  correction.swap_bytes = misfit.explanation.swap_bytes;
-  correction.made.push_back(misfit.remedy);
+  SequenceCorrection correction{sequence, misfit.explanation.swap_bytes, {misfit.remedy}};
+  correction.sequence.depth_scale = misfit.depth_scale;
+  correction.sequence.frames.clear();
   for (size_t i = 0; i < sequence.frames.size(); ++i) {
     if (!misfit.poses[i]) continue;
-    correction.frames.push_back(sequence.frames[i]);
-    correction.frames.back().T_world_camera = *misfit.poses[i];
+    correction.sequence.frames.push_back(sequence.frames[i]);
+    correction.sequence.frames.back().T_world_camera = *misfit.poses[i];
   }
   return correction;
 }
@@ -164,6 +165,7 @@ GeometryReport Judge(const Sequence& sequence, const Thumbnails& thumbnails,
     report.why_not = "the depth images hardly differ: the camera stands still or sees one plane";
   } else {
     report.is_judged = true;
+    report.fits = true;
   }
   return report;
 }
@@ -173,7 +175,25 @@ GeometryReport Judge(const Sequence& sequence, const Thumbnails& thumbnails,
 GeometryReport CheckGeometry(const Sequence& sequence, const Thumbnails& thumbnails,
                              const FindingHandler& on_finding) {
   if (thumbnails.depth.empty()) return {};
-  return Judge(sequence, thumbnails, SpreadPairs(sequence.frame_count(), kStarts), on_finding);
+  GeometryReport report =
+      Judge(sequence, thumbnails, SpreadPairs(sequence.frame_count(), kStarts), on_finding);
+  if (report.fits) ExamineDetails(sequence, thumbnails, on_finding, report);
+  return report;
+}
+
+GeometryReport CheckClocks(const Sequence& sequence, const FindingHandler& on_finding) {
+  GeometryReport report;
+  const std::vector<FramePair> pairs = SpreadPairs(sequence.frame_count(), kSampledStarts);
+  const Thumbnails thumbnails = DepthThumbnails(sequence, FramesOf(pairs));
+  MisfitEvidence evidence = EvidenceOf(sequence, thumbnails, pairs);
+  evidence.poses.assign(evidence.poses.size(), std::nullopt);
+  const std::optional<PoseSearch> search = FindDistantClock(evidence);
+  if (!search) return report;
+  report.is_judged = true;
+  const Misfit misfit = DescribeMisfit(sequence, evidence, *search);
+  on_finding(misfit.finding);
+  report.correction = CorrectionOf(sequence, misfit);
+  return report;
 }
 
 void RequireFittingPoses(Sequence& sequence) {

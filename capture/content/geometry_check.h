@@ -23,8 +23,7 @@ struct DepthDisagreement {
 
 /// A sequence as it should have been.
 struct SequenceCorrection {
-  std::vector<SequenceFrame> frames;
-  double depth_scale = 0;
+  Sequence sequence;              ///< with right poses, frames and depth scale
   bool swap_bytes = false;        ///< of every depth value
   std::vector<std::string> made;  ///< what was changed, a clause each
 };
@@ -33,6 +32,7 @@ struct SequenceCorrection {
 struct GeometryReport {
   bool is_judged = false;  ///< whether depth can tell right poses from wrong ones
   std::string why_not;     ///< where it cannot
+  bool fits = false;       ///< judged, and nothing is wrong on the whole
   int frames = 0;          ///< compared
   std::vector<DepthDisagreement> by_gap;
   std::vector<DepthDisagreement> by_distance;
@@ -45,8 +45,14 @@ struct GeometryReport {
 GeometryReport CheckGeometry(const Sequence& sequence, const Thumbnails& thumbnails,
                              const FindingHandler& on_finding);
 
-/// The same from about 30 frames, which it decodes: for the start of a reconstruction. Throws
-/// Error(kBadInput) for what cannot work; adds to the sequence's warnings what is in doubt.
+/// For a TUM sequence whose images hardly have poses: looks for an offset of the trajectory's clock
+/// with which depth fits. `sequence` must have all pairs of images, whatever their poses
+/// (ReadTumImages). A second or two.
+GeometryReport CheckClocks(const Sequence& sequence, const FindingHandler& on_finding);
+
+/// The same as CheckGeometry from about 30 frames, which it decodes: for the start of a
+/// reconstruction. Throws Error(kBadInput) for what cannot work; adds to the sequence's warnings
+/// what is in doubt.
 void RequireFittingPoses(Sequence& sequence);
 
 }  // namespace curvefusion

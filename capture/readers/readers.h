@@ -14,6 +14,9 @@ namespace curvefusion {
 /// rgb.txt and depth.txt, or associations.txt; trajectory.txt or groundtruth.txt; intrinsics.json.
 Sequence ReadTum(const std::filesystem::path& folder, const FindingHandler& on_finding);
 
+/// The same with every pair of images, whether it has a pose or not; poses are the identity.
+Sequence ReadTumImages(const std::filesystem::path& folder, const FindingHandler& on_finding);
+
 /// The trajectory file of such a folder. Throws Error(kBadInput) where there is none.
 std::filesystem::path TumTrajectoryPath(const std::filesystem::path& folder);
 

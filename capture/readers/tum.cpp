@@ -142,4 +142,16 @@ Sequence ReadTum(const std::filesystem::path& folder, const FindingHandler& on_f
   return sequence;
 }
 
+Sequence ReadTumImages(const std::filesystem::path& folder, const FindingHandler& on_finding) {
+  Sequence sequence;
+  sequence.format = "tum";
+  sequence.folder = folder;
+  UseIntrinsics(ReadIntrinsics(folder / "intrinsics.json", on_finding), kTumDepthUnits, sequence);
+  for (const ImagePair& pair : ReadPairs(folder, on_finding, sequence)) {
+    sequence.frames.push_back({pair.depth.stamp, pair.depth.timestamp, RigidTransform::Identity(),
+                               pair.color.path, pair.depth.path});
+  }
+  return sequence;
+}
+
 }  // namespace curvefusion

@@ -6,8 +6,8 @@
 namespace curvefusion {
 
 std::vector<Study> AllStudies() {
-  return {ObjectsStudy(),          BundleSizeStudy(), InterWireStudy(),
-          SensorValidationStudy(), AblationStudy(),   SweepStudy()};
+  return {ObjectsStudy(),  BundleSizeStudy(), InterWireStudy(), SensorValidationStudy(),
+          AblationStudy(), SweepStudy(),      CheckStudy()};
 }
 
 Study StudyNamed(const std::string& name) {

@@ -20,5 +20,6 @@ Study InterWireStudy();
 Study SensorValidationStudy();
 Study AblationStudy();
 Study SweepStudy();
+Study CheckStudy();
 
 }  // namespace curvefusion

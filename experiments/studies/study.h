@@ -28,8 +28,9 @@ struct StudyRequest {
   std::vector<Profile> profiles = {Profile::kPaper, Profile::kBest};
   int seeds = 0;  ///< how many; 0 = 3, or 1 of a quick study
   Split split = Split::kTrain;
-  std::vector<std::string> assignments;  ///< "section.key=value" for the config of every case
-  std::vector<std::string> objects;      ///< of studies of the paper's objects; empty = theirs
+  std::vector<std::string> assignments;      ///< "section.key=value" for the config of every case
+  std::vector<std::string> objects;          ///< of studies of the paper's objects; empty = theirs
+  std::vector<std::filesystem::path> scans;  ///< folders of real scans, for the study `check`
 };
 
 /// The seeds a request asks for.

@@ -1,0 +1,141 @@
+#include "capture/content/repair.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "capture/image_file.h"
+#include "capture/trajectory.h"
+#include "kernel/atomic_file.h"
+#include "kernel/error.h"
+#include "kernel/json_input.h"
+#include "kernel/parallel.h"
+#include "kernel/text_input.h"
+
+namespace curvefusion {
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+void Link(const fs::path& image, const fs::path& link) {
+  std::error_code error;
+  fs::create_symlink(fs::canonical(image), link, error);
+  if (error) fs::create_hard_link(image, link, error);
+  if (!error) return;
+  throw Error(ErrorKind::kResource, fmt::format("{}: cannot link to {}: {}", link.string(),
+                                                image.string(), error.message()));
+}
+
+void WriteSwappedDepth(const fs::path& image, const fs::path& copy) {
+  Image<uint16_t> depth = DecodeDepthImage(image);
+  for (size_t i = 0; i < depth.size(); ++i) {
+    const uint16_t value = depth.data()[i];
+    depth.data()[i] = static_cast<uint16_t>((value << 8) | (value >> 8));
+  }
+  std::vector<uint8_t> bytes;
+  cv::imencode(".png", cv::Mat(depth.height(), depth.width(), CV_16UC1, depth.data()), bytes);
+  WriteStreamAtomically(copy, [&](std::ostream& stream) {
+    stream.write(reinterpret_cast<const char*>(bytes.data()),
+                 static_cast<std::streamsize>(bytes.size()));
+  });
+}
+
+ordered_json CameraJson(const PinholeCamera& camera) {
+  return {{"width", camera.width}, {"height", camera.height}, {"fx", camera.fx},
+          {"fy", camera.fy},       {"cx", camera.cx},         {"cy", camera.cy}};
+}
+
+// The keys of the sequence's own file, where it has one.
+ordered_json GivenIntrinsics(const Sequence& sequence) {
+  const fs::path path = sequence.folder / "intrinsics.json";
+  if (!fs::exists(path)) return CameraJson(sequence.depth_camera);
+  return ordered_json(ParseJson(ReadFile(path), path.string()));
+}
+
+// Where the parts of a layout lie.
+struct Layout {
+  bool is_tum = false;
+  bool is_seven_scenes = false;
+
+  fs::path Color(const SequenceFrame& frame) const {
+    const std::string extension = frame.color_path.extension().string();
+    if (is_tum) return "rgb" / frame.color_path.filename();
+    return is_seven_scenes ? frame.name + ".color" + extension : "color/" + frame.name + extension;
+  }
+  fs::path Depth(const SequenceFrame& frame) const {
+    if (is_tum) return "depth" / frame.depth_path.filename();
+    return is_seven_scenes ? frame.name + ".depth.png" : "depth/" + frame.name + ".png";
+  }
+  fs::path Pose(const SequenceFrame& frame) const {
+    return is_seven_scenes ? frame.name + ".pose.txt" : "pose/" + frame.name + ".txt";
+  }
+};
+
+void WriteText(const fs::path& path, const std::string& text) {
+  WriteStreamAtomically(path, [&](std::ostream& stream) { stream << text; });
+}
+
+void WriteImages(const SequenceCorrection& correction, const Layout& layout,
+                 const fs::path& folder) {
+  for (const SequenceFrame& frame : correction.sequence.frames) {
+    fs::create_directories((folder / layout.Color(frame)).parent_path());
+    fs::create_directories((folder / layout.Depth(frame)).parent_path());
+    Link(frame.color_path, folder / layout.Color(frame));
+    if (!correction.swap_bytes) Link(frame.depth_path, folder / layout.Depth(frame));
+  }
+  if (!correction.swap_bytes) return;
+  ParallelFor(0, static_cast<int64_t>(correction.sequence.frames.size()), 1, [&](int64_t i) {
+    const SequenceFrame& frame = correction.sequence.frames[static_cast<size_t>(i)];
+    WriteSwappedDepth(frame.depth_path, folder / layout.Depth(frame));
+  });
+}
+
+void WriteTumLists(const SequenceCorrection& correction, const Layout& layout,
+                   const fs::path& folder) {
+  Trajectory trajectory;
+  std::string pairs;
+  for (const SequenceFrame& frame : correction.sequence.frames) {
+    trajectory.push_back({frame.timestamp, frame.T_world_camera});
+    pairs += fmt::format("{0} {1} {0} {2}\n", frame.name, layout.Color(frame).string(),
+                         layout.Depth(frame).string());
+  }
+  WriteText(folder / "associations.txt", pairs);
+  WriteTumTrajectory(folder / "trajectory.txt", trajectory);
+}
+
+void WritePoseFiles(const SequenceCorrection& correction, const Layout& layout,
+                    const fs::path& folder) {
+  for (const SequenceFrame& frame : correction.sequence.frames) {
+    const Eigen::Matrix4d pose = frame.T_world_camera.matrix();
+    std::string text;
+    for (int row = 0; row < 4; ++row) {
+      text += fmt::format("{:.12g} {:.12g} {:.12g} {:.12g}\n", pose(row, 0), pose(row, 1),
+                          pose(row, 2), pose(row, 3));
+    }
+    fs::create_directories((folder / layout.Pose(frame)).parent_path());
+    WriteText(folder / layout.Pose(frame), text);
+  }
+}
+
+}  // namespace
+
+void WriteRepairedSequence(const SequenceCorrection& correction, const fs::path& folder) {
+  const Sequence& sequence = correction.sequence;
+  const Layout layout{sequence.format == "tum", sequence.format == "7-scenes"};
+  ordered_json intrinsics = GivenIntrinsics(sequence);
+  intrinsics["depth_scale"] = sequence.depth_scale;
+  WriteFolderAtomically(folder, [&](const fs::path& temporary) {
+    WriteImages(correction, layout, temporary);
+    if (layout.is_tum) {
+      WriteTumLists(correction, layout, temporary);
+    } else {
+      WritePoseFiles(correction, layout, temporary);
+    }
+    WriteText(temporary / "intrinsics.json", intrinsics.dump(1) + "\n");
+  });
+}
+
+}  // namespace curvefusion
