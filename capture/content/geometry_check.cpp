@@ -29,6 +29,7 @@ constexpr int kMinPoints = 200;  // of a distance or gap
 // Chosen: where poses that stand still cost no more than this factor of the given ones, any poses
 // would do.
 constexpr double kTellsFactor = 1.3;
+constexpr double kTellsMargin = 0.02;  // of cost: a thousandth of the distance
 
 // Two measurements differ by sqrt(2) sigma, of which the median absolute value is .6745.
 double NoiseAt(double distance) {
@@ -161,7 +162,7 @@ GeometryReport Judge(const Sequence& sequence, const Thumbnails& thumbnails,
     report.is_judged = true;
     on_finding(UnexplainedMisfit(sequence, search.given, residual, standing));
   } else if (standing.usable >= search.given.usable &&
-             standing.cost < kTellsFactor * search.given.cost) {
+             standing.cost < kTellsFactor * search.given.cost + kTellsMargin) {
     report.why_not = "the depth images hardly differ: the camera stands still or sees one plane";
   } else {
     report.is_judged = true;

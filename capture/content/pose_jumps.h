@@ -15,9 +15,9 @@ struct PoseJump {
   double smooth_difference = 0;  ///< likewise, if the camera had moved on as before or after
 };
 
-/// Looks at every pair of neighbouring frames: a jump is a motion at least five times that of its
-/// surroundings which the depth of both frames contradicts, and more so than a steady motion.
-/// Views that are no video have none. About .2 ms a frame.
+/// Looks at every pair of neighbouring frames: a jump is a change of motion at least five times
+/// that of its surroundings which the depth of both frames contradicts, and more so than a steady
+/// motion. Views that are no video have none. About .2 ms a frame.
 std::vector<PoseJump> FindPoseJumps(const DepthViews& views, const FramePoses& poses);
 
 /// Frames around which depth disagrees much more than elsewhere.
@@ -29,7 +29,8 @@ struct BadStretch {
 };
 
 /// Stretches of at least five frames whose depth disagrees with that of frames ten later by more
-/// than kMaxWideResidual and five times the median of the scan; frames next to a jump left out.
+/// than 2.5 % of the distance and five times the median of the scan; frames next to a jump left
+/// out.
 std::vector<BadStretch> FindBadStretches(const DepthViews& views, const FramePoses& poses,
                                          const std::vector<PoseJump>& jumps);
 

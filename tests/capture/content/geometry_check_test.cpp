@@ -1,0 +1,328 @@
+#include "capture/content/geometry_check.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "capture/check.h"
+#include "capture/content/repair.h"
+#include "kernel/error.h"
+#include "tests/capture/content/room_scan.h"
+#include "tests/capture/sequence_fixture.h"
+
+namespace curvefusion {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+// Rendered once: every test spoils a copy.
+const RoomScan& Room() {
+  static const RoomScan room = MakeRoomScan();
+  return room;
+}
+
+struct Checked {
+  GeometryReport report;
+  std::vector<std::string> causes;
+  std::vector<CheckFinding> findings;
+};
+
+Checked Check(const RoomScan& scan) {
+  Checked checked;
+  checked.report =
+      CheckGeometry(scan.sequence, scan.thumbnails, [&checked](const CheckFinding& finding) {
+        checked.causes.push_back(finding.cause);
+        checked.findings.push_back(finding);
+      });
+  return checked;
+}
+
+// One finding of this cause, and a correction whose poses move as the right ones do.
+void ExpectNamedAndCorrected(const RoomScan& wrong, const std::string& cause,
+                             const std::string& words = "--repair DIR") {
+  const Checked checked = Check(wrong);
+  EXPECT_THAT(checked.causes, ElementsAre(cause));
+  ASSERT_TRUE(checked.report.correction);
+  EXPECT_THAT(checked.findings[0].message, HasSubstr(words));
+  const Sequence& corrected = checked.report.correction->sequence;
+  const SequenceFrame& first = corrected.frames.front();
+  const SequenceFrame& last = corrected.frames.back();
+  const auto right = [](const SequenceFrame& frame) {
+    return Room().sequence.frames[std::stoul(frame.name)].T_world_camera;
+  };
+  const RigidTransform motion = first.T_world_camera.inverse() * last.T_world_camera;
+  const RigidTransform right_motion = right(first).inverse() * right(last);
+  // A scale is known to some percent only where it is no customary unit.
+  EXPECT_LT((motion.matrix() - right_motion.matrix()).norm(), 0.02);
+}
+
+template <class Change>
+RoomScan WithPoses(const Change& change) {
+  RoomScan scan = Room();
+  for (SequenceFrame& frame : scan.sequence.frames) {
+    frame.T_world_camera = change(frame.T_world_camera);
+  }
+  return scan;
+}
+
+RoomScan WithScaledTranslations(double factor) {
+  return WithPoses([factor](RigidTransform pose) {
+    pose.translation() *= factor;
+    return pose;
+  });
+}
+
+// Frame i with the pose of frame order(i); those that have none keep theirs.
+template <class Order>
+RoomScan WithPoseOf(const Order& order) {
+  RoomScan scan = Room();
+  for (int i = 0; i < kRoomFrames; ++i) {
+    const int other = order(i);
+    if (other < 0 || other >= kRoomFrames) continue;
+    scan.sequence.frames[static_cast<size_t>(i)].T_world_camera =
+        Room().sequence.frames[static_cast<size_t>(other)].T_world_camera;
+  }
+  return scan;
+}
+
+TEST(GeometryCheck, AGoodScanFitsAndHasFigures) {
+  const Checked checked = Check(Room());
+  EXPECT_THAT(checked.findings, IsEmpty());
+  EXPECT_TRUE(checked.report.is_judged);
+  EXPECT_TRUE(checked.report.fits);
+  EXPECT_FALSE(checked.report.correction);
+  ASSERT_THAT(checked.report.by_gap, SizeIs(4));
+  EXPECT_EQ(checked.report.by_gap[3].gap, 30);
+  EXPECT_GT(checked.report.by_gap[0].overlap, 0.7);  // measured: .9; the rest lies on edges
+  for (const DepthDisagreement& part : checked.report.by_gap) {
+    EXPECT_LT(part.residual, 0.001) << part.gap;  // planes, rounded to .2 mm
+    EXPECT_GT(part.points, 0);
+  }
+  EXPECT_FALSE(checked.report.by_distance.empty());
+}
+
+TEST(GeometryCheck, InvertedPoses) {
+  const RoomScan wrong = WithPoses([](const RigidTransform& pose) { return pose.inverse(); });
+  ExpectNamedAndCorrected(wrong, "poses-inverted", "mm as given");
+}
+
+TEST(GeometryCheck, QuaternionWithWFirst) {
+  ExpectNamedAndCorrected(WithPoses([](RigidTransform pose) {
+                            const Eigen::Quaterniond q(pose.linear());
+                            pose.linear() =
+                                Eigen::Quaterniond(q.z(), q.w(), q.x(), q.y()).toRotationMatrix();
+                            return pose;
+                          }),
+                          "quaternion-w-first");
+}
+
+TEST(GeometryCheck, OpenGlAxes) {
+  ExpectNamedAndCorrected(WithPoses([](RigidTransform pose) {
+                            pose.linear() = pose.linear() * Vec3(1, -1, -1).asDiagonal();
+                            return pose;
+                          }),
+                          "opengl-axes");
+}
+
+TEST(GeometryCheck, TranslationsInOtherUnits) {
+  for (const double factor : {1000.0, 0.37}) {
+    ExpectNamedAndCorrected(WithScaledTranslations(factor), "translation-scale",
+                            factor == 1000 ? "in millimetres, not metres" : "multiplied by 2.7");
+  }
+}
+
+TEST(GeometryCheck, DepthUnits) {
+  for (const double factor : {2.0, 0.2, 1000.0}) {
+    RoomScan wrong = Room();
+    wrong.sequence.depth_scale *= factor;
+    const Checked checked = Check(wrong);
+    ASSERT_THAT(checked.causes, ElementsAre("depth-scale")) << factor;
+    EXPECT_THAT(checked.findings[0].message, HasSubstr("\"depth_scale\": 5000"));
+    EXPECT_EQ(checked.report.correction->sequence.depth_scale, 5000);
+  }
+}
+
+TEST(GeometryCheck, SwappedBytes) {
+  RoomScan wrong = Room();
+  for (Image<uint16_t>& depth : wrong.thumbnails.depth) {
+    for (size_t i = 0; i < depth.size(); ++i) {
+      depth.data()[i] = static_cast<uint16_t>((depth.data()[i] << 8) | (depth.data()[i] >> 8));
+    }
+  }
+  const Checked checked = Check(wrong);
+  EXPECT_THAT(checked.causes, ElementsAre("depth-bytes-swapped"));
+  EXPECT_TRUE(checked.report.correction->swap_bytes);
+}
+
+TEST(GeometryCheck, LatePoses) {
+  for (const int delay : {1, -10}) {
+    const RoomScan wrong = WithPoseOf([delay](int i) { return i - delay; });
+    ExpectNamedAndCorrected(
+        wrong, "poses-late",
+        fmt::format("{} by {} frame", delay > 0 ? "late" : "early", std::abs(delay)));
+  }
+}
+
+TEST(GeometryCheck, PosesInAnotherOrder) {
+  ExpectNamedAndCorrected(WithPoseOf([](int i) { return kRoomFrames - 1 - i; }), "frame-order");
+  std::vector<int> text_order(kRoomFrames);
+  for (int i = 0; i < kRoomFrames; ++i) text_order[static_cast<size_t>(i)] = i;
+  std::sort(text_order.begin(), text_order.end(),
+            [](int a, int b) { return std::to_string(a) < std::to_string(b); });
+  ExpectNamedAndCorrected(WithPoseOf([&](int i) { return text_order[static_cast<size_t>(i)]; }),
+                          "frame-order");
+}
+
+TEST(GeometryCheck, LateColor) {
+  for (const int delay : {2, -5}) {
+    RoomScan wrong = Room();
+    for (int i = 0; i < kRoomFrames; ++i) {
+      const int other = std::clamp(i - delay, 0, kRoomFrames - 1);
+      wrong.thumbnails.grey[static_cast<size_t>(i)] =
+          Room().thumbnails.grey[static_cast<size_t>(other)];
+    }
+    const Checked checked = Check(wrong);
+    ASSERT_THAT(checked.causes, ElementsAre("colour-late")) << delay;
+    EXPECT_THAT(
+        checked.findings[0].message,
+        HasSubstr(fmt::format("are {} frames {}", std::abs(delay), delay > 0 ? "late" : "early")));
+  }
+}
+
+RigidTransform MovedAside(RigidTransform pose) {
+  pose.translation() += Vec3(0.03, 0.02, -0.02);
+  pose.rotate(Eigen::AngleAxisd(0.03, Vec3::UnitY()));
+  return pose;
+}
+
+TEST(GeometryCheck, OnePoseThatIsOffIsLeftOut) {
+  RoomScan wrong = Room();
+  wrong.sequence.frames[23].T_world_camera = MovedAside(wrong.sequence.frames[23].T_world_camera);
+  const Checked checked = Check(wrong);
+  ASSERT_THAT(checked.causes, ElementsAre("pose-jump"));
+  EXPECT_THAT(checked.findings[0].message, HasSubstr("frames are off: 000023;"));
+  ASSERT_TRUE(checked.report.correction);
+  EXPECT_EQ(checked.report.correction->sequence.frame_count(), kRoomFrames - 1);
+}
+
+TEST(GeometryCheck, AJumpIsNamedByItsFrame) {
+  RoomScan wrong = Room();
+  for (size_t i = 41; i < kRoomFrames; ++i) {
+    wrong.sequence.frames[i].T_world_camera = MovedAside(wrong.sequence.frames[i].T_world_camera);
+  }
+  const Checked checked = Check(wrong);
+  ASSERT_THAT(checked.causes, ElementsAre("pose-jump"));
+  EXPECT_THAT(checked.findings[0].message, HasSubstr("from frame 000040 to 000041"));
+  EXPECT_EQ(checked.findings[0].severity, Severity::kError);
+}
+
+TEST(GeometryCheck, ABadStretchIsListed) {
+  RoomScan wrong = Room();
+  for (size_t i = 20; i < 35; ++i) {  // turns away by up to 18 degrees and back: no jump
+    wrong.sequence.frames[i].T_world_camera.rotate(
+        Eigen::AngleAxisd(0.04 * std::min<double>(i - 19, 35 - i), Vec3::UnitX()));
+  }
+  EXPECT_THAT(Check(wrong).causes, ElementsAre("bad-stretch"));
+}
+
+TEST(GeometryCheck, PosesOfAnotherScanAreNotExplained) {
+  RoomScan wrong = Room();
+  for (int i = 0; i < kRoomFrames; ++i) {  // another hand's motion
+    wrong.sequence.frames[static_cast<size_t>(i)].T_world_camera =
+        RigidTransform(Eigen::Translation3d(0.2 * std::sin(0.11 * i), 0.003 * i, 0) *
+                       Eigen::AngleAxisd(0.4 * std::cos(0.13 * i), Vec3::UnitY()));
+  }
+  const Checked checked = Check(wrong);
+  EXPECT_THAT(checked.causes, ElementsAre("poses-do-not-fit"));
+  EXPECT_FALSE(checked.report.correction);
+}
+
+TEST(GeometryCheck, WhatCannotBeJudgedIsNoComplaint) {
+  for (const RoomScan& scan : {MakeRoomScan(0), MakeWallScan()}) {
+    const Checked checked = Check(scan);
+    EXPECT_THAT(checked.findings, IsEmpty());
+    EXPECT_FALSE(checked.report.is_judged);
+    EXPECT_THAT(checked.report.why_not, HasSubstr("hardly differ"));
+  }
+}
+
+// TUM sequences in files: clocks, repairs and the start of a reconstruction.
+class RoomFiles : public testing::Test {
+ protected:
+  RoomFiles() { WriteRoomScan(Room(), folder()); }
+  std::filesystem::path folder() const { return folder_.path() / "scan"; }
+  std::filesystem::path repaired() const { return folder_.path() / "repaired"; }
+
+  void ShiftClock(double seconds) {
+    Trajectory trajectory = ReadTumTrajectory(folder() / "trajectory.txt", FailOnFinding());
+    for (StampedPose& pose : trajectory) pose.timestamp += seconds;
+    WriteTumTrajectory(folder() / "trajectory.txt", trajectory);
+  }
+
+  void InvertPoses() {
+    Trajectory trajectory = ReadTumTrajectory(folder() / "trajectory.txt", FailOnFinding());
+    for (StampedPose& pose : trajectory) pose.T_world_camera = pose.T_world_camera.inverse();
+    WriteTumTrajectory(folder() / "trajectory.txt", trajectory);
+  }
+
+  // Named, repaired, and nothing left to complain about.
+  void ExpectRepairable(const std::string& cause) {
+    const CheckReport report = CheckSequence(folder(), NoProgress);
+    EXPECT_TRUE(std::any_of(report.findings.begin(), report.findings.end(),
+                            [&](const CheckFinding& f) { return f.cause == cause; }));
+    ASSERT_TRUE(report.geometry.correction);
+    WriteRepairedSequence(*report.geometry.correction, repaired());
+    const CheckReport after = CheckSequence(repaired(), NoProgress);
+    EXPECT_TRUE(after.geometry.fits);
+    for (const CheckFinding& finding : after.findings) EXPECT_EQ(finding.cause, "");
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(RoomFiles, ClocksThatDiffer) {
+  ShiftClock(0.15);
+  ExpectRepairable("clock-offset");
+}
+
+TEST_F(RoomFiles, ClocksOfAnotherTimeZone) {
+  ShiftClock(3600.21);
+  ExpectRepairable("clock-offset");
+}
+
+TEST_F(RoomFiles, ARepairLinksTheImages) {
+  InvertPoses();
+  ExpectRepairable("poses-inverted");
+  EXPECT_TRUE(std::filesystem::is_symlink(repaired() / "depth/7.png"));
+  EXPECT_TRUE(std::filesystem::is_symlink(repaired() / "rgb/7.png"));
+  EXPECT_THROW(WriteRepairedSequence({OpenSequence(folder()), false, {}}, repaired()), Error);
+}
+
+TEST_F(RoomFiles, SwappedBytesAreWrittenAnew) {
+  RoomScan wrong = Room();
+  for (Image<uint16_t>& depth : wrong.thumbnails.depth) {
+    for (size_t i = 0; i < depth.size(); ++i) {
+      depth.data()[i] = static_cast<uint16_t>((depth.data()[i] << 8) | (depth.data()[i] >> 8));
+    }
+  }
+  WriteRoomScan(wrong, folder());
+  ExpectRepairable("depth-bytes-swapped");
+  EXPECT_FALSE(std::filesystem::is_symlink(repaired() / "depth/7.png"));
+}
+
+TEST_F(RoomFiles, AReconstructionRefusesWhatCannotWork) {
+  Sequence good = OpenSequence(folder());
+  RequireFittingPoses(good);
+  EXPECT_THAT(good.warnings, IsEmpty());
+  InvertPoses();
+  Sequence wrong = OpenSequence(folder());
+  EXPECT_THROW(RequireFittingPoses(wrong), Error);
+}
+
+}  // namespace
+}  // namespace curvefusion
