@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "apps/commands/command.h"
@@ -19,17 +20,26 @@ namespace {
 constexpr int kMegabyte = 1 << 20;
 
 // CLI11 says of a mistyped command only that one is required.
-void CheckCommandName(const CLI::App& app, int argc, char** argv) {
-  if (argc < 2 || argv[1][0] == '-') return;
+void CheckCommandName(const CLI::App& app, const std::vector<std::string>& arguments) {
+  if (arguments.empty() || arguments.front().starts_with('-')) return;
+  const std::string& name = arguments.front();
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
-  if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return;
+  if (std::find(names.begin(), names.end(), name) != names.end()) return;
   throw Error(ErrorKind::kUsage,
               fmt::format("there is no command {}; did you mean {}? `curvefusion --help` lists all",
-                          argv[1], NearestName(argv[1], names)));
+                          name, NearestName(name, names)));
 }
 
-int Parse(int argc, char** argv) {
+// `help` and `help COMMAND` are what `--help` and `COMMAND --help` are.
+std::vector<std::string> Arguments(int argc, char** argv) {
+  std::vector<std::string> arguments(argv + 1, argv + argc);
+  if (arguments.empty() || arguments.front() != "help") return arguments;
+  if (arguments.size() == 1 || arguments[1] == "help") return {"--help"};
+  return {arguments[1], "--help"};
+}
+
+int Parse(std::vector<std::string> arguments) {
   CLI::App app("CurveFusion: wire objects from RGB-D scans, as curve skeletons and tube meshes.");
   app.name("curvefusion");
   app.set_version_flag("--version", CURVEFUSION_VERSION);
@@ -38,7 +48,7 @@ int Parse(int argc, char** argv) {
       "Exit codes: 0 done, 1 a mesh with defects (mesh --check), 2 usage, 3 bad input, 4 nothing\n"
       "thin found, 5 out of memory or disk, 75 another run writes to the same place, 130 "
       "interrupted.\n"
-      "`curvefusion COMMAND --help` tells more and gives examples.");
+      "`curvefusion help COMMAND` tells more and gives examples.");
   int exit_code = 0;
   AddReconstructCommand(app, exit_code);
   AddCheckCommand(app, exit_code);
@@ -49,9 +59,10 @@ int Parse(int argc, char** argv) {
   AddSimulateCommand(app, exit_code);
   AddEvaluateCommand(app, exit_code);
   AddExperimentCommand(app, exit_code);
-  CheckCommandName(app, argc, argv);
+  CheckCommandName(app, arguments);
   try {
-    app.parse(argc, argv);
+    std::reverse(arguments.begin(), arguments.end());  // as CLI11 takes them
+    app.parse(std::move(arguments));
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : ExitCode(ErrorKind::kUsage);
   }
@@ -60,7 +71,7 @@ int Parse(int argc, char** argv) {
 
 int Run(int argc, char** argv) {
   try {
-    return FlushedOutput(Parse(argc, argv));
+    return FlushedOutput(Parse(Arguments(argc, argv)));
   } catch (...) {
     return ReportFailure();
   }

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <utility>
 
+#include "experiments/config_value.h"
 #include "kernel/error.h"
 #include "kernel/text_input.h"
 
@@ -63,14 +64,43 @@ bool Contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+// Names of options, each with its section, that this one without was meant to be: "min_frames" is
+// bundle.min_frames. Empty where there is none of this name.
+std::vector<std::string> OptionsCalled(const std::string& key,
+                                       const std::vector<NameCollector::Section>& known) {
+  std::vector<std::string> found;
+  for (const auto& [name, keys] : known) {
+    if (Contains(keys, key)) found.push_back(fmt::format("{}.{}", name, key));
+  }
+  return found;
+}
+
 // The best guess at what an unknown key was meant to be: the same key in another section, or the
 // nearest one in its own.
 std::string MeantKey(const std::vector<NameCollector::Section>& known,
                      const NameCollector::Section& section, const std::string& key) {
-  for (const auto& [name, keys] : known) {
-    if (Contains(keys, key)) return fmt::format("{}.{}", name, key);
-  }
+  const std::vector<std::string> elsewhere = OptionsCalled(key, known);
+  if (!elsewhere.empty()) return elsewhere.front();
   return fmt::format("{}.{}", section.first, NearestName(key, section.second));
+}
+
+[[noreturn]] void ThrowNoSection(const std::string& place, const std::string& name,
+                                 const std::vector<NameCollector::Section>& known) {
+  if (const auto options = OptionsCalled(name, known); !options.empty()) {
+    ThrowUsage(fmt::format("{}: {} needs its section: did you mean {}?", place, name,
+                           fmt::join(options, " or ")));
+  }
+  std::vector<std::string> top_level = {"profile"};
+  for (const auto& section : known) top_level.push_back(section.first);
+  ThrowUsage(fmt::format("{}: there is no section {}; did you mean {}? All: {}", place, name,
+                         NearestName(name, top_level), fmt::join(top_level, ", ")));
+}
+
+[[noreturn]] void ThrowNoKey(const Source& source, const toml::node& value,
+                             const std::string& section) {
+  ThrowUsage(fmt::format("{}: {} is a section; {}", source.Place(value), section,
+                         source.has_lines ? fmt::format("write [{}] and its keys below", section)
+                                          : fmt::format("write {}.key=value", section)));
 }
 
 void CheckKeys(const Source& source, const toml::table& table,
@@ -88,22 +118,13 @@ void CheckNames(const Source& source, Config config) {
   NameCollector collector;
   VisitOptions(config, collector);
   const auto& known = collector.sections();
-  std::vector<std::string> top_level = {"profile"};
-  for (const auto& section : known) top_level.push_back(section.first);
   for (const auto& [key, value] : source.table) {
     const std::string name(key.str());
     if (name == "profile") continue;
     const auto section =
         std::find_if(known.begin(), known.end(), [&](const auto& s) { return s.first == name; });
-    if (section == known.end()) {
-      ThrowUsage(fmt::format("{}: there is no section {}; did you mean {}? All: {}",
-                             source.Place(value), name, NearestName(name, top_level),
-                             fmt::join(top_level, ", ")));
-    }
-    if (!value.is_table()) {
-      ThrowUsage(fmt::format("{}: {} is a section; write [{}] and its keys below",
-                             source.Place(value), name, name));
-    }
+    if (section == known.end()) ThrowNoSection(source.Place(value), name, known);
+    if (!value.is_table()) ThrowNoKey(source, value, name);
     CheckKeys(source, *value.as_table(), *section, known);
   }
 }
@@ -162,8 +183,8 @@ class OptionReader : public OptionVisitor {
 
   [[noreturn]] void ThrowWrongType(const OptionInfo& info, const toml::node& node,
                                    const char* wanted) const {
-    ThrowUsage(
-        fmt::format("{}: {}.{} must be {}", source_.Place(node), section_, info.name, wanted));
+    ThrowUsage(fmt::format("{}: {}.{}: {}", source_.Place(node), section_, info.name,
+                           WrongValueText(node, info, wanted)));
   }
 
   const Source& source_;
@@ -199,6 +220,7 @@ Source ParseAssignment(const std::string& assignment) {
   try {
     return {toml::parse(assignment), name, false};
   } catch (const toml::parse_error&) {
+    if (const auto table = TextAssigned(assignment)) return {*table, name, false};
     ThrowUsage(
         fmt::format("{}: write section.key=value, for example volume.voxel_size=0.005", name));
   }

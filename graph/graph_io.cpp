@@ -72,15 +72,18 @@ void WriteSkeleton(const std::filesystem::path& path, const SkeletonGraph& graph
   WriteStreamAtomically(path, [&text](std::ostream& stream) { stream << text; });
 }
 
+void CheckSkeletonFormat(const std::filesystem::path& path) {
+  if (FormatOf(path) != nullptr) return;
+  throw Error(ErrorKind::kUsage,
+              fmt::format("{}: a graph file ends in .json, .graphml, .swc, .ply, .obj or .dxf, "
+                          "not '{}'",
+                          path.string(), path.extension().string()));
+}
+
 std::vector<std::string> ExportSkeleton(const std::filesystem::path& path,
                                         const SkeletonGraph& graph) {
+  CheckSkeletonFormat(path);
   const GraphFormat* format = FormatOf(path);
-  if (format == nullptr) {
-    throw Error(ErrorKind::kUsage,
-                fmt::format("{}: a graph file ends in .json, .graphml, .swc, .ply, .obj or .dxf, "
-                            "not '{}'",
-                            path.string(), path.extension().string()));
-  }
   RequireFiniteValues(graph, path.string());
   FormatLosses losses;
   WriteFileAtomically(path, [&](const std::filesystem::path& temporary) {

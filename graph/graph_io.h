@@ -25,6 +25,10 @@ SkeletonGraph SkeletonFromJson(const std::string& text, const std::string& sourc
 /// SkeletonToJson into a file, atomically.
 void WriteSkeleton(const std::filesystem::path& path, const SkeletonGraph& graph);
 
+/// Throws Error(kUsage) where ExportSkeleton would refuse this file for its extension, so that long
+/// work before it can be spared.
+void CheckSkeletonFormat(const std::filesystem::path& path);
+
 /// Writes a graph in the format that the extension of `path` names, atomically:
 /// - .json    skeleton.json, metres; bit for bit
 /// - .graphml GraphML of Boost, NetworkX, Gephi, yEd: metres; bit for bit

@@ -102,6 +102,10 @@ MeshUnit DefaultUnit(const std::filesystem::path& path) {
   return UnitOf(FormatOf(path), path, std::nullopt);
 }
 
+void CheckMeshFormat(const std::filesystem::path& path, std::optional<MeshUnit> unit) {
+  UnitOf(FormatOf(path), path, unit);
+}
+
 void WriteMesh(const std::filesystem::path& path, const TriangleMesh& mesh,
                const MeshFileOptions& options) {
   const MeshFormat& format = FormatOf(path);

@@ -23,6 +23,10 @@ struct MeshFileOptions {
 /// Throws Error(kUsage) for an extension that is none of WriteMesh's.
 MeshUnit DefaultUnit(const std::filesystem::path& path);
 
+/// Throws Error(kUsage) where WriteMesh would refuse this file for its extension or unit, so that
+/// long work before it can be spared.
+void CheckMeshFormat(const std::filesystem::path& path, std::optional<MeshUnit> unit);
+
 /// Writes a mesh as PLY (binary), OBJ, STL (binary), GLB or 3MF, by the extension of `path`. The
 /// file is read back and compared coordinate by coordinate, and examined where it has to be
 /// watertight, before it gets its final name: what stands there is whole and sound. Throws Error:

@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 
+#include "apps/check_json.h"
 #include "apps/commands/command.h"
 #include "capture/content/repair.h"
 #include "kernel/error.h"
@@ -19,6 +20,7 @@ namespace {
 struct CheckArguments {
   std::filesystem::path sequence;
   std::filesystem::path repaired;
+  bool json = false;
   RunOptions run;
 };
 
@@ -96,7 +98,9 @@ int RunCheck(const CheckArguments& arguments) {
   ProgressPrinter printer = MakeProgressPrinter(arguments.run.quiet);
   const CheckReport report = CheckSequence(arguments.sequence, InterruptibleProgress(printer));
   printer.Finish();
-  if (!arguments.run.quiet) {
+  if (arguments.json) {
+    fmt::print("{}", CheckJson(report));
+  } else if (!arguments.run.quiet) {
     PrintFigures(report);
     PrintGeometry(report.geometry);
     PrintFindings(report);
@@ -115,9 +119,12 @@ void AddCheckCommand(CLI::App& app, int& exit_code) {
   command->add_option("--repair", arguments->repaired,
                       "Folder for a corrected copy where poses, depth unit, clocks or order are "
                       "wrong; its images are links");
+  command->add_flag("--json", arguments->json,
+                    "Print all figures and findings as one JSON object instead, also with --quiet");
   AddRunOptions(*command, arguments->run);
   command->footer(
-      "Example:\n  curvefusion check scan\n  curvefusion check scan --repair scan_repaired");
+      "Example:\n  curvefusion check scan\n  curvefusion check scan --repair scan_repaired\n"
+      "  curvefusion check scan --json --quiet");
   command->callback([arguments, &exit_code] { exit_code = RunCheck(*arguments); });
 }
 

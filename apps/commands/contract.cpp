@@ -5,6 +5,7 @@
 #include <memory>
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include "apps/commands/command.h"
 #include "apps/output_folder.h"
@@ -66,6 +67,7 @@ SkeletonGraph ExtractAtAxis(const ObservedPoints& points, const ContractArgument
 
 int RunContract(const ContractArguments& arguments) {
   LimitThreads(arguments.run);
+  CheckSkeletonFormat(arguments.output);
   RequireApart({arguments.cloud}, arguments.output);
   ObservedPoints points = ReadCloud(arguments.cloud);
   const double scale = arguments.scale > 0 ? arguments.scale : GuessedScale(points);
@@ -85,10 +87,11 @@ int RunContract(const ContractArguments& arguments) {
     return kNothingThin;
   }
   if (arguments.radius_mm > 0) SetRadius(arguments.radius_mm * kMillimetre, graph);
-  WriteSkeleton(arguments.output, graph);
+  const std::vector<std::string> losses = ExportSkeleton(arguments.output, graph);
   if (!arguments.run.quiet) {
     fmt::print("Found {}\n  skeleton  {}\n", FiguresLine(MeasureGraph(graph)),
                arguments.output.string());
+    for (const std::string& loss : losses) fmt::print("  {}\n", loss);
   }
   return 0;
 }
@@ -100,7 +103,10 @@ void AddContractCommand(CLI::App& app, int& exit_code) {
       app.add_subcommand("contract", "Contract a point cloud of thin structures to its curves");
   const auto arguments = std::make_shared<ContractArguments>();
   command->add_option("CLOUD", arguments->cloud, "PLY, PCD or XYZ file")->required();
-  command->add_option("-o,--output", arguments->output, "The skeleton.json to write")->required();
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "The skeleton to write, by extension: .json, .graphml, .swc, .ply, .obj or .dxf")
+      ->required();
   command
       ->add_option("--scale", arguments->scale,
                    "Metres per unit of the file, 0.001 for mm; otherwise metres, or mm where the "

@@ -14,6 +14,7 @@
 #include "graph/intersections.h"
 #include "graph/smoothing.h"
 #include "graph/validate.h"
+#include "kernel/cancellation.h"
 #include "kernel/error.h"
 
 namespace curvefusion {
@@ -66,6 +67,7 @@ bool PrintViolations(const SkeletonGraph& graph, const GraphArguments& arguments
 }
 
 void Export(const std::filesystem::path& path, const SkeletonGraph& graph, bool quiet) {
+  ThrowIfCancelled();
   MakeFolderOf(path);
   const std::vector<std::string> losses = ExportSkeleton(path, graph);
   if (quiet) return;
@@ -81,6 +83,8 @@ void CheckUsage(const GraphArguments& arguments) {
     throw Error(
         ErrorKind::kUsage,
         "-o takes the result of --resolve or --smooth; --convert writes the graph as it is");
+  if (!arguments.output.empty()) CheckSkeletonFormat(arguments.output);
+  if (!arguments.convert.empty()) CheckSkeletonFormat(arguments.convert);
 }
 
 int RunGraph(const GraphArguments& arguments) {

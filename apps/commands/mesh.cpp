@@ -2,10 +2,8 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <numbers>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,11 +28,16 @@ struct MeshArguments {
   std::filesystem::path output;  // empty = only check the input, a mesh
   double radius_mm = 0;          // 0 = the radii of the file
   std::string radius_from = "vertex";
-  std::optional<MeshUnit> unit;
+  std::string unit;  // empty = the format's own
   bool check = false;
   TubeOptions tubes;
   RunOptions run;
 };
+
+MeshUnit UnitOf(const MeshArguments& arguments, const std::filesystem::path& path) {
+  if (arguments.unit.empty()) return DefaultUnit(path);
+  return arguments.unit == "mm" ? MeshUnit::kMillimetres : MeshUnit::kMetres;
+}
 
 void PrintReport(const WatertightReport& report, MeshUnit unit) {
   const double cm = (unit == MeshUnit::kMetres ? 1 : kMillimetre) * 100;
@@ -49,7 +52,7 @@ void PrintReport(const WatertightReport& report, MeshUnit unit) {
 int CheckFile(const MeshArguments& arguments, const std::filesystem::path& path) {
   const WatertightReport report = ExamineMesh(ReadMesh(path));
   if (!arguments.run.quiet) {
-    PrintReport(report, arguments.unit.value_or(DefaultUnit(path)));
+    PrintReport(report, UnitOf(arguments, path));
     const std::string defects = report.faces > 0 ? report.Defects() : "no faces";
     fmt::print("  {}\n", report.IsWatertight() ? "watertight" : defects);
     if (report.defect_place) {
@@ -71,8 +74,9 @@ void ChooseRadii(const MeshArguments& arguments, SkeletonGraph& skeleton) {
 }
 
 int MeshSkeleton(const MeshArguments& arguments) {
+  const MeshUnit unit = UnitOf(arguments, arguments.output);
+  CheckMeshFormat(arguments.output, unit);
   RequireApart({arguments.input}, arguments.output);
-  const MeshUnit unit = arguments.unit.value_or(DefaultUnit(arguments.output));
   SkeletonGraph skeleton = ReadSkeleton(arguments.input);
   MakeFolderOf(arguments.output);
   ChooseRadii(arguments, skeleton);
@@ -134,12 +138,10 @@ void AddMeshCommand(CLI::App& app, int& exit_code) {
   command->add_option("-o,--output", arguments->output,
                       "A .ply, .obj, .stl, .glb or .3mf file to write");
   AddTubeOptions(*command, *arguments);
-  const std::map<std::string, MeshUnit> units = {{"m", MeshUnit::kMetres},
-                                                 {"mm", MeshUnit::kMillimetres}};
   command
       ->add_option("--unit", arguments->unit,
                    "Unit of the coordinates: m (default; .glb always) or mm (.3mf always)")
-      ->transform(CLI::CheckedTransformer(units));
+      ->check(CLI::IsMember({"m", "mm"}));
   command->add_flag("--check", arguments->check,
                     "Read the file back and tell what it is; exit code 1 where it has a defect");
   AddRunOptions(*command, arguments->run);

@@ -97,12 +97,34 @@ TEST(Config, AValueOutOfRangeIsAnsweredWithTheRangeAndItsUnit) {
   EXPECT_THAT(MessageOfSet("volume.truncation_voxels=9223372036854775807"), HasSubstr("range"));
 }
 
+TEST(Config, AnOptionWithoutItsSectionIsAnsweredWithIt) {
+  EXPECT_THAT(MessageOfSet("min_frames=3"), HasSubstr("did you mean bundle.min_frames?"));
+  EXPECT_THAT(MessageOfSet("voxel_size=4mm"), HasSubstr("volume.voxel_size"));
+  EXPECT_THAT(MessageOfSet("volume=4"), HasSubstr("volume is a section; write volume.key=value"));
+}
+
 TEST(Config, AValueOfAnotherTypeIsRefused) {
-  EXPECT_THAT(MessageOfSet("volume.voxel_size=\"5 mm\""), HasSubstr("must be a number"));
-  EXPECT_THAT(MessageOfSet("volume.truncation_voxels=4.5"), HasSubstr("must be a whole number"));
-  EXPECT_THAT(MessageOfSet("volume=4"), HasSubstr("is a section"));
+  EXPECT_THAT(MessageOfSet("volume.truncation_voxels=4.5"), HasSubstr("4.5 is not a whole number"));
+  EXPECT_THAT(MessageOfSet("volume.voxel_size=abc"),
+              HasSubstr("volume.voxel_size: abc is not a number; the unit is metres"));
+  EXPECT_THAT(MessageOfSet("volume.voxel_size="), HasSubstr("there is no value; write a number"));
+  EXPECT_THAT(MessageOfSet("volume.voxel_size=\"\""), HasSubstr("there is no value"));
+  EXPECT_THAT(MessageOfSet("volume.voxel_size=[1, 2]"), HasSubstr("a list is not a number"));
+  EXPECT_THAT(MessageOfSet("volume.voxel_size={x = 1}"), HasSubstr("a table is not a number"));
+  EXPECT_THAT(MessageOfSet("volume.voxel_size=true"), HasSubstr("true is not a number"));
+  EXPECT_THAT(MessageOfSet("colour_adjustment.enabled=maybe"),
+              HasSubstr("maybe is not true or false"));
+  EXPECT_THAT(MessageOfSet("=3"), HasSubstr("section.key=value"));
   EXPECT_THAT(MessageOfSet("volume.voxel_size"), HasSubstr("section.key=value"));
   EXPECT_THAT(MessageOfSet("profile=\"paper\""), HasSubstr("--profile"));
+}
+
+TEST(Config, AValueWithAUnitIsAnsweredWithTheValueInItsOwn) {
+  for (const char* value : {"4mm", "4 mm", "\"4 mm\"", ".4cm", "0.004m"}) {
+    EXPECT_THAT(MessageOfSet(std::string("volume.voxel_size=") + value),
+                HasSubstr("is not a number; the unit is metres: 0.004"));
+  }
+  EXPECT_THAT(MessageOfSet("ghosts.verified_share=20%"), HasSubstr("write 0.2"));
 }
 
 TEST(Config, AnUnknownProfileIsAnsweredWithTheNearest) {
