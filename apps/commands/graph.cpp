@@ -121,14 +121,14 @@ void AddGraphCommand(CLI::App& app, int& exit_code) {
   command->add_flag("--info", arguments->info,
                     "Print figures in mm, of the result where the graph is changed (what happens "
                     "without options)");
-  command->add_flag("--validate", arguments->validate,
-                    "Print everything that is wrong with the file and where; exit code 3 if "
-                    "anything is");
+  CLI::Option* const validate = command->add_flag(
+      "--validate", arguments->validate,
+      "Print everything that is wrong with the file and where; exit code 3 if anything is");
   command
       ->add_option("--proximity", arguments->proximity_mm,
                    "With --validate: how near in mm curves may come without meeting (1)")
       ->check(CLI::PositiveNumber)
-      ->needs("--validate");
+      ->needs(validate);  // by its name CLI11 cannot look it up without memory
   command
       ->add_option("--resolve", arguments->resolve_mm,
                    "Make junctions where curves cross or come within this distance in mm, and "

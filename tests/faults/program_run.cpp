@@ -1,0 +1,157 @@
+#include "tests/faults/program_run.h"
+
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+#include <utility>
+
+namespace curvefusion {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kLongestRun = 300;  // seconds; most take one on a machine without other work
+
+std::string Text(const fs::path& path) {
+  std::stringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+// Variables for fault_shim.cpp.
+void SetVariables(const Disturbance& disturbance, const fs::path& log) {
+  if (disturbance.kind.empty()) return;
+  setenv("LD_PRELOAD", CURVEFUSION_FAULT_SHIM, 1);
+  setenv("FAULT_KIND", disturbance.kind.c_str(), 1);
+  setenv("FAULT_FIRST", std::to_string(disturbance.first).c_str(), 1);
+  setenv("FAULT_COUNT", std::to_string(disturbance.count).c_str(), 1);
+  setenv("FAULT_ERRNO", std::to_string(disturbance.error).c_str(), 1);
+  setenv("FAULT_LOG", log.c_str(), 1);
+}
+
+[[noreturn]] void BecomeProgram(const fs::path& folder, const std::vector<std::string>& arguments,
+                                const Disturbance& disturbance, const fs::path& output,
+                                const fs::path& log) {
+  std::vector<std::string> words = {CURVEFUSION_PROGRAM};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  const int file = open(output.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+  dup2(file, STDOUT_FILENO);
+  dup2(file, STDERR_FILENO);
+  if (chdir(folder.c_str()) != 0) _exit(127);
+  SetVariables(disturbance, log);
+  execv(CURVEFUSION_PROGRAM, pointers.data());
+  _exit(127);
+}
+
+// Waits for the process, which is killed after so many seconds.
+ProgramRun Await(pid_t process, double kill_after) {
+  const auto start = Clock::now();
+  const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
+  ProgramRun run;
+  int status = 0;
+  rusage usage{};
+  while (wait4(process, &status, WNOHANG, &usage) == 0) {
+    if (seconds() > kill_after) kill(process, SIGKILL);
+    std::this_thread::sleep_for(std::chrono::microseconds(500));
+  }
+  run.seconds = seconds();
+  run.peak_bytes = 1024.0 * static_cast<double>(usage.ru_maxrss);
+  if (WIFEXITED(status)) run.exit_code = WEXITSTATUS(status);
+  if (WIFSIGNALED(status)) run.signal = WTERMSIG(status);
+  return run;
+}
+
+void ReadLog(const fs::path& path, ProgramRun& run) {
+  std::ifstream log(path);
+  for (std::string line; std::getline(log, line);) {
+    if (line.starts_with("failed ")) run.failed = line.substr(7);
+    if (line.starts_with("total ")) run.operations = std::stol(line.substr(6));
+  }
+}
+
+// What a report says beside times and memory. A torn one is left as it is.
+std::string LastingPart(const std::string& report) {
+  auto json = nlohmann::ordered_json::parse(report, nullptr, false);
+  if (json.is_discarded()) return report;
+  for (const char* key : {"seconds", "seconds_per_30_frames", "peak_memory_bytes"}) json.erase(key);
+  if (json.contains("mesh") && json["mesh"].is_object()) json["mesh"].erase("seconds");
+  for (auto& stage : json["stages"]) {
+    stage.erase("seconds");
+    stage.erase("peak_memory_bytes");
+  }
+  return json.dump();
+}
+
+// Without the times of day at which the parts of a ZIP archive were written.
+std::string WithoutTimes(std::string archive) {
+  // Marks of its headers and where in them four bytes of time lie (PKWARE, APPNOTE.TXT 4.3).
+  for (const auto& [mark, offset] : {std::pair("PK\x03\x04", 10), std::pair("PK\x01\x02", 12)}) {
+    for (size_t at = archive.find(mark); at != std::string::npos; at = archive.find(mark, at + 4)) {
+      archive.replace(std::min(archive.size(), at + offset), 4, 4, '\0');
+    }
+  }
+  return archive;
+}
+
+// What should be the same in every run.
+std::string Comparable(const fs::path& path) {
+  const std::string bytes = Text(path);
+  if (path.filename() == "report.json") return LastingPart(bytes);
+  if (path.extension() == ".3mf") return WithoutTimes(bytes);
+  return bytes;
+}
+
+}  // namespace
+
+ProgramRun RunProgram(const fs::path& folder, const std::vector<std::string>& arguments,
+                      const Disturbance& disturbance) {
+  const fs::path output = folder.string() + ".output.txt";
+  const fs::path log = folder.string() + ".faults.txt";
+  fs::remove(log);
+  const pid_t process = fork();
+  if (process == 0) BecomeProgram(folder, arguments, disturbance, output, log);
+  ProgramRun run =
+      Await(process, disturbance.kill_after >= 0 ? disturbance.kill_after : kLongestRun);
+  ReadLog(log, run);
+  run.output = Text(output);
+  return run;
+}
+
+bool CanInjectFaults() {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  return false;
+#else
+  return true;
+#endif
+}
+
+std::map<std::string, std::string> FilesBelow(const fs::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    const std::string name = entry.path().lexically_relative(folder).string();
+    if (entry.is_directory()) {
+      files[name + "/"];
+    } else {
+      files[name] = Comparable(entry.path());
+    }
+  }
+  return files;
+}
+
+}  // namespace curvefusion
