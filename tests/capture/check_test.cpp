@@ -80,7 +80,7 @@ TEST_F(CheckTest, ImageBrokenInside) {
   stream.seekp(50);
   stream << "garbage";
   stream.close();
-  ExpectOnly(IsError("depth/2.png: cannot be decoded"));
+  ExpectOnly(IsError("depth/2.png: is damaged (wrong checksum"));
 }
 
 TEST_F(CheckTest, EightBitDepth) {

@@ -110,7 +110,7 @@ TEST(ParseJson, TellsThePlaceInPlainWords) {
   };
   EXPECT_THAT(message("{\"a\": 1,\n \"b\": x}"),
               HasSubstr("a.json: not valid JSON: line 2, column 7: 'x' does not belong here"));
-  EXPECT_THAT(message("[1, 2"), HasSubstr("line 1, column 7: the text ends too early"));
+  EXPECT_THAT(message("[1, 2"), HasSubstr("line 1, column 6: the text ends too early"));
   EXPECT_THAT(message("[\"\xff\"]"), HasSubstr("line 1, column 3: a byte that is not UTF-8"));
   EXPECT_THAT(message("[\"a\nb\"]"), HasSubstr("line break or control character within quotes"));
   EXPECT_THAT(message("[1e999]"), HasSubstr("a number of more than 1.8e308"));
