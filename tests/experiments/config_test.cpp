@@ -80,8 +80,18 @@ TEST_F(ConfigFile, ErrorsNameFileAndLine) {
                     HasSubstr("did you mean volume.voxel_size?")));
   EXPECT_THAT(MessageOf(Write("[volume]\nvoxel_size = = 1\n")), HasSubstr("a.toml:2: not valid"));
   EXPECT_THAT(MessageOf(Write("profile = 3\n")), HasSubstr("\"paper\" or \"best\""));
-  EXPECT_THAT(MessageOf({.profile = {}, .file = folder_ / "none.toml", .assignments = {}}),
-              HasSubstr("none.toml"));
+}
+
+TEST_F(ConfigFile, AFileThatCannotBeReadIsBadInput) {
+  for (const fs::path& file : {folder_ / "none.toml", folder_, fs::path("/dev/zero")}) {
+    try {
+      ReadConfig({.profile = {}, .file = file, .assignments = {}});
+      ADD_FAILURE() << file;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::kBadInput);
+      EXPECT_THAT(error.what(), HasSubstr(file.string()));
+    }
+  }
 }
 
 TEST(Config, AnUnknownNameIsAnswereWithTheNearest) {

@@ -241,5 +241,31 @@ TEST_F(MeshIo, DamagedFilesAreErrors) {
   }
 }
 
+// Readers' libraries have words of their own.
+TEST_F(MeshIo, DamagedFilesAreToldInPlainWords) {
+  const auto message = [&](const char* name, const std::string& bytes) {
+    std::ofstream(folder_ / name, std::ios::binary) << bytes;
+    try {
+      ReadMesh(folder_ / name);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::kBadInput);
+      return std::string(error.what()).substr((folder_ / name).string().size());
+    }
+    return std::string("accepted");
+  };
+  const std::string json = "{\"asset\": x}    ";
+  const auto header = [&](char version, char length) {
+    return std::string("glTF") + version + std::string(3, '\0') + length + std::string(3, '\0') +
+           static_cast<char>(json.size()) + std::string("\0\0\0JSON", 7);
+  };
+  EXPECT_EQ(message("a.glb", "text"), ": is not a binary glTF file");
+  EXPECT_EQ(message("a.glb", header(1, 36) + json),
+            ": is of glTF version 1; only version 2 is read");
+  EXPECT_EQ(message("a.glb", header(2, 99) + json),
+            ": is truncated or damaged: it should have 99 bytes and has 36");
+  EXPECT_EQ(message("a.glb", header(2, 36) + json).find(": not valid JSON: line 1, column 11"), 0u);
+  EXPECT_EQ(message("a.3mf", "text").find(": is damaged, or no 3MF file"), 0u);
+}
+
 }  // namespace
 }  // namespace curvefusion
