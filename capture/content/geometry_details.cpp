@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -61,30 +62,45 @@ struct Outliers {
   int last = 0;
 };
 
-// Takes out of `jumps` those that come in such pairs.
+// The frames between a leap and the next, or the one before or behind it, where depth agrees again
+// once they are left out.
+std::optional<Outliers> OutliersAt(const DepthViews& views, const FramePoses& poses,
+                                   const PoseJump& jump, int next_jump) {
+  const int count = static_cast<int>(poses.size());
+  const auto agrees_without = [&](const Outliers& outliers) {
+    const int before = outliers.first - 1;
+    const int after = outliers.last + 1;
+    if (before < 0 || after >= count || after - before > kMaxOutliers + 1) return false;
+    const auto& from = poses[static_cast<size_t>(before)];
+    const auto& to = poses[static_cast<size_t>(after)];
+    if (!from || !to || !views.Has(before) || !views.Has(after)) return false;
+    const PairAgreement across = views.Compare({before, after}, to->inverse() * *from);
+    return across.is_usable && across.difference < 0.5 * jump.difference;
+  };
+  for (const Outliers outliers :
+       {Outliers{jump.frame + 1, next_jump}, Outliers{jump.frame + 1, jump.frame + 1},
+        Outliers{jump.frame, jump.frame}}) {
+    if (outliers.first <= outliers.last && agrees_without(outliers)) return outliers;
+  }
+  return std::nullopt;
+}
+
+// Takes out of `jumps` those around such frames.
 std::vector<Outliers> TakeOutliers(const DepthViews& views, const FramePoses& poses,
                                    std::vector<PoseJump>& jumps) {
-  std::vector<Outliers> outliers;
+  std::vector<Outliers> all;
   std::vector<PoseJump> others;
   for (size_t i = 0; i < jumps.size(); ++i) {
-    const int before = jumps[i].frame;
-    const bool has_next = i + 1 < jumps.size() && jumps[i + 1].frame - before <= kMaxOutliers;
-    const int after = has_next ? jumps[i + 1].frame + 1 : 0;
-    const auto comes_back = [&] {
-      const RigidTransform motion =
-          poses[static_cast<size_t>(after)]->inverse() * *poses[static_cast<size_t>(before)];
-      const PairAgreement across = views.Compare({before, after}, motion);
-      return across.is_usable && across.difference < 0.5 * jumps[i].difference;
-    };
-    if (has_next && comes_back()) {
-      outliers.push_back({before + 1, after - 1});
-      ++i;
+    if (!all.empty() && jumps[i].frame <= all.back().last) continue;
+    const int next_jump = i + 1 < jumps.size() ? jumps[i + 1].frame : 0;
+    if (const auto outliers = OutliersAt(views, poses, jumps[i], next_jump)) {
+      all.push_back(*outliers);
     } else {
       others.push_back(jumps[i]);
     }
   }
   jumps = std::move(others);
-  return outliers;
+  return all;
 }
 
 void ReportOutliers(const Sequence& sequence, const std::vector<Outliers>& outliers,

@@ -14,10 +14,13 @@ namespace {
 // less than half. One clock of TUM's fr1_rpy is off by 20 ms and gives .7.
 constexpr double kMuchBetter = 0.6;
 constexpr double kMuchBetterFine = 0.45;  // for clocks off by less than a frame
-// Measured likewise: wide residuals of good scans are .002 to .008 (fr1_rpy .013); those of the
-// wrong versions that fit best, .005 (poses one frame late), are found by the neighbours looked at.
-constexpr double kPlainFit = 0.01;
-constexpr double kBetter = 0.85;  // chosen: a reason to look closer
+// Measured likewise: wide residuals of good scans are .002 to .006 (fr1_rpy .013, which is searched
+// in vain); those of wrong versions that fit best, .005 (poses one frame late), are found by the
+// neighbours looked at.
+constexpr double kPlainFit = 0.007;
+constexpr double kWorseIfStanding = 2;     // cost of no motion; good scans: 3 to 8
+constexpr double kMinImprovement = 0.015;  // of cost: a thousandth of the distance
+constexpr double kBetter = 0.85;           // chosen: a reason to look closer
 constexpr double kRunnerUpMargin = 1.25;
 constexpr double kPairsThatAgree = 0.75;  // share; half would by chance
 constexpr double kMinUsableShare = 0.3;
@@ -173,7 +176,8 @@ bool Explains(const PoseExplanation& candidate, const PoseAgreement& given) {
   const bool given_is_judged = IsEnough(given);
   const double much_better = candidate.is_fine ? kMuchBetterFine : kMuchBetter;
   return agreement.residual <= kMaxResidual &&
-         (!given_is_judged || agreement.cost <= much_better * given.cost) &&
+         (!given_is_judged || (agreement.cost <= much_better * given.cost &&
+                               agreement.cost <= given.cost - kMinImprovement)) &&
          ShareThatAgrees(agreement, given) >= kPairsThatAgree;
 }
 
@@ -196,6 +200,8 @@ bool FitsAsGiven(const MisfitEvidence& evidence, const PoseAgreement& given) {
     const PoseAgreement other = search.Agreement(poses);
     return IsEnough(other) && other.cost < kBetter * given.cost;
   };
+  const PoseAgreement standing = search.Agreement(StandingPoses(evidence.poses.size()));
+  if (standing.cost < kWorseIfStanding * given.cost) return false;
   for (const double steps : {-3.0, -2.0, -1.0, 1.0, 2.0, 3.0}) {
     if (is_better(search.Delayed(steps * search.DelayStep()))) return false;
   }

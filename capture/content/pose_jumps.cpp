@@ -14,9 +14,13 @@ namespace {
 constexpr int kAround = 10;        // frames to each side whose changes are typical
 constexpr double kLeap = 5;        // times the typical change; then depth decides
 constexpr double kMinLeap = 0.01;  // metres at the distance of the scene; chosen: a wire or two
-constexpr double kContradiction = 0.6;  // as of hypotheses
-constexpr double kUnlikeOthers = 2;     // times the residual of other neighbours, median
-constexpr int kStretchGap = 10;         // frames
+// Chosen on fr1_rpy, whose clock is off by 20 ms: where its camera turns back, the given motion
+// disagrees with depth by 16 mm and that of a neighbour by 8 mm, and it is no jump.
+constexpr double kContradiction = 0.4;     // of the differences of depth
+constexpr double kUnlikeOthers = 2;        // times the residual of other neighbours, median
+constexpr double kLikeOthers = 1.5;        // likewise
+constexpr double kSmoothResidual = 0.004;  // steady motion may err by that in any scan
+constexpr int kStretchGap = 10;            // frames
 constexpr int kMinStretch = 5;
 // Measured: five frames in a row of good scans reach .003 to .011 (fr1_rpy .042, of a median of
 // .011).
@@ -162,7 +166,11 @@ std::vector<PoseJump> FindPoseJumps(const DepthViews& views, const FramePoses& p
     const PairAgreement given = neighbours.Given(i);
     const PairAgreement smooth = neighbours.Smooth(i);
     const bool is_unlike = !given.is_usable || given.residual > kUnlikeOthers * typical;
-    if (!smooth.is_usable || !is_unlike || smooth.cost > kContradiction * given.cost) continue;
+    const bool is_alike =
+        smooth.is_usable && smooth.residual < std::max(kSmoothResidual, kLikeOthers * typical);
+    const bool is_contradicted =
+        !given.is_usable || smooth.difference < kContradiction * given.difference;
+    if (!is_unlike || !is_alike || !is_contradicted) continue;
     const RigidTransform& motion = *neighbours.motion(i);
     jumps.push_back({i, motion.translation().norm(), RotationVector(motion).norm(),
                      given.difference, smooth.difference});
