@@ -9,6 +9,7 @@
 #include "capture/content/colour_findings.h"
 #include "capture/content/geometry_check.h"
 #include "capture/content/thumbnails.h"
+#include "capture/content/suitability.h"
 #include "capture/detect_format.h"
 #include "capture/image_file.h"
 #include "capture/readers/readers.h"
@@ -19,7 +20,8 @@ namespace curvefusion {
 
 namespace {
 
-constexpr int kWindow = 32;  // frames between two progress messages
+constexpr int kWindow = 32;        // frames between two progress messages
+constexpr int kSurveyFrames = 24;  // chosen: every sixth of a scan of 5 s
 
 // What decoding one frame told.
 struct FrameCheck {
@@ -169,6 +171,7 @@ CheckReport CheckSequence(const std::filesystem::path& folder, const Progress& p
     if (!report.has_errors()) {
       report.colour_camera = FitColourCamera(*sequence, {});
       ReportColourCamera(*sequence, report.colour_camera, collect);
+      ReportSuitability(*sequence, depth, SurveyColour(*sequence, kSurveyFrames), collect);
     }
   }
   std::stable_partition(

@@ -112,7 +112,9 @@ DepthSurvey SurveyDepth(DepthSamples samples) {
   const size_t count = samples.valid.size();
   const auto middle = samples.valid.begin() + static_cast<std::ptrdiff_t>(count / 2);
   std::nth_element(samples.valid.begin(), middle, samples.valid.end());
-  return {*middle, static_cast<double>(count) / static_cast<double>(samples.pixels)};
+  const auto tenth = samples.valid.begin() + static_cast<std::ptrdiff_t>(count / 10);
+  std::nth_element(samples.valid.begin(), tenth, middle);
+  return {*middle, *tenth, static_cast<double>(count) / static_cast<double>(samples.pixels)};
 }
 
 void ReportDepthScale(const Sequence& sequence, const DepthSurvey& survey,

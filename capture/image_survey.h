@@ -24,6 +24,7 @@ ImageSizes SurveyImages(const Sequence& sequence, const FindingHandler& on_findi
 /// Figures of the valid pixels of some depth images.
 struct DepthSurvey {
   double median = 0;    ///< metres; 0 where no pixel is valid
+  double near = 0;      ///< metres, that a tenth of the valid pixels are nearer than
   double validity = 0;  ///< share of valid pixels
 };
 

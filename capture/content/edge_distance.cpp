@@ -5,6 +5,8 @@
 #include <numbers>
 #include <vector>
 
+#include "capture/content/shrunk_grey.h"
+
 namespace curvefusion {
 
 namespace {
@@ -17,23 +19,6 @@ constexpr double kEdgeQuantile =
 // Chamfer distances 3 and 4 for steps along and across (Borgefors 1986), so 3 is one pixel.
 constexpr int kStep = 3;
 constexpr int kDiagonal = 4;
-
-// The mean grey level of squares of `divisor` pixels.
-Image<float> ShrunkGrey(const ColorImage& image, int divisor) {
-  Image<float> grey(image.width() / divisor, image.height() / divisor, 0);
-  const float scale = 1.0f / (3.0f * static_cast<float>(divisor * divisor));
-  for (int v = 0; v < grey.height(); ++v) {
-    for (int u = 0; u < grey.width(); ++u) {
-      int sum = 0;
-      for (int y = v * divisor; y < (v + 1) * divisor; ++y) {
-        const Rgb* row = image.row(y) + static_cast<ptrdiff_t>(u) * divisor;
-        for (int x = 0; x < divisor; ++x) sum += row[x][0] + row[x][1] + row[x][2];
-      }
-      grey(u, v) = scale * static_cast<float>(sum);
-    }
-  }
-  return grey;
-}
 
 struct Gradients {
   Image<float> x, y, magnitude;
@@ -101,7 +86,7 @@ void ToDistances(Image<uint8_t>& image) {
 }  // namespace
 
 EdgeDistance::EdgeDistance(const ColorImage& image) {
-  const int divisor = std::max(1, (image.width() + kWorkingWidth / 2) / kWorkingWidth);
+  const int divisor = DivisorForWidth(image.width(), kWorkingWidth);
   const Gradients g = SobelGradients(ShrunkGrey(image, divisor));
   divisor_ = divisor;
   unit_ = divisor * kReferenceWidth / image.width() / kStep;

@@ -33,6 +33,15 @@ Matcher<CheckFinding> IsWarning(const std::string& part) {
                Field(&CheckFinding::message, HasSubstr(part)));
 }
 
+// Without what makes four frames of 32x24 pixels unfit for wires.
+std::vector<CheckFinding> Defects(std::vector<CheckFinding> findings) {
+  std::erase_if(findings, [](const CheckFinding& finding) {
+    return finding.cause == "too-few-frames" || finding.cause == "path-too-short" ||
+           finding.cause == "no-colour";
+  });
+  return findings;
+}
+
 // Broken variants of a healthy TUM sequence, with exactly one finding each.
 class CheckTest : public testing::Test {
  protected:
@@ -41,7 +50,7 @@ class CheckTest : public testing::Test {
 
   void ExpectOnly(const Matcher<CheckFinding>& expected) {
     const CheckReport report = CheckSequence(folder(), NoProgress);
-    EXPECT_THAT(report.findings, AllOf(SizeIs(1), Each(expected)));
+    EXPECT_THAT(Defects(report.findings), AllOf(SizeIs(1), Each(expected)));
   }
   void ExpectOpeningFails() { EXPECT_THROW(OpenSequence(folder()), Error); }
 
@@ -50,7 +59,7 @@ class CheckTest : public testing::Test {
 
 TEST_F(CheckTest, AHealthySequenceHasFiguresAndNoFindings) {
   const CheckReport report = CheckSequence(folder(), NoProgress);
-  EXPECT_THAT(report.findings, IsEmpty());
+  EXPECT_THAT(Defects(report.findings), IsEmpty());
   EXPECT_FALSE(report.has_errors());
   EXPECT_EQ(report.format, "tum");
   EXPECT_EQ(report.frames, 4);
