@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "capture/frame_stream.h"
@@ -13,6 +14,7 @@
 #include "fusion/registration/frame_points.h"
 #include "fusion/registration/ray_noise.h"
 #include "fusion/run_context.h"
+#include "fusion/weak_colour.h"
 #include "kernel/parallel.h"
 
 namespace curvefusion {
@@ -271,11 +273,15 @@ Reconstruction ReconstructThinParts(const TsdfVolume& volume, const Sequence& se
 
 }  // namespace
 
-Reconstruction Reconstruct(const Sequence& sequence, const PipelineOptions& options,
+Reconstruction Reconstruct(const Sequence& sequence, const PipelineOptions& given,
                            PipelineObserver& observer) {
+  PipelineOptions options = given;
+  const std::string useless_colour = SwitchOffUselessColour(sequence, options);
   RunContext run{options, observer, {}};
   const TsdfVolume volume = FuseVolume(sequence, run);
-  return ReconstructThinParts(volume, sequence, run);
+  Reconstruction result = ReconstructThinParts(volume, sequence, run);
+  if (!useless_colour.empty()) result.warnings.push_back(useless_colour);
+  return result;
 }
 
 Reconstruction ReconstructAgainst(const TsdfVolume& volume, const Sequence& sequence,

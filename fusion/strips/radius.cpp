@@ -300,6 +300,7 @@ void DropThickParts(const RadiusOptions& options, SkeletonGraph& skeleton) {
       diameters += 2 * Median(edge.radii) * edge_length;
     }
     if (length > 0 && diameters <= options.max_mean_diameter * length) continue;
+    if (length == 0 && !options.drop_unmeasured) continue;
     for (const EdgeId id : part) skeleton.RemoveEdge(id);
   }
   skeleton.RemoveIsolatedNodes();
@@ -356,6 +357,10 @@ void VisitOptions(RadiusOptions& options, OptionVisitor& visitor) {
                  "Deviation: parts of the result that are thicker on average are no thin structure "
                  "and are dropped; 0 = kept. CurveFusion 4 shows wires up to 12 mm."},
                 options.max_mean_diameter);
+  visitor.Visit({"drop_unmeasured", "", 0, 1,
+                 "Deviation: parts of which no diameter can be measured are dropped, too; off "
+                 "where colour images are found to be grey or to show nothing."},
+                options.drop_unmeasured);
   visitor.Visit(
       {"luma_blur_px", "px", 0.1, 5,
        "Blur of luma in the strip model, standard deviation. Measured on simulated scans."},

@@ -24,6 +24,7 @@ struct RadiusOptions {
   double search_px = 10;
   double max_diameter = 0.025;
   double max_mean_diameter = 0;
+  bool drop_unmeasured = true;
   double luma_blur_px = 0.95;
   double chroma_blur_px = 1.4;
   double min_contrast = 15;
@@ -87,8 +88,9 @@ void AssignRadii(const RadiusEstimate& estimate, const RadiusOptions& options,
                  SkeletonGraph& skeleton);
 
 /// Removes connected parts that are on average thicker than options.max_mean_diameter: no thin
-/// structures but strips of larger surfaces that only some views show. Parts without radii are
-/// removed too: where the images show no strip at all there is no wire. AssignRadii comes before.
+/// structures but strips of larger surfaces that only some views show. With
+/// options.drop_unmeasured parts without radii are removed too: where the images show no strip at
+/// all there is no wire. AssignRadii comes before.
 void DropThickParts(const RadiusOptions& options, SkeletonGraph& skeleton);
 
 }  // namespace curvefusion

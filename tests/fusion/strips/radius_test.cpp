@@ -275,6 +275,10 @@ TEST(DropThickParts, DropsWhatNoStripWasFoundOf) {
   options.max_mean_diameter = 0.016;
   SkeletonGraph skeleton;
   skeleton.AddPolyline({{0, 0, 0}, {0.1, 0, 0}});
+  options.drop_unmeasured = false;  // the images cannot tell
+  DropThickParts(options, skeleton);
+  EXPECT_EQ(skeleton.edge_count(), 1);
+  options.drop_unmeasured = true;
   DropThickParts(options, skeleton);
   EXPECT_TRUE(skeleton.empty());
 }
