@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <iostream>
+#include <optional>
 #include <utility>
 
 namespace curvefusion {
@@ -24,12 +25,22 @@ std::string Duration(double seconds) {
 }  // namespace
 
 ProgressPrinter::ProgressPrinter(std::ostream& stream, Style style, Clock clock)
-    : stream_(stream), style_(style), clock_(std::move(clock)), last_report_(clock_()) {}
+    : stream_(stream),
+      style_(style),
+      clock_(std::move(clock)),
+      run_start_(clock_()),
+      last_report_(run_start_) {}
+
+void ProgressPrinter::Plan(const std::vector<PlannedStage>& stages) {
+  is_planned_ = true;
+  run_.Plan(stages);
+}
 
 void ProgressPrinter::Report(const std::string& stage, int64_t done, int64_t total) {
   if (style_ == Style::kQuiet) return;
   const double now = clock_();
-  if (stage != stage_ || done < done_) BeginStage(stage, done > 0 ? last_report_ : now);
+  if (stage != stage_ || done < done_) BeginStage(stage, now);
+  run_.Report(stage, done, total, now);
   done_ = done;
   total_ = total;
   last_report_ = now;
@@ -48,13 +59,26 @@ void ProgressPrinter::BeginStage(const std::string& stage, double start) {
 
 void ProgressPrinter::Finish() {
   if (stage_.empty()) return;
-  const std::string line = fmt::format("{:<34} {:>6.1f} s", stage_, last_report_ - stage_start_);
+  const std::string line = fmt::format("{:<34} {:>6.1f} s", stage_, clock_() - stage_start_);
   stream_ << (style_ == Style::kTerminal ? "\r\033[K" : "") << line << std::endl;
   stage_.clear();
   done_ = 0;
 }
 
+// "segmentation  65 of 150            43 % of the run, 25 s left"
+std::string ProgressPrinter::RunLine() const {
+  const std::string steps = total_ > 1 ? fmt::format("{} of {}", done_, total_) : "";
+  const std::string line = fmt::format("{:<34} {}", stage_, steps);
+  const std::optional<double> left = run_.SecondsLeft(last_report_);
+  const double elapsed = last_report_ - run_start_;
+  if (!left || elapsed + *left <= 0) return line;
+  const double share = elapsed / (elapsed + *left);
+  return fmt::format("{:<52} {:>2.0f} % of the run, {} left", line, std::floor(100 * share),
+                     Duration(*left));
+}
+
 std::string ProgressPrinter::Line() const {
+  if (is_planned_) return RunLine();
   return fmt::format("{:<34} {:>3} %  {} of {}{}", stage_, total_ > 0 ? 100 * done_ / total_ : 0,
                      done_, total_, TimeLeft());
 }

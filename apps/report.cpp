@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "apps/run_account.h"
+
 namespace curvefusion {
 
 namespace {
@@ -159,21 +161,31 @@ std::string DiameterText(const GraphFigures& figures) {
   return from == to ? from + " mm" : fmt::format("{} to {} mm", from, to);
 }
 
+// Each once: the reconstruction passes on what the sequence warned of.
 std::vector<std::string> AllWarnings(const RunRecord& record) {
-  std::vector<std::string> warnings = record.sequence.warnings;
+  std::vector<std::string> warnings;
   const auto append = [&](const std::vector<std::string>& more) {
-    warnings.insert(warnings.end(), more.begin(), more.end());
+    for (const std::string& warning : more) {
+      if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) {
+        warnings.push_back(warning);
+      }
+    }
   };
+  append(record.sequence.warnings);
   append(record.reconstruction.warnings);
+  append(Doubts(record.reconstruction.trust));
   if (record.mesh) append(record.mesh->warnings);
   return warnings;
 }
 
-constexpr const char* kNothingThinText =
-    "Found nothing thin.\n"
+constexpr const char* kNothingThinHints =
     "  Thin parts show where they are 2 to 12 mm thick, 0.5 to 0.9 m away, some centimetres in\n"
     "  front of other things, and not black to the infrared camera. `curvefusion check` tells\n"
     "  whether poses and depth unit fit; --save-stages keeps what every step found.\n";
+
+std::string NothingThinText(const Funnel& funnel) {
+  return fmt::format("Found nothing thin: {}.\n{}", WhyNothing(funnel), kNothingThinHints);
+}
 
 }  // namespace
 
@@ -191,6 +203,8 @@ std::string ReportJson(const RunRecord& record) {
                        {"peak_memory_bytes", record.peak_memory},
                        {"stages", StagesJson(reconstruction.stages)},
                        {"points", reconstruction.points.size()},
+                       {"funnel", FunnelJson(reconstruction.funnel)},
+                       {"trust", TrustJson(reconstruction.trust)},
                        {"skeleton", SkeletonJson(reconstruction)},
                        {"mesh", record.mesh ? MeshJson(*record.mesh) : Json(nullptr)},
                        {"warnings", AllWarnings(record)}};
@@ -208,8 +222,9 @@ std::string Summary(const RunRecord& record, const std::filesystem::path& folder
                     const std::filesystem::path& report) {
   const SkeletonGraph& skeleton = record.reconstruction.skeleton;
   std::string text = skeleton.empty()
-                         ? std::string(kNothingThinText)
-                         : fmt::format("Found {}\n", FiguresLine(MeasureGraph(skeleton)));
+                         ? NothingThinText(record.reconstruction.funnel)
+                         : fmt::format("Found {}\n{}", FiguresLine(MeasureGraph(skeleton)),
+                                       TrustLines(record.reconstruction.trust));
   const auto add_file = [&](const char* what, const std::filesystem::path& file) {
     text += fmt::format("  {:<9} {}\n", what, file.string());
   };

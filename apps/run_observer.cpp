@@ -1,5 +1,6 @@
 #include "apps/run_observer.h"
 
+#include <optional>
 #include <utility>
 
 #include "apps/output_folder.h"
@@ -13,7 +14,16 @@ namespace curvefusion {
 RunObserver::RunObserver(ProgressPrinter& printer, StageOutputs outputs)
     : printer_(printer), outputs_(std::move(outputs)) {
   if (!outputs_.folder.empty()) MakeOutputFolder(outputs_.folder);
-  if (!outputs_.volume.empty()) MakeFolderOf(outputs_.volume);
+  if (outputs_.volume.empty()) return;
+  CheckMeshFormat(outputs_.volume, std::nullopt);
+  MakeFolderOf(outputs_.volume);
+}
+
+// What the command does with the result costs about a thirtieth.
+void RunObserver::OnPlan(const std::vector<PlannedStage>& stages) {
+  std::vector<PlannedStage> all = stages;
+  all.push_back({kWritingStage, 0});
+  printer_.Plan(all);
 }
 
 void RunObserver::OnProgress(const std::string& stage, int64_t done, int64_t total) {

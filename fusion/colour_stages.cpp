@@ -21,6 +21,15 @@ void AssignMeasuredRadii(RunContext& run, Reconstruction& result) {
   AssignRadii(result.radii, run.options.radius, result.skeleton);
 }
 
+void DropThick(RunContext& run, Reconstruction& result) {
+  const DroppedParts dropped = DropThickParts(run.options.radius, result.skeleton);
+  CurveFunnel& funnel = run.funnel.curves;
+  funnel.thick += dropped.thick;
+  funnel.without_strips += dropped.without_radii;
+  run.log.Count("radius", "dropped as thick, m", funnel.thick);
+  run.log.Count("radius", "dropped without strips, m", funnel.without_strips);
+}
+
 void ReportAdjustment(const ColourAdjustment& adjusted, StageLog& log) {
   const char* stage = "colour adjustment";
   log.Count(stage, "frames", static_cast<double>(adjusted.frames.size()));
@@ -40,6 +49,7 @@ void CorrectBySilhouettes(const ColourAdjustment& adjusted, RunContext& run,
   if (run.options.silhouettes.max_frames == 0) return;
   const char* stage = "silhouettes";
   const StageLog::Timer timer(run.log, stage);
+  run.observer.OnProgress(stage, 0, 1);
   const WireSilhouettes silhouettes(result.sequence, adjusted.frames, adjusted.posteriors,
                                     run.options.silhouettes.max_frames);
   if (!TellWires(silhouettes, result.skeleton)) {
@@ -53,6 +63,7 @@ void CorrectBySilhouettes(const ColourAdjustment& adjusted, RunContext& run,
   const int weak_wires =
       AddWeakWires(silhouettes, run.options.silhouettes.bridges, result.points, result.skeleton);
   TidyRidgeSkeleton(result.skeleton, run.options.ridge);
+  run.funnel.curves.looked_past += changes.removed;
   run.log.Count(stage, "removed, m", changes.removed);
   run.log.Count(stage, "rungs", changes.rungs);
   run.log.Count(stage, "continued", changes.continued);
@@ -60,7 +71,6 @@ void CorrectBySilhouettes(const ColourAdjustment& adjusted, RunContext& run,
   run.log.Count(stage, "bridges", changes.bridges);
   run.log.Count(stage, "joins", changes.joins);
   run.log.Count(stage, "weak wires", weak_wires);
-  run.observer.OnProgress(stage, 1, 1);
   run.observer.OnGraph("corrected", result.skeleton);
 }
 
@@ -70,6 +80,7 @@ std::optional<ColourAdjustment> AdjustCurvesAndPoses(const Sequence& given, RunC
                                                      Reconstruction& result) {
   if (!run.options.colour_adjustment.enabled || result.skeleton.empty()) return std::nullopt;
   const StageLog::Timer timer(run.log, "colour adjustment");
+  run.observer.OnProgress("colour adjustment", 0, 1);
   std::vector<RigidTransform> T_world_given;
   for (const SequenceFrame& frame : given.frames) T_world_given.push_back(frame.T_world_camera);
   ColourAdjustment adjusted = AdjustToColours(result.skeleton, result.sequence, T_world_given,
@@ -81,7 +92,9 @@ std::optional<ColourAdjustment> AdjustCurvesAndPoses(const Sequence& given, RunC
   result.sequence.color_camera.cx += adjusted.color_shift_px.x();
   result.sequence.color_camera.cy += adjusted.color_shift_px.y();
   ReportAdjustment(adjusted, run.log);
-  run.observer.OnProgress("colour adjustment", 1, 1);
+  result.trust.adjusted = adjusted.skipped.empty();
+  result.trust.residual_before_px = adjusted.start_residual_px;
+  result.trust.residual_px = adjusted.residual_px;
   run.observer.OnGraph("adjusted", result.skeleton);
   return adjusted.skipped.empty() ? std::optional(std::move(adjusted)) : std::nullopt;
 }
@@ -90,12 +103,12 @@ std::optional<ColourAdjustment> AdjustCurvesAndPoses(const Sequence& given, RunC
 void AddMissedWires(RunContext& run, Reconstruction& result) {
   if (!run.options.completion.enabled || result.skeleton.empty()) return;
   const StageLog::Timer timer(run.log, "wire completion");
+  run.observer.OnProgress("wire completion", 0, 1);
   CompletedWires completed =
       CompleteWires(result.skeleton, result.sequence, run.options.completion);
   result.skeleton = std::move(completed.skeleton);
   run.log.Count("wire completion", "added", completed.added);
   run.log.Count("wire completion", "rejected", completed.rejected);
-  run.observer.OnProgress("wire completion", 1, 1);
   run.observer.OnGraph("completed", result.skeleton);
 }
 
@@ -106,24 +119,25 @@ void PruneUnadjusted(RunContext& run, Reconstruction& result) {
   if (!is_told || run.options.silhouettes.max_frames == 0) return;
   const char* stage = "silhouettes";
   const StageLog::Timer timer(run.log, stage);
+  run.observer.OnProgress(stage, 0, 1);
   const std::optional<double> removed =
       PruneByColour(result.sequence, run.colours, run.options.silhouettes, result.skeleton);
   if (!removed) {
     run.log.Remark(stage, kImagesDoNotTell);
     return;
   }
+  run.funnel.curves.looked_past += *removed;
   run.log.Count(stage, "removed, m", *removed);
-  run.observer.OnProgress(stage, 1, 1);
   run.observer.OnGraph("corrected", result.skeleton);
 }
 
 // In how many images every place of the result was looked for and seen.
 void LookForEvidence(RunContext& run, Reconstruction& result) {
   const StageLog::Timer timer(run.log, "evidence");
+  run.observer.OnProgress("evidence", 0, 1);
   result.views = CountViews(result.skeleton, result.sequence, run.options.evidence);
   if (run.options.carry_points) AssignObservations(result.views, result.skeleton);
   run.log.Count("evidence", "frames", result.views.frames);
-  run.observer.OnProgress("evidence", 1, 1);
 }
 
 }  // namespace
@@ -131,6 +145,7 @@ void LookForEvidence(RunContext& run, Reconstruction& result) {
 RadiusEstimate MeasureRadii(const SkeletonGraph& skeleton, const Sequence& sequence,
                             RunContext& run) {
   const StageLog::Timer timer(run.log, "radius");
+  run.observer.OnProgress("radius", 0, 1);
   RadiusEstimate estimate =
       EstimateRadius(skeleton, sequence, AllFrames(sequence), run.options.radius);
   // Strips of wires so close that none stands alone are not measured one by one.
@@ -138,13 +153,12 @@ RadiusEstimate MeasureRadii(const SkeletonGraph& skeleton, const Sequence& seque
     estimate.global_radius = estimate.unmeasured_radius = 0.5 * run.row_diameter;
   }
   run.log.Count("radius", "strips", static_cast<double>(estimate.strips.size()));
-  run.observer.OnProgress("radius", 1, 1);
   return estimate;
 }
 
 void RefineByColour(const Sequence& given, RunContext& run, Reconstruction& result) {
   AssignMeasuredRadii(run, result);
-  DropThickParts(run.options.radius, result.skeleton);  // nothing is to be added to them
+  DropThick(run, result);  // nothing is to be added to them
   AddMissedWires(run, result);
   if (const auto adjusted = AdjustCurvesAndPoses(given, run, result)) {
     CorrectBySilhouettes(*adjusted, run, result);
@@ -152,7 +166,7 @@ void RefineByColour(const Sequence& given, RunContext& run, Reconstruction& resu
     PruneUnadjusted(run, result);
   }
   AssignMeasuredRadii(run, result);
-  DropThickParts(run.options.radius, result.skeleton);
+  DropThick(run, result);
   LookForEvidence(run, result);
 }
 

@@ -14,6 +14,7 @@
 #include "fusion/registration/frame_points.h"
 #include "fusion/registration/ray_noise.h"
 #include "fusion/run_context.h"
+#include "fusion/stage_progress.h"
 #include "fusion/weak_colour.h"
 #include "kernel/parallel.h"
 
@@ -34,10 +35,11 @@ TsdfVolume FuseVolume(const Sequence& sequence, RunContext& run) {
   TsdfVolume volume(run.options.volume);
   std::vector<int> frames;
   for (int i = 0; i < sequence.frame_count(); i += run.options.volume_stride) frames.push_back(i);
+  StageProgress progress(run.observer, "volume", static_cast<int64_t>(frames.size()));
   ForEachFrame(sequence, frames, {.depth = true, .color = false}, [&](const DecodedFrame& frame) {
     volume.Integrate(frame.depth, sequence.depth_camera,
                      sequence.frames[frame.index].T_world_camera);
-    run.observer.OnProgress("volume", frame.index + 1, sequence.frame_count());
+    progress.Advance();
   });
   run.observer.OnVolume(volume);
   run.log.Count("volume", "frames", static_cast<double>(frames.size()));
@@ -68,6 +70,7 @@ void AddBundle(const SegmentedBundle& bundle, SegmentedScan& scan, PipelineObser
 SegmentedScan SegmentBundles(const Sequence& sequence, const TsdfVolume& volume, RunContext& run) {
   const StageLog::Timer timer(run.log, "segmentation");
   SegmentedScan scan;
+  run.observer.OnProgress("surfaces and colours", 0, 1);
   const SegmentationModel model = LearnSegmentation(sequence, volume, run.options.segmentation);
   run.row_spacing = model.row_spacing;
   run.row_diameter = model.row_diameter;
@@ -77,6 +80,11 @@ SegmentedScan SegmentBundles(const Sequence& sequence, const TsdfVolume& volume,
   run.log.Count("segmentation", "frame stride", model.frame_stride);
   const auto ranges =
       SplitIntoBundles(sequence.frame_count(), run.options.segmentation.bundle.frames);
+  int64_t frames = 0;
+  for (const auto& [first, last] : ranges) {
+    frames += (last - first + model.frame_stride - 1) / model.frame_stride;
+  }
+  StageProgress progress(run.observer, "segmentation", frames);
   // About as many each time, so that no bundle is left to itself in the end.
   const size_t times = (ranges.size() + kBundlesAtOnce - 1) / kBundlesAtOnce;
   size_t candidates = 0, points = 0, begin = 0;
@@ -84,15 +92,20 @@ SegmentedScan SegmentBundles(const Sequence& sequence, const TsdfVolume& volume,
     std::vector<SegmentedBundle> bundles((ranges.size() - begin + left - 1) / left);
     ParallelFor(0, static_cast<int64_t>(bundles.size()), 1, [&](int64_t i) {
       const auto& [first, last] = ranges[begin + static_cast<size_t>(i)];
-      bundles[i] = SegmentBundle(sequence, first, last, volume, model, run.options.segmentation);
+      bundles[i] = SegmentBundle(sequence, first, last, volume, model, run.options.segmentation,
+                                 [&progress] { progress.Advance(); });
     });
     for (const SegmentedBundle& bundle : bundles) {
       candidates += bundle.difference_set.size();
       points += bundle.points.size();
+      run.funnel.points.Add(bundle.funnel);
       AddBundle(bundle, scan, run.observer);
     }
     begin += bundles.size();
-    run.observer.OnProgress("segmentation", ranges[begin - 1].second, sequence.frame_count());
+    // As if the rest held as many.
+    run.size.points =
+        static_cast<double>(points) * sequence.frame_count() / ranges[begin - 1].second;
+    run.observer.OnPlan(PlanRun(sequence, run.options, run.size));
   }
   run.log.Count("segmentation", "bundles", static_cast<double>(scan.bundles.size()));
   run.log.Count("segmentation", "candidates", static_cast<double>(candidates));
@@ -117,14 +130,14 @@ SkeletonGraph ExtractBundleSkeleton(const ObservedPoints& points, const std::str
 // Paper profile: a skeleton for every bundle, fused one after the other, CurveFusion 3.2 and 3.3.
 SkeletonGraph FuseBundleSkeletons(const SegmentedScan& scan, RunContext& run) {
   SkeletonGraph partial;
+  StageProgress progress(run.observer, "skeletons", static_cast<int64_t>(scan.bundles.size()));
   for (size_t i = 0; i < scan.bundles.size(); ++i) {
     const std::string name = fmt::format("bundle_{:03}", i);
     const SkeletonGraph bundle = ExtractBundleSkeleton(scan.bundles[i], name, run);
     const StageLog::Timer timer(run.log, "fusion");
     partial = FuseSkeletons(partial, bundle, std::max(1, static_cast<int>(i)), run.options.fusion);
     run.observer.OnGraph(name + "_fused", partial);
-    run.observer.OnProgress("skeletons", static_cast<int64_t>(i + 1),
-                            static_cast<int64_t>(scan.bundles.size()));
+    progress.Advance();
   }
   return partial;
 }
@@ -133,6 +146,7 @@ SkeletonGraph FuseBundleSkeletons(const SegmentedScan& scan, RunContext& run) {
 SkeletonGraph Contract(const ObservedPoints& points, const std::optional<RidgePoints>& ridge,
                        const std::string& name, RunContext& run) {
   const StageLog::Timer timer(run.log, "contraction");
+  run.observer.OnProgress("contraction", 0, 1);
   const double ratio = run.ray_noise_ratio;
   const AffineTransform T_space_world =
       ratio > 1 ? NoiseMetric(points, ratio) : AffineTransform(Eigen::Scaling(run.magnification));
@@ -145,7 +159,6 @@ SkeletonGraph Contract(const ObservedPoints& points, const std::optional<RidgePo
     skeleton = ExtractRidgeSkeleton(points, run.options.ridge);
   }
   run.log.Count("contraction", "ray noise ratio", ratio);
-  run.observer.OnProgress("contraction", 1, 1);
   run.observer.OnPoints(name + "_points", points);
   run.observer.OnGraph(name + "_skeleton", skeleton);
   return skeleton;
@@ -160,6 +173,8 @@ struct RegisteredBundles {
 // Registers every bundle to the curves of those before it.
 RegisteredBundles RegisterBundles(const SegmentedScan& scan, RunContext& run) {
   const StageLog::Timer timer(run.log, "registration");
+  StageProgress progress(run.observer, "bundle registration",
+                         static_cast<int64_t>(scan.bundles.size()));
   CarriedPoints carried(run.options.carried);
   const RidgeProjectionOptions ridges =
       ForCloseWires(run.options.ridge.projection, run.magnification);
@@ -176,8 +191,7 @@ RegisteredBundles RegisterBundles(const SegmentedScan& scan, RunContext& run) {
                                                  ridges.spacing, run.options.registration,
                                                  run.row_spacing)
                                       .T_target_source);
-    run.observer.OnProgress("bundle registration", static_cast<int64_t>(T_registered_bundle.size()),
-                            static_cast<int64_t>(scan.bundles.size()));
+    progress.Advance();
   }
   std::vector<RigidTransform> T_registered_frame;
   for (const int bundle : scan.bundle_of_frame) {
@@ -193,6 +207,7 @@ RegisteredFrames RegisterFramesToCurves(std::vector<ObservedPoints> frames,
                                         const std::vector<Vec3>& cameras,
                                         const SkeletonGraph& first, RunContext& run) {
   const StageLog::Timer timer(run.log, "registration");
+  run.observer.OnProgress("frame registration", 0, 1);
   const AxisCorrection correction(first, run.options.axis_depth);
   ParallelFor(0, static_cast<int64_t>(frames.size()), 1, [&](int64_t i) {
     const RigidTransform& T = bundles.T_registered_frame[i];
@@ -202,7 +217,6 @@ RegisteredFrames RegisterFramesToCurves(std::vector<ObservedPoints> frames,
       RegisterFrames(frames, bundles.T_registered_frame, cameras, bundles.ridge,
                      ForCloseWires(run.options.ridge.projection, run.magnification),
                      run.options.registration, run.options.frames);
-  run.observer.OnProgress("frame registration", 1, 1);
   run.log.Count("registration", "registered frames", registered.registered);
   run.log.Count("registration", "points", static_cast<double>(registered.points.size()));
   return registered;
@@ -239,6 +253,8 @@ void ContractCarriedPoints(SegmentedScan scan, RunContext& run, Reconstruction& 
   const RegisteredBundles bundles = RegisterBundles(scan, run);
   scan.bundles.clear();
   SkeletonGraph first = Contract(bundles.points, bundles.ridge, "registered_bundles", run);
+  run.size.length = first.TotalLength();
+  run.observer.OnPlan(PlanRun(result.sequence, run.options, run.size));
   AssignRadii(MeasureRadii(first, result.sequence, run), run.options.radius, first);
   if (run.ray_noise_ratio > 1) {
     CorrectPoses(bundles.T_registered_frame, result.sequence);
@@ -266,7 +282,11 @@ Reconstruction ReconstructThinParts(const TsdfVolume& volume, const Sequence& se
     for (const ObservedPoints& bundle : scan.bundles) Append(result.points, bundle);
     result.skeleton = FuseBundleSkeletons(scan, run);
   }
+  run.funnel.curves.contracted = result.skeleton.TotalLength();
   RefineByColour(sequence, run, result);
+  run.funnel.curves.curves = result.skeleton.TotalLength();
+  result.funnel = run.funnel;
+  result.trust = MeasureTrust(sequence, result);
   result.stages = run.log.stages();
   return result;
 }
@@ -278,6 +298,7 @@ Reconstruction Reconstruct(const Sequence& sequence, const PipelineOptions& give
   PipelineOptions options = given;
   const std::string useless_colour = SwitchOffUselessColour(sequence, options);
   RunContext run{options, observer, {}};
+  observer.OnPlan(PlanRun(sequence, options, run.size));
   const TsdfVolume volume = FuseVolume(sequence, run);
   Reconstruction result = ReconstructThinParts(volume, sequence, run);
   if (!useless_colour.empty()) result.warnings.push_back(useless_colour);
@@ -287,6 +308,7 @@ Reconstruction Reconstruct(const Sequence& sequence, const PipelineOptions& give
 Reconstruction ReconstructAgainst(const TsdfVolume& volume, const Sequence& sequence,
                                   const PipelineOptions& options, PipelineObserver& observer) {
   RunContext run{options, observer, {}};
+  observer.OnPlan(PlanRun(sequence, options, run.size));
   return ReconstructThinParts(volume, sequence, run);
 }
 

@@ -6,16 +6,19 @@
 
 #include "capture/sequence.h"
 #include "fusion/adjustment/colour_adjustment.h"
+#include "fusion/funnel.h"
 #include "fusion/registration/alignment.h"
 #include "fusion/registration/carried_points.h"
 #include "fusion/registration/frame_registration.h"
 #include "fusion/registration/skeleton_fusion.h"
+#include "fusion/run_plan.h"
 #include "fusion/segmentation/segmentation.h"
 #include "fusion/silhouettes/silhouette_topology.h"
 #include "fusion/silhouettes/view_evidence.h"
 #include "fusion/silhouettes/wire_completion.h"
 #include "fusion/stage_log.h"
 #include "fusion/strips/radius.h"
+#include "fusion/trust.h"
 #include "fusion/volume/tsdf_volume.h"
 #include "graph/l1_contraction.h"
 #include "graph/ridge_skeleton.h"
@@ -61,7 +64,10 @@ void VisitOptions(PipelineOptions& options, OptionVisitor& visitor);
 class PipelineObserver {
  public:
   virtual ~PipelineObserver() = default;
-  /// A stage is `done` of `total` steps far.
+  /// All stages of the run in their order, before the first, and again whenever their costs are
+  /// better known.
+  virtual void OnPlan(const std::vector<PlannedStage>& /*stages*/) {}
+  /// A stage is `done` of `total` steps far; it begins with done = 0.
   virtual void OnProgress(const std::string& /*stage*/, int64_t /*done*/, int64_t /*total*/) {}
   /// Intermediate point sets ("bundle_003_difference_set") in the world frame.
   virtual void OnPoints(const std::string& /*name*/, const ObservedPoints& /*points*/) {}
@@ -83,6 +89,8 @@ struct Reconstruction {
   /// colours, which corrects the colour camera's principal point too (as given otherwise).
   Sequence sequence;
   std::vector<StageReport> stages;
+  Funnel funnel;                      ///< what each rule took
+  Trust trust;                        ///< how far the result may be trusted
   std::vector<std::string> warnings;  ///< what the user should know, a sentence each
 };
 

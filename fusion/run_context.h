@@ -1,6 +1,8 @@
 #pragma once
 
+#include "fusion/funnel.h"
 #include "fusion/pipeline.h"
+#include "fusion/run_plan.h"
 #include "fusion/segmentation/colour_gate.h"
 #include "fusion/stage_log.h"
 
@@ -12,6 +14,8 @@ struct RunContext {
   const PipelineOptions& options;
   PipelineObserver& observer;
   StageLog log;
+  Funnel funnel = {};
+  RunSize size = {};
   double row_spacing = 0;    ///< of close wires, metres; 0 where there are none
   double row_diameter = 0;   ///< of theirs, metres, roughly
   WireColours colours;       ///< of wires and background, as first learned

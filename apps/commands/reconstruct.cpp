@@ -138,7 +138,7 @@ int RunReconstruct(const ReconstructArguments& arguments) {
   ProgressPrinter printer = MakeProgressPrinter(arguments.run.quiet);
   RunObserver observer(printer, arguments.stages);
   const Reconstruction reconstruction = Reconstruct(sequence, config.pipeline, observer);
-  printer.Finish();
+  printer.Report(kWritingStage, 0, 1);
   ThrowIfCancelled();
 
   RunRecord record{sequence, config, reconstruction, {}, 0, 0, fitted};
@@ -149,6 +149,7 @@ int RunReconstruct(const ReconstructArguments& arguments) {
   } else {
     output.AddNothingFound([&](const fs::path& folder) { WriteReport(record, start, folder); });
   }
+  printer.Finish();
   if (!arguments.run.quiet) fmt::print("{}", Summary(record, output.path(), report));
   return found ? 0 : kNothingThin;
 }
@@ -178,7 +179,7 @@ void AddReconstructCommand(CLI::App& app, int& exit_code) {
   command->add_option("--save-stages", arguments->stages.folder,
                       "Folder for the points and curves of every step, as PLY");
   command->add_option("--save-volume", arguments->stages.volume,
-                      "PLY file for the surface of large objects");
+                      "Mesh file for the surface of large objects: .ply, .obj, .stl, .glb or .3mf");
   command->footer(
       "Example:\n  curvefusion reconstruct scan -o result\n"
       "  curvefusion reconstruct scan -o result --profile paper --set volume.voxel_size=0.01\n"

@@ -57,6 +57,7 @@ class BundleDifferenceSet {
   std::vector<ObservedPoints> FramePoints(const std::vector<int>& voxels) const;
 
   int frame_count() const { return frame_count_; }
+  size_t voxel_count() const { return voxels_.size(); }
 
  private:
   // What one frame saw of one voxel.

@@ -1,6 +1,7 @@
 #include "fusion/segmentation/ghost_removal.h"
 
 #include <algorithm>
+#include <numeric>
 #include <vector>
 
 #include "kernel/dbscan.h"
@@ -69,6 +70,13 @@ bool IsNear(const std::vector<Vec3>& points, const PointGrid& others, double dis
                      [&](const Vec3& p) { return others.Nearest(p, distance) >= 0; });
 }
 
+int64_t CountPoints(const std::vector<Cluster>& clusters) {
+  return std::accumulate(clusters.begin(), clusters.end(), int64_t{0},
+                         [](int64_t sum, const Cluster& cluster) {
+                           return sum + static_cast<int64_t>(cluster.size());
+                         });
+}
+
 // Clusters within isolation_distance of a larger cluster that stays, and large ones that colour
 // verifies all around; the largest always stays.
 std::vector<Cluster> WithoutIsolated(const BundlePoints& bundle, std::vector<Cluster> clusters,
@@ -125,15 +133,23 @@ void VisitOptions(GhostRemovalOptions& options, OptionVisitor& visitor) {
                 options.verified_outline);
 }
 
-BundlePoints RemoveGhosts(const BundlePoints& bundle, const GhostRemovalOptions& options) {
+BundlePoints RemoveGhosts(const BundlePoints& bundle, const GhostRemovalOptions& options,
+                          PointFunnel* funnel) {
   std::vector<Cluster> clusters = LargeClusters(bundle.points.positions, options);
+  const int64_t clustered = CountPoints(clusters);
   const auto unverified = [&](const Cluster& cluster) {
     return !IsVerified(bundle, cluster, options);
   };
   clusters.erase(std::remove_if(clusters.begin(), clusters.end(), unverified), clusters.end());
+  const int64_t verified = CountPoints(clusters);
   std::vector<int> kept;
   for (const Cluster& cluster : WithoutIsolated(bundle, std::move(clusters), options)) {
     kept.insert(kept.end(), cluster.begin(), cluster.end());
+  }
+  if (funnel != nullptr) {
+    funnel->small_clusters += static_cast<int64_t>(bundle.points.size()) - clustered;
+    funnel->unverified += clustered - verified;
+    funnel->isolated += verified - static_cast<int64_t>(kept.size());
   }
   std::sort(kept.begin(), kept.end());
   BundlePoints remaining;

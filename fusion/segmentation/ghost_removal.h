@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fusion/funnel.h"
 #include "fusion/segmentation/bundle.h"
 #include "kernel/options.h"
 
@@ -24,7 +25,9 @@ void VisitOptions(GhostRemovalOptions& options, OptionVisitor& visitor);
 /// deletes an object that is alone because the segmentation was clean, so isolation is measured to
 /// larger clusters only: the largest one always stays, and so do parts of the same object between
 /// which wires have no depth, clusters of at least a twentieth of the largest one's points of whose
-/// outline `isolated_outline` lies on colour edges.
-BundlePoints RemoveGhosts(const BundlePoints& bundle, const GhostRemovalOptions& options);
+/// outline `isolated_outline` lies on colour edges. What each rule drops is added to `funnel`, if
+/// any.
+BundlePoints RemoveGhosts(const BundlePoints& bundle, const GhostRemovalOptions& options,
+                          PointFunnel* funnel = nullptr);
 
 }  // namespace curvefusion

@@ -28,7 +28,31 @@ constexpr int kCrowdedStride = 2;
 struct SegmentedFrame {
   WireCandidates candidates;
   MaskImage on_edge;
+  PointFunnel funnel;  // of its pixels
 };
+
+int64_t CountSet(const MaskImage& mask) {
+  return std::count_if(mask.data(), mask.data() + mask.size(), [](uint8_t set) { return set; });
+}
+
+int64_t CountMeasured(const DepthImage& depth) {
+  return std::count_if(depth.data(), depth.data() + depth.size(), [](float z) { return z > 0; });
+}
+
+// Mean of the largest less the least of R, G and B, of every 64th pixel.
+double Chroma(const ColorImage& color) {
+  constexpr int kStep = 8;
+  int64_t sum = 0, count = 0;
+  for (int v = 0; v < color.height(); v += kStep) {
+    for (int u = 0; u < color.width(); u += kStep) {
+      const auto& pixel = color(u, v);
+      const auto [least, most] = std::minmax({pixel[0], pixel[1], pixel[2]});
+      sum += most - least;
+      ++count;
+    }
+  }
+  return count > 0 ? static_cast<double>(sum) / static_cast<double>(count) : 0;
+}
 
 // Grilles are seen through.
 void MarkOpen(const MaskImage& grilles, DepthImage& solidity) {
@@ -71,12 +95,17 @@ SegmentedFrame SegmentFrame(const Sequence& sequence, int frame, const TsdfVolum
   SegmentedFrame segmented;
   segmented.candidates = FindCandidates(sequence, frame, volume, model, options);
   WireCandidates& candidates = segmented.candidates;
+  segmented.funnel.frames = 1;
+  segmented.funnel.chroma = Chroma(candidates.color);
+  segmented.funnel.depth_pixels = CountMeasured(candidates.depth);
+  segmented.funnel.thin_pixels = CountSet(candidates.mask);
   if (options.gate.frames > 0) GateByColour(model.colours, sequence, options.gate, candidates);
   const MaskImage edges = ColourEdges(candidates.color, options.edges);
   segmented.on_edge =
       MaskPixelsOnEdges(candidates.mask, candidates.depth, edges, sequence.depth_camera,
                         sequence.color_camera, sequence.T_color_depth, options.edges);
   if (model.row_spacing > 0) ThinToCrests(model.colours, sequence, candidates);
+  segmented.funnel.gated_pixels = CountSet(candidates.mask);
   return segmented;
 }
 
@@ -98,9 +127,7 @@ double MeasuredShare(const Sequence& sequence, const std::vector<int>& frames) {
   std::vector<double> shares(frames.size());
   ParallelFor(0, static_cast<int64_t>(frames.size()), 1, [&](int64_t i) {
     const DepthImage depth = LoadDepth(sequence, frames[i]);
-    const auto measured =
-        std::count_if(depth.data(), depth.data() + depth.size(), [](float z) { return z > 0; });
-    shares[i] = static_cast<double>(measured) / static_cast<double>(depth.size());
+    shares[i] = static_cast<double>(CountMeasured(depth)) / static_cast<double>(depth.size());
   });
   return Mean(shares);
 }
@@ -236,7 +263,8 @@ SegmentationModel LearnSegmentation(const Sequence& sequence, const TsdfVolume& 
 
 SegmentedBundle SegmentBundle(const Sequence& sequence, int first, int last,
                               const TsdfVolume& volume, const SegmentationModel& model,
-                              const SegmentationOptions& options) {
+                              const SegmentationOptions& options,
+                              const std::function<void()>& on_frame) {
   SegmentedBundle segmented;
   segmented.T_world_bundle = sequence.frames[first].T_world_camera;
   // A point is seen in so many times fewer frames.
@@ -251,16 +279,22 @@ SegmentedBundle SegmentBundle(const Sequence& sequence, int first, int last,
         std::span(frames).subspan(start, std::min(kFramesAtOnce, frames.size() - start));
     ParallelFor(0, static_cast<int64_t>(at_once.size()), 1, [&](int64_t i) {
       window[i] = SegmentFrame(sequence, at_once[i], volume, model, options);
+      on_frame();
     });
     for (size_t i = 0; i < at_once.size(); ++i) {
-      const auto& [candidates, on_edge] = window[i];
+      const auto& [candidates, on_edge, funnel] = window[i];
+      segmented.funnel.Add(funnel);
       difference_set.AddFrame(
           candidates.mask, on_edge, candidates.depth, sequence.depth_camera,
           segmented.T_world_bundle.inverse() * sequence.frames[at_once[i]].T_world_camera);
     }
   }
   BundlePoints candidates = difference_set.Points();
-  BundlePoints remaining = RemoveGhosts(candidates, options.ghosts);
+  PointFunnel& funnel = segmented.funnel;
+  funnel.merged_points = static_cast<int64_t>(difference_set.voxel_count());
+  funnel.too_few_frames = funnel.merged_points - static_cast<int64_t>(candidates.points.size());
+  BundlePoints remaining = RemoveGhosts(candidates, options.ghosts, &funnel);
+  funnel.points = static_cast<int64_t>(remaining.points.size());
   std::vector<ObservedPoints> seen = difference_set.FramePoints(remaining.voxels);
   segmented.frames.resize(last - first);
   for (size_t i = 0; i < frames.size(); ++i)

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <functional>
 #include <utility>
 
 #include "capture/sequence.h"
+#include "fusion/funnel.h"
 #include "fusion/segmentation/bundle.h"
 #include "fusion/segmentation/colour_gate.h"
 #include "fusion/segmentation/colour_verification.h"
@@ -55,12 +57,15 @@ struct SegmentedBundle {
   std::vector<ObservedPoints> frames;  ///< what each frame saw of `points`, likewise; nothing where
                                        ///< it was left out
   RigidTransform T_world_bundle;       ///< pose of the first camera
+  PointFunnel funnel;
 };
 
-/// Segments frames [first, last) of a sequence against the volume of all frames.
+/// Segments frames [first, last) of a sequence against the volume of all frames. `on_frame` is
+/// called for every one that is done, from any thread.
 /// Throws Error(kBadInput) for an image that cannot be read.
 SegmentedBundle SegmentBundle(const Sequence& sequence, int first, int last,
                               const TsdfVolume& volume, const SegmentationModel& model,
-                              const SegmentationOptions& options);
+                              const SegmentationOptions& options,
+                              const std::function<void()>& on_frame);
 
 }  // namespace curvefusion

@@ -287,8 +287,9 @@ void AssignRadii(const RadiusEstimate& estimate, const RadiusOptions& options,
   }
 }
 
-void DropThickParts(const RadiusOptions& options, SkeletonGraph& skeleton) {
-  if (options.max_mean_diameter == 0) return;
+DroppedParts DropThickParts(const RadiusOptions& options, SkeletonGraph& skeleton) {
+  DroppedParts dropped;
+  if (options.max_mean_diameter == 0) return dropped;
   for (const std::vector<EdgeId>& part : ConnectedEdges(skeleton)) {
     double length = 0;
     double diameters = 0;  // times length
@@ -301,9 +302,13 @@ void DropThickParts(const RadiusOptions& options, SkeletonGraph& skeleton) {
     }
     if (length > 0 && diameters <= options.max_mean_diameter * length) continue;
     if (length == 0 && !options.drop_unmeasured) continue;
-    for (const EdgeId id : part) skeleton.RemoveEdge(id);
+    for (const EdgeId id : part) {
+      (length > 0 ? dropped.thick : dropped.without_radii) += Length(skeleton.edge(id).points);
+      skeleton.RemoveEdge(id);
+    }
   }
   skeleton.RemoveIsolatedNodes();
+  return dropped;
 }
 
 void VisitOptions(RadiusOptions& options, OptionVisitor& visitor) {

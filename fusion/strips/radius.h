@@ -90,7 +90,11 @@ void AssignRadii(const RadiusEstimate& estimate, const RadiusOptions& options,
 /// Removes connected parts that are on average thicker than options.max_mean_diameter: no thin
 /// structures but strips of larger surfaces that only some views show. With
 /// options.drop_unmeasured parts without radii are removed too: where the images show no strip at
-/// all there is no wire. AssignRadii comes before.
-void DropThickParts(const RadiusOptions& options, SkeletonGraph& skeleton);
+/// all there is no wire. AssignRadii comes before. Returns what was removed.
+struct DroppedParts {
+  double thick = 0;          ///< metres
+  double without_radii = 0;  ///< metres
+};
+DroppedParts DropThickParts(const RadiusOptions& options, SkeletonGraph& skeleton);
 
 }  // namespace curvefusion

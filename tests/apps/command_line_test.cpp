@@ -2,8 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <random>
 #include <sstream>
 #include <string>
 
@@ -23,6 +27,52 @@ TEST_F(CommandLine, HelpAndVersionAreDone) {
     const Outcome help = Run(std::string(command) + " --help");
     EXPECT_EQ(help.exit_code, 0) << command;
     EXPECT_THAT(help.output, HasSubstr(std::string("Example:\n  curvefusion ") + command));
+  }
+}
+
+TEST_F(CommandLine, HelpWorksAsAWord) {
+  EXPECT_EQ(Run("help").output, Run("--help").output);
+  EXPECT_EQ(Run("help mesh").output, Run("mesh --help").output);
+  EXPECT_EQ(Run("help mesh").exit_code, 0);
+  const Outcome mistyped = Run("help mehs");
+  EXPECT_EQ(mistyped.exit_code, 2);
+  EXPECT_THAT(mistyped.output, HasSubstr("did you mean mesh?"));
+}
+
+TEST_F(CommandLine, UnitsOfMeshesAreListedAsTheyAreWritten) {
+  EXPECT_THAT(Run("mesh --help").output, HasSubstr("{m,mm}"));
+  const Outcome wrong = Run("mesh a.json -o a.ply --unit cm");
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_THAT(wrong.output, HasSubstr("cm not in {m,mm}"));
+}
+
+// None of the inputs is there: the format is refused before anything is read.
+TEST_F(CommandLine, FilesOfUnknownFormatsAreRefusedBeforeWork) {
+  const std::string graphs = ".json, .graphml, .swc, .ply, .obj or .dxf";
+  const std::string meshes = ".ply, .obj, .stl, .glb or .3mf";
+  for (const auto& [command, choices] :
+       std::map<std::string, std::string>{{"contract cloud.ply -o x.txt", graphs},
+                                          {"graph a.json --convert x.txt", graphs},
+                                          {"graph a.json --smooth 60 -o x.txt", graphs},
+                                          {"mesh a.json -o x.txt", meshes}}) {
+    const Outcome outcome = Run(command);
+    EXPECT_EQ(outcome.exit_code, 2) << command;
+    EXPECT_THAT(outcome.output, HasSubstr("x.txt")) << command;
+    EXPECT_THAT(outcome.output, HasSubstr(choices)) << command;
+  }
+  ASSERT_EQ(SimulateCube(1).exit_code, 0);
+  EXPECT_EQ(Run("reconstruct scan -o out --save-volume x.txt").exit_code, 2);
+}
+
+TEST_F(CommandLine, CheckPrintsOneJsonObject) {
+  ASSERT_EQ(SimulateCube(3).exit_code, 0);
+  for (const char* scan : {"scan", "none"}) {
+    RunShell("'" CURVEFUSION_PROGRAM "' check --json " + std::string(scan) +
+             " >output.txt 2>errors.txt");
+    const auto json = nlohmann::json::parse(Text("output.txt"), nullptr, false);
+    ASSERT_FALSE(json.is_discarded()) << Text("output.txt");
+    EXPECT_EQ(json["figures"]["frames"], std::string(scan) == "scan" ? 3 : 0);
+    EXPECT_EQ(json["usable"], std::string(scan) == "scan");
   }
 }
 
@@ -135,6 +185,33 @@ TEST_F(CommandLine, AnInterruptedRunIs130AndLeavesNoResult) {
   EXPECT_EQ(outcome.exit_code, 130);
   EXPECT_THAT(outcome.output, HasSubstr("interrupted"));
   EXPECT_EQ(CountFiles("out", "."), 0);
+}
+
+TEST_F(CommandLine, AnInterruptedSimulationLeavesNothing) {
+  const auto start = std::chrono::steady_clock::now();
+  // Some minutes of frames.
+  const Outcome outcome = RunAndInterrupt("simulate cage -o scan --frames 5000", "scan.partial-*");
+  EXPECT_EQ(outcome.exit_code, 130);
+  EXPECT_THAT(outcome.output, HasSubstr("interrupted"));
+  EXPECT_EQ(CountFiles(".", "scan"), 0);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
+}
+
+// The L1 axis of a cube full of points takes minutes, beyond the time limit of tests, and shows no
+// progress.
+TEST_F(CommandLine, ALongComputationWithoutProgressIsInterrupted) {
+  std::ofstream cloud(folder_ / "cloud.xyz");
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> coordinate(0, 0.5);
+  for (int i = 0; i < 300'000; ++i) {
+    cloud << coordinate(random) << ' ' << coordinate(random) << ' ' << coordinate(random) << '\n';
+  }
+  cloud.close();
+  // The folder is made right before the computation.
+  const Outcome outcome =
+      RunAndInterrupt("contract cloud.xyz -o made/a.json --method l1 --neighbourhood 50", "made");
+  EXPECT_EQ(outcome.exit_code, 130);
+  EXPECT_EQ(CountFiles(".", "a.json"), 0);
 }
 
 TEST_F(CommandLine, TheConfigItPrintsIsTheConfigItReads) {

@@ -52,17 +52,31 @@ TEST(ProgressPrinter, ALogGetsALinePerStageAndEveryTenSeconds) {
   EXPECT_THAT(text, Not(HasSubstr("\033")));
 }
 
-TEST(ProgressPrinter, AStageThatReportsLateBeganWhenTheOneBeforeEnded) {
-  FakeRun run(ProgressPrinter::Style::kLines);
+TEST(ProgressPrinter, AStageThatReportsOnlyItsBeginningLastsUntilTheNext) {
+  FakeRun run(ProgressPrinter::Style::kTerminal);
+  run.printer.Report("volume", 0, 1);
+  EXPECT_THAT(run.stream.str(), HasSubstr("volume"));  // shown while it runs
   run.now = 2;
-  run.printer.Report("volume", 1, 1);
-  run.now = 5;
-  run.printer.Report("segmentation", 1, 2);
+  run.printer.Report("segmentation", 0, 2);
+  EXPECT_THAT(run.stream.str(), HasSubstr("segmentation"));
   run.now = 8;
-  run.printer.Report("segmentation", 2, 2);
   run.printer.Finish();
   EXPECT_THAT(run.stream.str(), HasSubstr("2.0 s"));
   EXPECT_THAT(run.stream.str(), HasSubstr("6.0 s"));
+}
+
+TEST(ProgressPrinter, WithAPlanTheTimeLeftIsThatOfTheRun) {
+  FakeRun run(ProgressPrinter::Style::kTerminal);
+  run.printer.Plan({{"volume", 10}, {"segmentation", 30}, {"contraction", 10}});
+  run.printer.Report("volume", 0, 100);
+  run.now = 10;
+  run.printer.Report("volume", 50, 100);
+  // Twice as slow as planned: 10 s of the volume, 60 and 20 s of what follows.
+  EXPECT_THAT(run.stream.str(), HasSubstr("50 of 100"));
+  EXPECT_THAT(run.stream.str(), HasSubstr("10 % of the run, 1 min 30 s left"));
+  run.now = 20;
+  run.printer.Report("contraction", 0, 1);  // the segmentation was left out
+  EXPECT_THAT(run.stream.str(), HasSubstr("50 % of the run, 20 s left"));
 }
 
 TEST(ProgressPrinter, QuietPrintsNothing) {

@@ -115,6 +115,16 @@ TEST(Summary, NamesFindingsFilesAndWarnings) {
   EXPECT_THAT(summary, HasSubstr("warning: One wire is thinner than a pixel."));
 }
 
+TEST(Summary, TellsEveryWarningOnce) {
+  YRun run;
+  run.reconstruction.warnings.insert(run.reconstruction.warnings.begin(), run.sequence.warnings[0]);
+  const std::string summary = Summary(run.Record(), "out");
+  const size_t first = summary.find("Two frames have no pose.");
+  ASSERT_NE(first, std::string::npos);
+  EXPECT_EQ(summary.find("Two frames have no pose.", first + 1), std::string::npos);
+  EXPECT_EQ(nlohmann::json::parse(ReportJson(run.Record()))["warnings"].size(), 3u);
+}
+
 TEST(Summary, OfNothingNamesNoFilesThatAreNotThere) {
   YRun run;
   run.reconstruction.skeleton = SkeletonGraph();

@@ -61,6 +61,19 @@ TEST(RemoveGhosts, DropsWhatColourDoesNotVerify) {
   EXPECT_TRUE(RemoveGhosts(bundle, strict).points.empty());
 }
 
+TEST(RemoveGhosts, TellsWhatEachRuleDropped) {
+  BundlePoints bundle;
+  AddLine(bundle, {0, 0, 1}, 100, 1);
+  AddLine(bundle, {0, 0.05, 1}, 9, 1);    // small
+  AddLine(bundle, {0, 0.10, 1}, 30, 10);  // unverified
+  AddLine(bundle, {0, 0.5, 1}, 20, 1);    // isolated
+  PointFunnel funnel;
+  EXPECT_EQ(RemoveGhosts(bundle, {}, &funnel).points.size(), 100u);
+  EXPECT_EQ(funnel.small_clusters, 9);
+  EXPECT_EQ(funnel.unverified, 30);
+  EXPECT_EQ(funnel.isolated, 20);
+}
+
 TEST(RemoveGhosts, EmptyStaysEmpty) { EXPECT_TRUE(RemoveGhosts({}, {}).points.empty()); }
 
 }  // namespace

@@ -53,7 +53,7 @@ class WireBefore {
     options.difference.accept_where_nothing_rendered = false;
     const TsdfVolume volume{TsdfOptions{}};
     const SegmentationModel model = LearnSegmentation(sequence_, volume, options);
-    return SegmentBundle(sequence_, 0, 10, volume, model, options);
+    return SegmentBundle(sequence_, 0, 10, volume, model, options, [] {});
   }
 
   size_t PointsFound(double min_measured_share) const {

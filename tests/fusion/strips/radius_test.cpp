@@ -279,8 +279,10 @@ TEST(DropThickParts, DropsWhatNoStripWasFoundOf) {
   DropThickParts(options, skeleton);
   EXPECT_EQ(skeleton.edge_count(), 1);
   options.drop_unmeasured = true;
-  DropThickParts(options, skeleton);
+  const DroppedParts dropped = DropThickParts(options, skeleton);
   EXPECT_TRUE(skeleton.empty());
+  EXPECT_DOUBLE_EQ(dropped.without_radii, 0.1);
+  EXPECT_EQ(dropped.thick, 0);
 }
 
 TEST(DropThickParts, KeepsThickWiresOfThinObjects) {
@@ -302,8 +304,9 @@ TEST(DropThickParts, KeepsThickWiresOfThinObjects) {
   DropThickParts(options, skeleton);
   EXPECT_EQ(skeleton.edge_count(), 3);  // 0: any thickness
   options.max_mean_diameter = 0.016;
-  DropThickParts(options, skeleton);
+  const DroppedParts dropped = DropThickParts(options, skeleton);
   EXPECT_EQ(skeleton.Edges(), (std::vector<EdgeId>{thick, thin}));  // 8 mm on average
+  EXPECT_NEAR(dropped.thick, 0.1, 1e-15);                           // the third, rounded
 }
 
 }  // namespace

@@ -1,0 +1,63 @@
+#include "apps/run_estimate.h"
+
+#include <algorithm>
+
+namespace curvefusion {
+
+namespace {
+
+// Seconds before the speed of this machine is known well enough: a volume of 24 frames takes .35.
+constexpr double kEarliest = 0.25;
+// Once so much of a stage is done its own speed is known, chosen on the scans of docs/results.md.
+constexpr double kSureShare = 0.1;
+
+}  // namespace
+
+void RunEstimate::Plan(const std::vector<PlannedStage>& stages) { plan_ = stages; }
+
+double RunEstimate::Cost() const {
+  return is_planned_ && next_ <= plan_.size() ? plan_[next_ - 1].cost : 0;
+}
+
+void RunEstimate::Begin(const std::string& stage, double now) {
+  if (!stage_.empty()) {
+    planned_ += Cost();
+    taken_ += now - start_;
+  }
+  stage_ = stage;
+  start_ = now;
+  const auto from = plan_.begin() + static_cast<std::ptrdiff_t>(std::min(next_, plan_.size()));
+  const auto planned = std::find_if(
+      from, plan_.end(), [&](const PlannedStage& candidate) { return candidate.name == stage; });
+  is_planned_ = planned != plan_.end();
+  if (is_planned_) next_ = static_cast<size_t>(planned - plan_.begin()) + 1;
+}
+
+void RunEstimate::Report(const std::string& stage, int64_t done, int64_t total, double now) {
+  if (stage != stage_ || done < done_) Begin(stage, now);
+  done_ = done;
+  share_ = total > 0 ? static_cast<double>(done) / static_cast<double>(total) : 0;
+}
+
+double RunEstimate::Rate(double now) const {
+  const double running = share_ > 0 ? now - start_ : 0;
+  const double planned = planned_ + share_ * Cost();
+  return planned > 0 && taken_ + running >= kEarliest ? (taken_ + running) / planned : 0;
+}
+
+std::optional<double> RunEstimate::SecondsLeft(double now) const {
+  const double rate = Rate(now);
+  if (rate <= 0) return std::nullopt;
+  double ahead = 0;
+  for (size_t i = next_; i < plan_.size(); ++i) ahead += plan_[i].cost;
+  // How long the stage that runs takes may be up to the scan, not to the machine.
+  const double rate_ahead = planned_ > 0 && taken_ >= kEarliest ? taken_ / planned_ : rate;
+  const double elapsed = now - start_;
+  if (share_ <= 0) return rate_ahead * ahead + std::max(0.0, Cost() * rate - elapsed);
+  const double as_planned = (1 - share_) * Cost() * rate;
+  const double by_itself = elapsed * (1 - share_) / share_;
+  const double trust = std::min(1.0, share_ / kSureShare);
+  return rate_ahead * ahead + trust * by_itself + (1 - trust) * as_planned;
+}
+
+}  // namespace curvefusion

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fusion/run_plan.h"
+
+namespace curvefusion {
+
+/// How long a run of several stages goes on: expected costs of the stages, times how much slower or
+/// faster those so far were than expected.
+class RunEstimate {
+ public:
+  /// All stages of the run in their order. May be told again with costs that are better known.
+  void Plan(const std::vector<PlannedStage>& stages);
+
+  /// A stage is `done` of `total` steps far, `now` seconds after any moment. Where it is another
+  /// one than before, those planned before it are taken for left out.
+  void Report(const std::string& stage, int64_t done, int64_t total, double now);
+
+  /// Seconds to the end of the last planned stage; nothing before anything is known.
+  std::optional<double> SecondsLeft(double now) const;
+
+ private:
+  void Begin(const std::string& stage, double now);
+  double Cost() const;  // of the stage that runs
+  double Rate(double now) const;
+
+  std::vector<PlannedStage> plan_;
+  size_t next_ = 0;          // in the plan: the first that has not begun
+  bool is_planned_ = false;  // whether the stage that runs is in the plan, the one before `next_`
+  double start_ = 0;
+  double share_ = 0;  // of it that is done; 0 where it does not tell
+  std::string stage_;
+  int64_t done_ = 0;
+  // Of stages that are over:
+  double planned_ = 0;
+  double taken_ = 0;
+};
+
+}  // namespace curvefusion

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace curvefusion {
+
+struct Sequence;
+struct Reconstruction;
+
+/// How far a result may be trusted. Shares are of the length of its curves.
+struct Trust {
+  double length = 0;          ///< metres
+  double measured_share = 0;  ///< on edges with a measured diameter
+  double depth_share = 0;     ///< seen in most of the depth images that looked there
+  double colour_share = 0;    ///< near a strip that colour images show
+  bool adjusted = false;      ///< whether curves and poses were adjusted to colours
+  double residual_before_px =
+      0;                      ///< of curves in colour images, before the adjustment; 0 = unknown
+  double residual_px = 0;     ///< after it; 0 = unknown
+  double pose_shift = 0;      ///< metres: by which poses were moved, median over frames
+  double max_pose_shift = 0;  ///< metres
+  double pose_turn = 0;       ///< radians, median
+};
+
+/// Adds shares and poses to result.trust, which holds what the adjustment to colours told. `given`
+/// has the poses of the input.
+Trust MeasureTrust(const Sequence& given, const Reconstruction& result);
+
+/// Why the result cannot be trusted, a sentence each; empty where nothing speaks against it, or
+/// where there is no result.
+std::vector<std::string> Doubts(const Trust& trust);
+
+}  // namespace curvefusion

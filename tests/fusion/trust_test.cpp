@@ -1,0 +1,76 @@
+#include "fusion/trust.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include "fusion/pipeline.h"
+
+namespace curvefusion {
+namespace {
+
+// Two straight edges of 100 mm in steps of 10 mm, with evidence for the first one.
+struct TwoEdges {
+  Sequence given;
+  Reconstruction result;
+  std::vector<EdgeId> edges;
+
+  TwoEdges() {
+    for (const double y : {0.0, 0.5}) {
+      Polyline points;
+      for (int i = 0; i <= 10; ++i) points.emplace_back(0.01 * i, y, 0);
+      edges.push_back(result.skeleton.AddPolyline(points));
+    }
+    given.frames.resize(3);
+    for (SequenceFrame& frame : given.frames) frame.T_world_camera.setIdentity();
+    result.sequence = given;
+    result.radii.edges = {{edges[0], 0.002, 0.0001, 12, {}}, {edges[1], 0, 0, 2, {}}};
+    result.views.edges = {{edges[0], std::vector<ViewCount>(11, {10, 9})},
+                          {edges[1], std::vector<ViewCount>(11, {10, 4})}};
+  }
+  Trust Measure() const { return MeasureTrust(given, result); }
+};
+
+TEST(Trust, SharesAreOfTheLength) {
+  TwoEdges two;
+  const Trust trust = two.Measure();
+  EXPECT_NEAR(trust.length, 0.2, 1e-12);  // rounding of twenty additions
+  EXPECT_NEAR(trust.measured_share, 0.5, 1e-12);
+  EXPECT_NEAR(trust.depth_share, 0.5, 1e-12);
+  EXPECT_EQ(trust.colour_share, 0);
+}
+
+TEST(Trust, AStripSpeaksForTheCurveAroundIt) {
+  TwoEdges two;
+  // For the points at 40, 50 and 60 mm: 30 of 200 mm.
+  two.result.radii.strips = {{two.edges[1], 0.05, 0, 0.004}};
+  EXPECT_NEAR(two.Measure().colour_share, 0.15, 1e-12);
+}
+
+TEST(Trust, TellsHowFarPosesWereMoved) {
+  TwoEdges two;
+  two.result.sequence.frames[1].T_world_camera.translation() = Vec3(0.003, 0, 0);
+  two.result.sequence.frames[2].T_world_camera.translation() = Vec3(0, 0.008, 0);
+  for (const int i : {1, 2}) {
+    two.result.sequence.frames[i].T_world_camera.linear() =
+        Eigen::AngleAxisd(0.01, Vec3::UnitZ()).toRotationMatrix();
+  }
+  const Trust trust = two.Measure();
+  EXPECT_NEAR(trust.pose_shift, 0.003, 1e-12);
+  EXPECT_NEAR(trust.max_pose_shift, 0.008, 1e-12);
+  EXPECT_NEAR(trust.pose_turn, 0.01, 1e-9);
+}
+
+TEST(Trust, IsDoubtedWhereHardlyAnyDiameterWasMeasured) {
+  TwoEdges two;
+  Trust trust = two.Measure();
+  trust.measured_share = 0.17;
+  ASSERT_EQ(Doubts(trust).size(), 1u);
+  EXPECT_NE(Doubts(trust)[0].find("17 %"), std::string::npos);
+  trust.measured_share = 0.9;
+  EXPECT_TRUE(Doubts(trust).empty());
+  EXPECT_TRUE(Doubts(Trust()).empty());  // no result: nothing to doubt
+}
+
+}  // namespace
+}  // namespace curvefusion
