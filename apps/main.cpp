@@ -10,6 +10,7 @@
 #include "apps/commands/command.h"
 #include "apps/failure.h"
 #include "apps/interrupt.h"
+#include "apps/memory_reserve.h"
 #include "kernel/error.h"
 #include "kernel/options.h"
 
@@ -94,5 +95,6 @@ int main(int argc, char** argv) {
   curvefusion::CatchInterrupts();
   curvefusion::IgnoreWriteSignals();
   curvefusion::KeepFreedMemory();
+  curvefusion::SetMemoryAside();
   return curvefusion::Run(argc, argv);
 }

@@ -4,6 +4,7 @@
 //   FAULT_FIRST  number of the first that fails, from 1; 0: none, they are only counted
 //   FAULT_COUNT  how many fail from there on; 0: for allocations, all until something is freed, and
 //                for writes, all that need room on a device
+//   FAULT_BYTES  allocations below this size are not counted and never fail
 //   FAULT_ERRNO  what a failing write says (a failing allocation says ENOMEM)
 //   FAULT_LOG    file that tells "failed NUMBER NAME" of the first that failed, and at the end of
 //                the program "total NUMBER"
@@ -42,6 +43,7 @@ struct Plan {
   Kind kind = Kind::kNone;
   long first = 0;
   long count = 1;
+  size_t least_bytes = 0;
   int error = ENOSPC;
 };
 Plan plan;
@@ -88,6 +90,10 @@ bool Fails(Kind kind, const char* name, bool needs_room = true) {
   }
   errno = kind == Kind::kWrite ? plan.error : ENOMEM;
   return true;
+}
+
+bool FailsToAllocate(size_t bytes, const char* name) {
+  return bytes >= plan.least_bytes && Fails(Kind::kAllocation, name);
 }
 
 template <class Function>
@@ -144,6 +150,7 @@ int CountedMain(int argc, char** argv, char** environment) {
     plan.kind = std::strcmp(kind, "write") == 0 ? Kind::kWrite : Kind::kAllocation;
   plan.first = Number("FAULT_FIRST", 0);
   plan.count = Number("FAULT_COUNT", 1);
+  plan.least_bytes = static_cast<size_t>(Number("FAULT_BYTES", 0));
   plan.error = static_cast<int>(Number("FAULT_ERRNO", ENOSPC));
   counts = true;
   const int result = program_main(argc, argv, environment);
@@ -170,27 +177,27 @@ int __libc_start_main(int (*main)(int, char**, char**), int argc, char** argv, v
 // Allocations. operator new calls malloc or aligned_alloc.
 
 void* malloc(size_t size) {
-  return Fails(Kind::kAllocation, "malloc") ? nullptr : __libc_malloc(size);
+  return FailsToAllocate(size, "malloc") ? nullptr : __libc_malloc(size);
 }
 
 void* calloc(size_t count, size_t size) {
-  return Fails(Kind::kAllocation, "calloc") ? nullptr : __libc_calloc(count, size);
+  return FailsToAllocate(count * size, "calloc") ? nullptr : __libc_calloc(count, size);
 }
 
 void* realloc(void* block, size_t size) {
-  return Fails(Kind::kAllocation, "realloc") ? nullptr : __libc_realloc(block, size);
+  return FailsToAllocate(size, "realloc") ? nullptr : __libc_realloc(block, size);
 }
 
 void* memalign(size_t alignment, size_t size) {
-  return Fails(Kind::kAllocation, "memalign") ? nullptr : __libc_memalign(alignment, size);
+  return FailsToAllocate(size, "memalign") ? nullptr : __libc_memalign(alignment, size);
 }
 
 void* aligned_alloc(size_t alignment, size_t size) {
-  return Fails(Kind::kAllocation, "aligned_alloc") ? nullptr : __libc_memalign(alignment, size);
+  return FailsToAllocate(size, "aligned_alloc") ? nullptr : __libc_memalign(alignment, size);
 }
 
 int posix_memalign(void** block, size_t alignment, size_t size) {
-  if (Fails(Kind::kAllocation, "posix_memalign")) return ENOMEM;
+  if (FailsToAllocate(size, "posix_memalign")) return ENOMEM;
   *block = __libc_memalign(alignment, size);
   return *block == nullptr ? ENOMEM : 0;
 }
@@ -201,7 +208,7 @@ void free(void* block) {
 }
 
 void* mmap(void* address, size_t length, int protection, int flags, int file, off_t offset) {
-  if (Fails(Kind::kAllocation, "mmap")) return MAP_FAILED;
+  if (FailsToAllocate(length, "mmap")) return MAP_FAILED;
   return reinterpret_cast<void*>(
       syscall(SYS_mmap, address, length, protection, flags, file, offset));
 }

@@ -31,10 +31,10 @@ class FaultTest : public testing::TestWithParam<WritingCommand> {
     references_ = folder_->MakeReferences(GetParam());
   }
 
-  // How many operations of this kind a run makes.
-  long Count(const std::string& kind) const {
+  // How many such operations a run makes.
+  long Count(const Disturbance& disturbance) const {
     folder_->Prepare({});
-    return folder_->Run(GetParam(), {.kind = kind}).operations;
+    return folder_->Run(GetParam(), disturbance).operations;
   }
 
   // Runs the command with this disturbance on an earlier result or on nothing.
@@ -85,7 +85,7 @@ std::set<long> Spread(long last, long wanted, std::mt19937& random) {
 class WriteFaultTest : public FaultTest {};
 
 TEST_P(WriteFaultTest, LeavesNothingHalfWritten) {
-  const long writes = Count("write");
+  const long writes = Count({.kind = "write"});
   ASSERT_GT(writes, 2) << "at least a file is opened, written and renamed";
   std::mt19937 random(1);
   // Each of reconstruct takes 0.6 s, of the others some hundredths.
@@ -105,21 +105,35 @@ TEST_P(WriteFaultTest, LeavesNothingHalfWritten) {
 class AllocationFaultTest : public FaultTest {};
 
 TEST_P(AllocationFaultTest, EndsWithExitCodeFive) {
-  const long allocations = Count("allocation");
+  const long allocations = Count({.kind = "allocation"});
   ASSERT_GT(allocations, 100);
   std::mt19937 random(2);
   const bool is_slow = GetParam().name == "reconstruct";
-  const long some = is_slow ? 6 : 3;
+  const long some = is_slow ? 4 : 2;
   const long many = is_slow ? 1000 : 300;
-  // Every third time all fail until something is freed.
   // The command line is taken apart early, where allocations are most unlike one another.
   std::set<long> numbers = Spread(allocations, TriesEverything() ? many : some, random);
   numbers.merge(Spread(std::min(allocations, 2000L), TriesEverything() ? 200 : 2, random));
   for (const long number : numbers) {
-    Try({.kind = "allocation", .first = number, .count = number % 3 == 0 ? 0 : 1},
-        GetParam().replaces && number % 2 == 0);
+    // One alone, or all until something is freed.
+    Try({.kind = "allocation", .first = number, .count = number % 2},
+        GetParam().replaces && number % 4 < 2);
   }
   Tell("allocations", allocations);
+}
+
+// What is small comes from what was freed before, what is large no longer comes at all: so ends a
+// limit on address space.
+TEST_P(AllocationFaultTest, EndsWithExitCodeFiveWhereOnlyLittleIsLeft) {
+  constexpr long kLarge = 1 << 16;
+  const long allocations = Count({.kind = "allocation", .least_bytes = kLarge});
+  std::mt19937 random(4);
+  const long some = GetParam().name == "reconstruct" ? 4 : 2;
+  for (const long number : Spread(allocations, TriesEverything() ? 200 : some, random)) {
+    Try({.kind = "allocation", .first = number, .count = allocations, .least_bytes = kLarge},
+        GetParam().replaces && number % 2 == 0);
+  }
+  Tell("large allocations", allocations);
 }
 
 const auto kName = [](const auto& parameter) { return parameter.param.name; };

@@ -38,6 +38,7 @@ void SetVariables(const Disturbance& disturbance, const fs::path& log) {
   setenv("FAULT_KIND", disturbance.kind.c_str(), 1);
   setenv("FAULT_FIRST", std::to_string(disturbance.first).c_str(), 1);
   setenv("FAULT_COUNT", std::to_string(disturbance.count).c_str(), 1);
+  setenv("FAULT_BYTES", std::to_string(disturbance.least_bytes).c_str(), 1);
   setenv("FAULT_ERRNO", std::to_string(disturbance.error).c_str(), 1);
   setenv("FAULT_LOG", log.c_str(), 1);
 }

@@ -9,10 +9,11 @@ namespace curvefusion {
 
 /// How a run of the program is disturbed.
 struct Disturbance {
-  std::string kind;  ///< what fault_shim.cpp lets fail: "write" or "allocation"; empty: nothing
-  long first = 0;    ///< number of the first operation that fails; 0: they are only counted
-  long count = 1;    ///< how many fail from there on; 0: as long as room is missing
-  int error = 0;     ///< what a failing write says
+  std::string kind;      ///< what fault_shim.cpp lets fail: "write" or "allocation"; empty: nothing
+  long first = 0;        ///< number of the first operation that fails; 0: they are only counted
+  long count = 1;        ///< how many fail from there on; 0: as long as room is missing
+  long least_bytes = 0;  ///< smaller allocations are not counted and do not fail
+  int error = 0;         ///< what a failing write says
   double kill_after = -1;  ///< seconds after the start at which SIGKILL ends the run; none below 0
 };
 
