@@ -4,6 +4,7 @@
 
 #include "graph/graph_smoother.h"
 #include "graph/validate.h"
+#include "kernel/error.h"
 #include "tests/graph/graph_fixtures.h"
 
 namespace curvefusion {
