@@ -4,6 +4,7 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdint>
 #include <fstream>
 #include <new>
@@ -131,6 +132,7 @@ cv::Mat DecodePng(const std::filesystem::path& path, const std::string& bytes, i
     FailDecoding(path, fmt::format("is damaged (wrong checksum in its part {})", chunk));
   }
   cv::Mat pixels;
+  errno = 0;
   try {
     pixels = cv::imdecode(cv::Mat(1, static_cast<int>(bytes.size()), CV_8UC1,
                                   const_cast<char*>(bytes.data())),  // OpenCV has no constant views
@@ -138,6 +140,8 @@ cv::Mat DecodePng(const std::filesystem::path& path, const std::string& bytes, i
   } catch (const cv::Exception& error) {
     if (error.code == cv::Error::StsNoMem) throw std::bad_alloc();
   }
+  // Nothing else tells that libpng found no memory.
+  if (pixels.empty() && errno == ENOMEM) throw std::bad_alloc();
   if (pixels.empty()) FailDecoding(path, "cannot be decoded");
   return pixels;
 }
@@ -150,7 +154,9 @@ ImageHeader ReadImageHeader(const std::filesystem::path& path) {
   header.defect = ReadingObstacle(path);  // opening a pipe would wait for ever
   if (!header.defect.empty()) return header;
   const auto size = static_cast<std::streamoff>(std::filesystem::file_size(path, error));
+  errno = 0;
   std::ifstream stream(path, std::ios::binary);
+  if (!stream && errno == ENOMEM) throw std::bad_alloc();
   if (error || !stream) {
     header.defect = "cannot be read";
     return header;

@@ -52,15 +52,15 @@ std::string ReadingObstacle(const std::filesystem::path& path) {
 std::ifstream OpenFile(const std::filesystem::path& path) {
   std::string obstacle = ReadingObstacle(path);
   std::ifstream stream;
-  bool lacks_descriptors = false;
+  bool lacks_resource = false;
   if (obstacle.empty()) {
     stream.open(path, std::ios::binary);
     if (stream) return stream;
-    lacks_descriptors = errno == EMFILE || errno == ENFILE;
+    lacks_resource = errno == EMFILE || errno == ENFILE || errno == ENOMEM;
     obstacle = fmt::format("cannot be opened ({})", std::generic_category().message(errno));
   }
   throw Error(
-      lacks_descriptors ? ErrorKind::kResource : ErrorKind::kBadInput,
+      lacks_resource ? ErrorKind::kResource : ErrorKind::kBadInput,
       fmt::format("{}: {}; is the name right and the file readable?", path.string(), obstacle));
 }
 

@@ -28,7 +28,10 @@ class FaultTest : public testing::TestWithParam<WritingCommand> {
   }
   void SetUp() override {
     if (!CanInjectFaults()) GTEST_SKIP() << "a sanitizer takes the place of the allocator";
-    references_ = folder_->MakeReferences(GetParam());
+    static std::map<std::string, References> known;
+    const auto [place, is_new] = known.try_emplace(GetParam().name);
+    if (is_new) place->second = folder_->MakeReferences(GetParam());
+    references_ = place->second;
   }
 
   // How many such operations a run makes.

@@ -37,7 +37,8 @@ ProgramRun RunProgram(const std::filesystem::path& folder,
 bool CanInjectFaults();
 
 /// The bytes of every file below a folder by its path; folders end with a slash and hold nothing.
-/// What differs from run to run is left out: times and memory in report.json, times in 3MF files.
+/// What differs from run to run is left out: times and memory in report.json, all of 3MF files
+/// that are whole.
 std::map<std::string, std::string> FilesBelow(const std::filesystem::path& folder);
 
 }  // namespace curvefusion
