@@ -118,7 +118,7 @@ TEST(Summary, NamesFindingsFilesAndWarnings) {
 TEST(Summary, TellsEveryWarningOnce) {
   YRun run;
   run.reconstruction.warnings.insert(run.reconstruction.warnings.begin(), run.sequence.warnings[0]);
-  const std::string summary = Summary(run.Record(), "out");
+  const std::string summary = Summary(run.Record(), "out", "out/report.json");
   const size_t first = summary.find("Two frames have no pose.");
   ASSERT_NE(first, std::string::npos);
   EXPECT_EQ(summary.find("Two frames have no pose.", first + 1), std::string::npos);
