@@ -46,7 +46,7 @@ std::vector<std::string> ExportSkeleton(const std::filesystem::path& path,
 /// skeleton.json. From formats without nodes (SWC, PLY, OBJ) nodes are the points where other than
 /// two segments meet, and one of every closed curve. Throws Error: kUsage for another extension,
 /// kBadInput with place and reason for a file that cannot be read, has more than kMaxTextBytes, is
-/// not a graph, or has points that are not within bounds (IsWithinBounds).
+/// not a graph, or has points beyond kMaxCoordinate.
 SkeletonGraph ReadSkeleton(const std::filesystem::path& path);
 
 }  // namespace curvefusion

@@ -217,7 +217,7 @@ void RequireThreshold(double threshold) {
 
 ResolutionRounds ResolveIntersections(SkeletonGraph& graph, double threshold) {
   RequireThreshold(threshold);
-  RequireWithinBounds(graph, "graph with intersections to resolve");
+  RequireComputable(graph, "graph with intersections to resolve");
   LentCanonicalForm lent(graph);
   Resolution resolution(lent.Take(), graph, threshold);
   resolution.Run();

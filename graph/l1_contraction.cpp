@@ -288,7 +288,7 @@ void VisitOptions(L1Options& options, OptionVisitor& visitor) {
 
 ContractedSamples ContractToMedian(const ObservedPoints& points, const L1Options& options) {
   assert(options.initial_radius > 0 && options.growth > 0);
-  RequirePositionsWithinBounds(points);
+  RequireFinitePositions(points);
   Contraction contraction(points.positions, options);
   // Scaled options may miss the last radius by rounding.
   const double last_radius = options.maximum_radius * (1 - 1e-9);

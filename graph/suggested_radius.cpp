@@ -76,7 +76,7 @@ double MedianThickness(const std::vector<Vec3>& probes, const std::vector<Vec3>&
 
 double SuggestedRadius(const ObservedPoints& cloud) {
   const std::vector<Vec3>& points = cloud.positions;
-  RequirePositionsWithinBounds(cloud);
+  RequireFinitePositions(cloud);
   if (points.empty()) return 0;
   const double diagonal = RobustExtent(cloud).norm();
   const PointIndex index(points);

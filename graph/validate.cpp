@@ -15,19 +15,21 @@ namespace curvefusion {
 namespace {
 
 constexpr size_t kListedViolations = 5;
+constexpr const char* kNotComputable = "is not finite, or too far from the origin to compute with";
 
 // The first point that is not within bounds, or the end.
-Polyline::const_iterator OutOfBounds(const Polyline& points) {
-  return std::find_if_not(points.begin(), points.end(), IsWithinBounds);
+Polyline::const_iterator OutOfBounds(const Polyline& points, double limit) {
+  return std::find_if_not(points.begin(), points.end(),
+                          [limit](const Vec3& p) { return IsWithinBounds(p, limit); });
 }
 
 // What is wrong with points, the first place of each kind.
 void AddPointFaults(const SkeletonEdge& edge, const SkeletonGraph& graph,
                     std::vector<std::string>& faults) {
   const Polyline& points = edge.points;
-  const auto outside = OutOfBounds(points);
+  const auto outside = OutOfBounds(points, kMaxComputable);
   if (outside != points.end())
-    faults.push_back(fmt::format("points[{}] {}", outside - points.begin(), kOutOfBounds));
+    faults.push_back(fmt::format("points[{}] {}", outside - points.begin(), kNotComputable));
   const auto repeated = std::adjacent_find(points.begin(), points.end());
   if (repeated != points.end())
     faults.push_back(
@@ -78,8 +80,8 @@ std::vector<std::string> EdgeFaults(const SkeletonEdge& edge, const SkeletonGrap
 std::vector<std::string> Faults(const SkeletonGraph& graph) {
   std::vector<std::string> violations;
   for (const NodeId node : graph.Nodes())
-    if (!IsWithinBounds(graph.position(node)))
-      violations.push_back(fmt::format("node {} {}", node, kOutOfBounds));
+    if (!IsWithinBounds(graph.position(node), kMaxComputable))
+      violations.push_back(fmt::format("node {} {}", node, kNotComputable));
   for (const EdgeId id : graph.Edges())
     for (const std::string& fault : EdgeFaults(graph.edge(id), graph))
       violations.push_back(fmt::format("edge {}: {}", id, fault));
@@ -105,25 +107,36 @@ void Validate(const SkeletonGraph& graph, double proximity, const std::string& s
   throw Error(ErrorKind::kBadInput, text);
 }
 
+void RequireComputable(const SkeletonGraph& graph, const std::string& subject) {
+  for (const EdgeId id : graph.Edges()) {
+    const Polyline& points = graph.edge(id).points;
+    const auto outside = OutOfBounds(points, kMaxComputable);
+    if (outside == points.end()) continue;
+    throw Error(ErrorKind::kBadInput, fmt::format("{}: edge {}: points[{}] {}", subject, id,
+                                                  outside - points.begin(), kNotComputable));
+  }
+}
+
 void RequireWithinBounds(const SkeletonGraph& graph, const std::string& subject) {
-  const auto fail = [&](const std::string& what, const char* remedy) {
-    throw Error(ErrorKind::kBadInput, fmt::format("{}: {}; {}", subject, what, remedy));
+  const auto fail = [&](const std::string& what) {
+    throw Error(ErrorKind::kBadInput,
+                fmt::format("{}: {} more than 10,000 km; move the curves near the origin, or "
+                            "correct the value",
+                            subject, what));
   };
-  constexpr const char* kMove = "move the curves near the origin, or correct the value";
   for (const NodeId node : graph.Nodes())
-    if (!IsWithinBounds(graph.position(node)))
-      fail(fmt::format("node {} {}", node, kOutOfBounds), kMove);
+    if (!IsWithinBounds(graph.position(node), kMaxCoordinate))
+      fail(fmt::format("node {} is away from the origin by", node));
   for (const EdgeId id : graph.Edges()) {
     const SkeletonEdge& edge = graph.edge(id);
-    const auto outside = OutOfBounds(edge.points);
+    const auto outside = OutOfBounds(edge.points, kMaxCoordinate);
     if (outside != edge.points.end())
-      fail(fmt::format("edge {}: points[{}] {}", id, outside - edge.points.begin(), kOutOfBounds),
-           kMove);
+      fail(fmt::format("edge {}: points[{}] is away from the origin by", id,
+                       outside - edge.points.begin()));
     const auto wide = std::find_if(edge.radii.begin(), edge.radii.end(),
                                    [](double radius) { return !(radius <= kMaxCoordinate); });
     if (wide != edge.radii.end())
-      fail(fmt::format("edge {}: radii[{}] is {} m", id, wide - edge.radii.begin(), *wide),
-           "correct the value");
+      fail(fmt::format("edge {}: radii[{}] is", id, wide - edge.radii.begin()));
   }
 }
 

@@ -8,16 +8,15 @@
 namespace curvefusion {
 
 /// What is wrong with an edge of a graph, or with one that is to be added to it ("points[3] repeats
-/// the point before it"): fewer than two points, points not within bounds (IsWithinBounds),
-/// segments of
-/// length zero, ends that do not equal the nodes bit for bit, radii that are not positive,
-/// observations that are negative, either not one per point or none. Of each kind the first. Its
-/// nodes must exist.
+/// the point before it"): fewer than two points, points not within kMaxComputable
+/// (kernel/bounds.h), segments of length zero, ends that do not equal the nodes bit for bit, radii
+/// that are not positive, observations that are negative, either not one per point or none. Of each
+/// kind the first. Its nodes must exist.
 std::vector<std::string> EdgeFaults(const SkeletonEdge& edge, const SkeletonGraph& graph);
 
 /// What is wrong with a graph whatever the distance of its edges, one sentence each: nodes that are
-/// not within bounds, and EdgeFaults. Every operation on graphs without faults ends in one without.
-/// Linear.
+/// not within kMaxComputable, and EdgeFaults. Every operation on graphs without faults ends in one
+/// without. Linear.
 std::vector<std::string> Faults(const SkeletonGraph& graph);
 
 /// What is wrong with a graph, one sentence each; empty for a valid one:
@@ -33,8 +32,12 @@ std::vector<std::string> Violations(const SkeletonGraph& graph, double proximity
 /// `subject` says what was validated ("skeleton.json", "the fused skeleton").
 void Validate(const SkeletonGraph& graph, double proximity, const std::string& subject);
 
-/// Throws Error(kBadInput) where a node or point is not within bounds (IsWithinBounds), or a radius
-/// exceeds them: geometric steps cannot start from that.
+/// Throws Error(kBadInput) where a point of a curve is not within kMaxComputable (kernel/bounds.h):
+/// geometric steps cannot start from that.
+void RequireComputable(const SkeletonGraph& graph, const std::string& subject);
+
+/// Throws Error(kBadInput) where a node, a point or a radius of a file exceeds kMaxCoordinate
+/// (kernel/bounds.h).
 void RequireWithinBounds(const SkeletonGraph& graph, const std::string& subject);
 
 /// Throws Error(kBadInput) where the curves have more than `limit` metres: what samples them at

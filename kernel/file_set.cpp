@@ -5,6 +5,7 @@
 #include "kernel/atomic_file.h"
 #include "kernel/error.h"
 #include "kernel/partial_name.h"
+#include "kernel/unfinished_path.h"
 
 namespace curvefusion {
 
@@ -107,7 +108,11 @@ void WriteFilesTogether(const fs::path& folder, const std::vector<std::string>& 
                 folder.string() + ": results cannot be written there (" + failure.message() + ")");
   }
   try {
-    write(temporary);
+    {
+      // Not while it holds earlier files.
+      const UnfinishedPath unfinished(temporary);
+      write(temporary);
+    }
     Replace(folder, names, temporary);
   } catch (const Error& error) {
     clean();

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "kernel/bounds.h"
 #include "kernel/error.h"
 #include "kernel/quantile.h"
 
@@ -34,13 +33,13 @@ Vec3 RobustExtent(const ObservedPoints& points) {
   return extent;
 }
 
-void RequirePositionsWithinBounds(const ObservedPoints& points) {
+void RequireFinitePositions(const ObservedPoints& points) {
   for (size_t i = 0; i < points.size(); ++i) {
     const Vec3& p = points.positions[i];
-    if (IsWithinBounds(p)) continue;
+    if (p.allFinite()) continue;
     throw Error(ErrorKind::kBadInput,
-                fmt::format("point {} of {} at ({}, {}, {}) m {}; remove such points", i,
-                            points.size(), p.x(), p.y(), p.z(), kOutOfBounds));
+                fmt::format("point {} of {} is ({}, {}, {}): remove points without a position", i,
+                            points.size(), p.x(), p.y(), p.z()));
   }
 }
 

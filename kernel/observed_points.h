@@ -46,8 +46,7 @@ void Append(ObservedPoints& points, const ObservedPoints& more);
 /// outliers do not count; zero for no points.
 Vec3 RobustExtent(const ObservedPoints& points);
 
-/// Throws Error(kBadInput) naming the first point whose position is not within bounds
-/// (IsWithinBounds).
-void RequirePositionsWithinBounds(const ObservedPoints& points);
+/// Throws Error(kBadInput) naming the first point whose position is not finite.
+void RequireFinitePositions(const ObservedPoints& points);
 
 }  // namespace curvefusion

@@ -127,7 +127,10 @@ RunLock::RunLock(fs::path file, const fs::path& place) : file_(std::move(file)) 
   const bool written =
       ::ftruncate(descriptor_, 0) == 0 &&
       ::pwrite(descriptor_, text.data(), text.size(), 0) == static_cast<ssize_t>(text.size());
-  if (written) return;
+  if (written) {
+    unfinished_.emplace(file_);
+    return;
+  }
   const int reason = errno;
   ::unlink(file_.c_str());
   ::close(descriptor_);

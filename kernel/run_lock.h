@@ -1,6 +1,9 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+
+#include "kernel/unfinished_path.h"
 
 namespace curvefusion {
 
@@ -20,6 +23,7 @@ class RunLock {
  private:
   std::filesystem::path file_;
   int descriptor_ = -1;
+  std::optional<UnfinishedPath> unfinished_;  // an end without unwinding removes the file, too
 };
 
 }  // namespace curvefusion

@@ -67,16 +67,15 @@ SkeletonGraph ExtractAtAxis(const ObservedPoints& points, const ContractArgument
 
 int RunContract(const ContractArguments& arguments) {
   LimitThreads(arguments.run);
-  CheckSkeletonFormat(arguments.output);
   RequireApart({arguments.cloud}, arguments.output);
+  MakeFolderOf(arguments.output);
+  CheckSkeletonFormat(arguments.output);
   ObservedPoints points = ReadCloud(arguments.cloud);
   const double scale = arguments.scale > 0 ? arguments.scale : GuessedScale(points);
   if (scale != 1 && arguments.scale <= 0 && !arguments.run.quiet) {
     fmt::print("Coordinates are taken as millimetres (--scale 1 if they are metres)\n");
   }
   for (Vec3& position : points.positions) position *= scale;
-  RequirePositionsWithinBounds(points);
-  MakeFolderOf(arguments.output);
   SkeletonGraph graph = ExtractAtAxis(points, arguments);
   ThrowIfCancelled();
   if (graph.empty()) {

@@ -6,7 +6,7 @@
 namespace curvefusion {
 namespace {
 
-// A million samples at 1 mm: compared within a minute and 1 GB.
+// A million samples at 1 mm; measured: 840 m against themselves take 3 s and 280 MB.
 constexpr double kMaxLength = 1000;
 
 PlacedScores Compare(const SkeletonGraph& result, const SkeletonGraph& truth) {

@@ -241,7 +241,9 @@ std::vector<FixedDeviation> FixedDeviations() {
   const std::string in_how = "the deviation is in how it is done, in both profiles alike";
   return {{"segmentation.extra_dilation", "0 in both profiles: not in use"},
           {"l1_contraction.sample_spacing", in_how},
-          {"l1_contraction.repulsion", in_how}};
+          {"l1_contraction.repulsion", in_how},
+          {"radius.drop_unmeasured",
+           "on in both profiles; acts where no diameter can be measured, which no object shows"}};
 }
 
 }  // namespace curvefusion

@@ -172,8 +172,8 @@ SkeletonGraph FuseSkeletons(const SkeletonGraph& partial, const SkeletonGraph& b
                             int bundles_so_far, const SkeletonFusionOptions& options,
                             AlignmentResult* alignment) {
   assert(bundles_so_far >= 1 || partial.empty());
-  RequireWithinBounds(partial, "partial skeleton");
-  RequireWithinBounds(bundle, "bundle skeleton");
+  RequireComputable(partial, "partial skeleton");
+  RequireComputable(bundle, "bundle skeleton");
   const double step = options.smoothing.step;
   SkeletonGraph fused = Prepared(partial, bundles_so_far, step);
   SkeletonGraph next = Prepared(bundle, 1, step);
