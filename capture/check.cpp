@@ -8,8 +8,8 @@
 
 #include "capture/content/colour_findings.h"
 #include "capture/content/geometry_check.h"
-#include "capture/content/thumbnails.h"
 #include "capture/content/suitability.h"
+#include "capture/content/thumbnails.h"
 #include "capture/detect_format.h"
 #include "capture/image_file.h"
 #include "capture/readers/readers.h"
@@ -54,8 +54,7 @@ FrameCheck CheckFrame(const Sequence& sequence, const SequenceFrame& frame) {
     CollectDefect(frame.depth_path, decode_depth, check);
   }
   const auto decode_color = [&] {
-    check.grey_thumbnail =
-        ShrunkColor(sequence, DecodeColorImage(frame.color_path, &check.remark));
+    check.grey_thumbnail = ShrunkColor(sequence, DecodeColorImage(frame.color_path, &check.remark));
   };
   CollectDefect(frame.color_path, decode_color, check);
   if (!check.remark.empty()) {

@@ -22,8 +22,7 @@ void ThrowIf(const std::error_code& failure, const fs::path& path) {
 }  // namespace
 
 PartialFolder::PartialFolder(fs::path final_path)
-    : final_path_(std::move(final_path)),
-      unfinished_(PartialFolderPath(final_path_)) {
+    : final_path_(std::move(final_path)), unfinished_(PartialFolderPath(final_path_)) {
   std::error_code failure;
   RemoveStalePartials(final_path_);
   fs::remove_all(path(), failure);
