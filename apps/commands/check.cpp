@@ -10,6 +10,7 @@
 
 #include "apps/check_json.h"
 #include "apps/commands/command.h"
+#include "apps/output_guard.h"
 #include "capture/content/repair.h"
 #include "kernel/error.h"
 
@@ -44,7 +45,7 @@ void PrintFigures(const CheckReport& report) {
   fmt::print("camera path  {:.2f} m{}\n", report.trajectory_length, duration);
 }
 
-// "disagreement  4 / 6 / 9 mm over 1 / 3 / 10 frames (...)"
+// How far depth of different views disagrees, by gap and by distance.
 void PrintGeometry(const GeometryReport& geometry) {
   if (!geometry.is_judged) {
     if (!geometry.why_not.empty()) {
@@ -56,12 +57,13 @@ void PrintGeometry(const GeometryReport& geometry) {
     fmt::print(
         "poses        depth {} frame{} apart differs by {:.1f} mm (spread {:.1f} mm, sensor "
         "noise {:.1f} mm), overlap {:.0f} %\n",
-        part.gap, part.gap == 1 ? "" : "s", 1e3 * part.residual, 1e3 * part.spread,
-        1e3 * part.noise, 100 * part.overlap);
+        part.gap, part.gap == 1 ? "" : "s", part.residual / kMillimetre, part.spread / kMillimetre,
+        part.noise / kMillimetre, 100 * part.overlap);
   }
   for (const DepthDisagreement& part : geometry.by_distance) {
     fmt::print("             at {:.2f} m by {:.1f} mm (spread {:.1f} mm, sensor noise {:.1f} mm)\n",
-               part.distance, 1e3 * part.residual, 1e3 * part.spread, 1e3 * part.noise);
+               part.distance, part.residual / kMillimetre, part.spread / kMillimetre,
+               part.noise / kMillimetre);
   }
 }
 
@@ -75,14 +77,15 @@ void PrintFindings(const CheckReport& report) {
 
 // Writes the corrected copy and checks it; the exit code is that of the copy.
 int Repair(const CheckArguments& arguments, const CheckReport& report) {
+  const bool prints = !arguments.run.quiet && !arguments.json;
   if (!report.geometry.correction) {
-    if (!arguments.run.quiet) fmt::print("nothing that --repair can correct: no copy is written\n");
+    if (prints) fmt::print("nothing that --repair can correct: no copy is written\n");
     return report.has_errors() ? ExitCode(ErrorKind::kBadInput) : 0;
   }
   const SequenceCorrection& correction = *report.geometry.correction;
   WriteRepairedSequence(correction, arguments.repaired);
   const CheckReport repaired = CheckSequence(arguments.repaired, NoProgress);
-  if (!arguments.run.quiet) {
+  if (prints) {
     fmt::print("\nWrote {} with {} frames ({}){}\n", arguments.repaired.string(),
                correction.sequence.frames.size(), fmt::join(correction.made, "; "),
                correction.swap_bytes ? "; its depth images are written anew, colour is linked"
@@ -95,6 +98,7 @@ int Repair(const CheckArguments& arguments, const CheckReport& report) {
 
 int RunCheck(const CheckArguments& arguments) {
   LimitThreads(arguments.run);
+  RequireOutside(arguments.sequence, arguments.repaired);
   ProgressPrinter printer = MakeProgressPrinter(arguments.run.quiet);
   const CheckReport report = CheckSequence(arguments.sequence, InterruptibleProgress(printer));
   printer.Finish();

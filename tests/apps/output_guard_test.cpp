@@ -73,6 +73,13 @@ TEST_F(OutputGuard, ScoresMayLieInTheResultButNotReplaceIt) {
   EXPECT_EQ(Run("evaluate in --truth truth.json --json in/scores.json").exit_code, 0);
 }
 
+TEST_F(OutputGuard, RepairsAreNotWrittenIntoTheScan) {
+  ASSERT_EQ(SimulateCube(2).exit_code, 0);
+  const Outcome outcome = Run("check scan --repair scan/repaired");
+  EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "scan/repaired"));
+}
+
 TEST_F(OutputGuard, ReconstructWritesNothingIntoItsScan) {
   ASSERT_EQ(SimulateCube(3).exit_code, 0);
   fs::rename(folder_ / "scan", folder_ / "in");
