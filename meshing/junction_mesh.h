@@ -31,7 +31,8 @@ struct JunctionMeshOptions {
 /// Unites the stubs of a junction exactly, cleans and rounds the union, checks that it is
 /// free of self-intersections in metres and in millimetres, and opens it at the cut rings, whose
 /// vertices stay in place. Where something fails it tries again with the other vertices moved by a
-/// few thousandths of the radius and a coarser cleaning. The same seed gives the same result.
+/// few thousandths of the radius and a coarser cleaning. Of more than 16 stubs it makes fewer
+/// attempts and wraps them then. The same seed gives the same result.
 JunctionMesh MeshJunction(const Junction& junction, const JunctionMeshOptions& options,
                           uint64_t seed);
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "kernel/geometry.h"
 #include "meshing/stubs.h"
 #include "meshing/sweep.h"
@@ -13,11 +15,11 @@ namespace {
 constexpr double kRadius = 0.0025;
 
 // A straight tube of 40 mm through the origin, in segments of 5 mm.
-TubePath StraightTube(const Vec3& direction) {
+TubePath StraightTube(const Vec3& direction, double radius = kRadius) {
   TubePath path;
   for (int i = -4; i <= 4; ++i) {
     path.axis.points.push_back(0.005 * i * direction);
-    path.axis.radii.push_back(kRadius);
+    path.axis.radii.push_back(radius);
   }
   return path;
 }
@@ -86,6 +88,32 @@ TEST(MeshJunction, LastResortFitsItsArmsToo) {
 
 TEST(MeshJunction, NothingWithoutAttemptsAndLastResort) {
   EXPECT_FALSE(MeshJunction(Cross().junction, {0, false}, 1).surface);
+}
+
+// The inner 20 mm of tubes through the origin whose directions are spread over the sphere.
+Junction SpreadTubes(int count) {
+  Junction junction;
+  junction.radius = 0.0015;
+  for (int i = 0; i < count; ++i) {
+    const double z = (i + 0.5) / count;
+    const double turn = 2.4 * i;  // the golden angle
+    const double flat = std::sqrt(1 - z * z);
+    const Vec3 direction(flat * std::cos(turn), flat * std::sin(turn), z);
+    const TubeRings rings = SweepRings(StraightTube(direction, junction.radius), 12, 0.1 * i);
+    junction.stubs.push_back(CloseStub(rings, 2, 6));
+    for (const int point : {2, 6}) {
+      const auto first = rings.vertices.begin() + rings.ring_of_point[point] * rings.sides;
+      junction.cut_rings.emplace_back(first, first + rings.sides);
+    }
+  }
+  return junction;
+}
+
+TEST(MeshJunction, WrapsACrowdedJunctionWithoutBeingAsked) {
+  EXPECT_FALSE(MeshJunction(SpreadTubes(16), {0, false}, 1).surface);
+  const JunctionMesh wrapped = MeshJunction(SpreadTubes(17), {0, false}, 1);
+  ASSERT_TRUE(wrapped.surface);
+  EXPECT_TRUE(wrapped.wrapped);
 }
 
 }  // namespace
