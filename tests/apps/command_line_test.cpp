@@ -76,6 +76,24 @@ TEST_F(CommandLine, CheckPrintsOneJsonObject) {
   }
 }
 
+TEST_F(CommandLine, CheckRepairsAWrongDepthUnit) {
+  ASSERT_EQ(Run("simulate cubeframe -o scan --sensor ideal --poses true --frame-rate 5 --quiet "
+                "--frames 12")
+                .exit_code,
+            0);
+  ASSERT_EQ(RunShell("sed -i s/5000/2500/ scan/intrinsics.json").exit_code, 0);
+  const Outcome wrong = Run("check scan");
+  EXPECT_EQ(wrong.exit_code, 3);
+  EXPECT_NE(wrong.output.find("write \"depth_scale\": 5000"), std::string::npos) << wrong.output;
+
+  const Outcome repair = Run("check scan --repair repaired");
+  EXPECT_EQ(repair.exit_code, 0) << repair.output;
+  EXPECT_NE(repair.output.find("Wrote repaired with 12 frames"), std::string::npos);
+  EXPECT_EQ(Run("check repaired").exit_code, 0);
+  // The scan stays as it was.
+  EXPECT_NE(Text("scan/intrinsics.json").find("2500"), std::string::npos);
+}
+
 TEST_F(CommandLine, MeshCheckTellsDefectsByExitCodeOne) {
   const std::string open = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\n";
   std::ofstream(folder_ / "open.obj") << open;
