@@ -28,12 +28,15 @@ void AppendSamples(const SkeletonGraph& graph, EdgeId id, double step, SkeletonS
   const SkeletonEdge& edge = graph.edge(id);
   const std::vector<double> cumulative = CumulativeLength(edge.points);
   const Polyline points = Resample(edge.points, step);
+  const double spacing = cumulative.back() / static_cast<double>(points.size() - 1);
   for (size_t i = 0; i < points.size(); ++i) {
     const double share = static_cast<double>(i) / static_cast<double>(points.size() - 1);
     const double arc_length = share * cumulative.back();
     samples.positions.push_back(points[i]);
     samples.edges.push_back(id);
     samples.arc_lengths.push_back(arc_length);
+    const bool is_end = i == 0 || i + 1 == points.size();
+    samples.lengths.push_back(is_end ? spacing / 2 : spacing);
     samples.radii.push_back(edge.radii.empty() ? 0 : ValueAt(edge.radii, cumulative, arc_length));
   }
 }
@@ -52,6 +55,14 @@ std::vector<double> PairDistances(const std::vector<Vec3>& points, const std::ve
     distances[i] = (points[i] - others[pairs[i]]).norm();
   }
   return distances;
+}
+
+double LengthBeyond(const SkeletonSamples& samples, const std::vector<double>& distances) {
+  double length = 0;
+  for (size_t i = 0; i < samples.size(); ++i) {
+    if (distances[i] > kReach) length += samples.lengths[i];
+  }
+  return length;
 }
 
 // The rigid motion from source to target with the least sum of squares (Kabsch 1976).
@@ -114,6 +125,8 @@ DistanceScores CompareCurves(const SkeletonSamples& result, const SkeletonSample
     for (PrecisionRecall& score : scores.within) {
       (truth.size() == 0 ? score.precision : score.recall) = 0;
     }
+    scores.false_length = std::accumulate(result.lengths.begin(), result.lengths.end(), 0.0);
+    scores.missing_length = std::accumulate(truth.lengths.begin(), truth.lengths.end(), 0.0);
     return scores;
   }
   const std::vector<double> to_truth = DistancesTo(result.positions, truth.positions);
@@ -122,6 +135,8 @@ DistanceScores CompareCurves(const SkeletonSamples& result, const SkeletonSample
     scores.within[i] = {ShareWithin(to_truth, {}, kDistanceThresholds[i]),
                         ShareWithin(to_result, {}, kDistanceThresholds[i])};
   }
+  scores.false_length = LengthBeyond(result, to_truth);
+  scores.missing_length = LengthBeyond(truth, to_result);
   scores.mean = (*Mean(to_truth) + *Mean(to_result)) / 2;
   scores.percentile_95 = std::max(Percentile(to_truth, 0.95), Percentile(to_result, 0.95));
   return scores;

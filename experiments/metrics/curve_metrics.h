@@ -15,6 +15,7 @@ struct SkeletonSamples {
   std::vector<Vec3> positions;
   std::vector<EdgeId> edges;
   std::vector<double> arc_lengths;  ///< metres from the edge's first point
+  std::vector<double> lengths;      ///< metres of curve that each stands for
   std::vector<double> radii;        ///< metres; 0 where the edge has none
 
   size_t size() const { return positions.size(); }
@@ -28,11 +29,17 @@ std::vector<double> DistancesTo(const std::vector<Vec3>& points, const std::vect
 inline constexpr std::array<double, 4> kDistanceThresholds = {1 * kMillimetre, 2 * kMillimetre,
                                                               5 * kMillimetre, 10 * kMillimetre};
 
+/// Farther from the truth than this a curve is false, farther from the result it is missing: the
+/// widest threshold (chosen: twice the thickest wires of the paper's objects).
+inline constexpr double kReach = 10 * kMillimetre;
+
 /// How near a result's curves are to the true ones and these to them.
 struct DistanceScores {
   std::array<PrecisionRecall, kDistanceThresholds.size()> within;  ///< of kDistanceThresholds
   std::optional<double> mean;           ///< mean of both directions' means, metres
   std::optional<double> percentile_95;  ///< the greater one of both directions', metres
+  double false_length = 0;              ///< metres of the result farther than kReach from the truth
+  double missing_length = 0;            ///< metres of the truth farther than kReach from the result
 };
 
 /// Compares samples of the result with samples of the truth. Either may be empty.

@@ -8,7 +8,6 @@
 namespace curvefusion {
 namespace {
 
-constexpr double kReach = 10 * kMillimetre;
 constexpr int64_t kGrain = 256;
 
 // The radius of the nearest true point for each sample of known radius; 0 where none is in reach.

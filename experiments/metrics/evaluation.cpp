@@ -1,6 +1,6 @@
 #include "experiments/metrics/evaluation.h"
 
-#include "fusion/registration/alignment.h"
+#include "experiments/metrics/main_piece.h"
 #include "graph/validate.h"
 
 namespace curvefusion {
@@ -16,9 +16,22 @@ PlacedScores Compare(const SkeletonGraph& result, const SkeletonGraph& truth) {
   scores.curves = CompareCurves(result_samples, truth_samples);
   scores.junctions_10mm = MatchJunctions(result, truth, 10 * kMillimetre);
   scores.junctions_5mm = MatchJunctions(result, truth, 5 * kMillimetre);
+  scores.tips_5mm = MatchTips(result, truth, 5 * kMillimetre);
   scores.paths = ComparePaths(result, truth);
   scores.diameters = CompareDiameters(result_samples, truth_samples);
   return scores;
+}
+
+// Whichever piece is the main one after the alignment.
+MainPieceScores CompareMainPiece(const SkeletonGraph& result, const SkeletonGraph& truth,
+                                 const Evaluation& evaluation) {
+  if (evaluation.topology.components < 2) {
+    return {evaluation.length, evaluation.topology.cycles, evaluation.raw, evaluation.aligned};
+  }
+  const RigidTransform& T_truth_result = evaluation.T_truth_result;
+  const SkeletonGraph aligned = MainPiece(Transformed(result, T_truth_result), truth);
+  const SkeletonGraph raw = Transformed(aligned, T_truth_result.inverse());
+  return {aligned.TotalLength(), aligned.CycleRank(), Compare(raw, truth), Compare(aligned, truth)};
 }
 
 void CompareMesh(const TriangleMesh& mesh, const SkeletonGraph& truth, Evaluation& evaluation) {
@@ -51,6 +64,7 @@ Evaluation Evaluate(const SkeletonGraph& result, const TriangleMesh* mesh,
   evaluation.topology = CompareTopology(result, truth);
   evaluation.length = result.TotalLength();
   evaluation.true_length = truth.TotalLength();
+  evaluation.main_piece = CompareMainPiece(result, truth, evaluation);
   if (mesh != nullptr) CompareMesh(*mesh, truth, evaluation);
   return evaluation;
 }
