@@ -18,7 +18,7 @@ std::vector<double> TrueRadii(const SkeletonSamples& result, const SkeletonSampl
     if (result.radii[i] <= 0) return;
     const int nearest = index.Nearest(result.positions[i]);
     const double distance = (truth.positions[nearest] - result.positions[i]).norm();
-    if (distance <= kReach) radii[i] = truth.radii[nearest];
+    if (distance <= kCurveReach) radii[i] = truth.radii[nearest];
   });
   return radii;
 }

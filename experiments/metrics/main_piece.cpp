@@ -38,11 +38,11 @@ std::vector<double> ExplainedLengths(const SkeletonGraph& result, const Pieces& 
                                      const SkeletonSamples& truth) {
   const SkeletonSamples samples = SampleSkeleton(result);
   const std::vector<int> piece_of = PieceOfSamples(samples, pieces);
-  const PointGrid grid(samples.positions, kReach);
+  const PointGrid grid(samples.positions, kCurveReach);
   std::vector<double> explained(pieces.size(), 0.0);
   std::vector<int> last_seen(pieces.size(), -1);  // by which sample of the truth
   for (size_t i = 0; i < truth.size(); ++i) {
-    grid.ForEachWithin(truth.positions[i], kReach, [&](int found, const Vec3&) {
+    grid.ForEachWithin(truth.positions[i], kCurveReach, [&](int found, const Vec3&) {
       const int piece = piece_of[found];
       if (std::exchange(last_seen[piece], static_cast<int>(i)) == static_cast<int>(i)) return;
       explained[piece] += truth.lengths[i];
