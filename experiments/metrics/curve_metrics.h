@@ -15,6 +15,8 @@ struct SkeletonSamples {
   std::vector<Vec3> positions;
   std::vector<EdgeId> edges;
   std::vector<double> arc_lengths;  ///< metres from the edge's first point
+  std::vector<Vec3> tangents;       ///< unit directions there; zero where undefined
+  std::vector<double> lengths;      ///< metres of curve that each stands for
   std::vector<double> radii;        ///< metres; 0 where the edge has none
 
   size_t size() const { return positions.size(); }
@@ -28,20 +30,20 @@ std::vector<double> DistancesTo(const std::vector<Vec3>& points, const std::vect
 inline constexpr std::array<double, 4> kDistanceThresholds = {1 * kMillimetre, 2 * kMillimetre,
                                                               5 * kMillimetre, 10 * kMillimetre};
 
+/// Farther from the truth than this a curve is false, farther from the result it is missing: the
+/// widest threshold (chosen: twice the thickest wires of the paper's objects).
+inline constexpr double kCurveReach = 10 * kMillimetre;
+
 /// How near a result's curves are to the true ones and these to them.
 struct DistanceScores {
   std::array<PrecisionRecall, kDistanceThresholds.size()> within;  ///< of kDistanceThresholds
   std::optional<double> mean;           ///< mean of both directions' means, metres
   std::optional<double> percentile_95;  ///< the greater one of both directions', metres
+  double false_length = 0;    ///< metres of the result farther than kCurveReach from the truth
+  double missing_length = 0;  ///< metres of the truth farther than kCurveReach from the result
 };
 
 /// Compares samples of the result with samples of the truth. Either may be empty.
 DistanceScores CompareCurves(const SkeletonSamples& result, const SkeletonSamples& truth);
-
-/// The rigid motion that takes a result onto the truth, by iterative closest points: 60 times, the
-/// pairs nearer than the 80th percentile of all distances (or 2 mm, where that is more) are fitted.
-/// It is not robust against false curves beyond that fifth, and starts from where the result is.
-/// Identity for fewer than 11 points. O(n log m) per iteration.
-RigidTransform AlignToTruth(const std::vector<Vec3>& result, const std::vector<Vec3>& truth);
 
 }  // namespace curvefusion

@@ -8,7 +8,6 @@
 namespace curvefusion {
 namespace {
 
-constexpr double kReach = 10 * kMillimetre;
 constexpr int64_t kGrain = 256;
 
 // The radius of the nearest true point for each sample of known radius; 0 where none is in reach.
@@ -19,7 +18,7 @@ std::vector<double> TrueRadii(const SkeletonSamples& result, const SkeletonSampl
     if (result.radii[i] <= 0) return;
     const int nearest = index.Nearest(result.positions[i]);
     const double distance = (truth.positions[nearest] - result.positions[i]).norm();
-    if (distance <= kReach) radii[i] = truth.radii[nearest];
+    if (distance <= kCurveReach) radii[i] = truth.radii[nearest];
   });
   return radii;
 }

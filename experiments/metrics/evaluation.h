@@ -7,6 +7,7 @@
 #include "experiments/metrics/diameter_metrics.h"
 #include "experiments/metrics/junction_metrics.h"
 #include "experiments/metrics/mesh_metrics.h"
+#include "experiments/metrics/tip_metrics.h"
 #include "experiments/metrics/topology_metrics.h"
 #include "meshing/tube_volume.h"
 
@@ -17,9 +18,18 @@ struct PlacedScores {
   DistanceScores curves;
   JunctionScores junctions_10mm;
   JunctionScores junctions_5mm;
+  TipScores tips_5mm;
   AplsScores paths;
   DiameterScores diameters;
   std::optional<SurfaceScores> surface;  ///< where a mesh was given
+};
+
+/// Figures of the main piece of a result (see MainPiece) alone, against the whole truth.
+struct MainPieceScores {
+  double length = 0;  ///< metres
+  int cycles = 0;
+  PlacedScores raw;  ///< all but `surface`
+  PlacedScores aligned;
 };
 
 /// A result compared with the truth as it lies, and after one rigid alignment of its curves (of its
@@ -30,6 +40,7 @@ struct Evaluation {
   PlacedScores aligned;
   RigidTransform T_truth_result = RigidTransform::Identity();  ///< the alignment
   TopologyScores topology;
+  MainPieceScores main_piece;
   double length = 0;                         ///< metres of curve in the result
   double true_length = 0;                    ///< and in truth
   std::optional<WatertightReport> mesh;      ///< of the part around the truth

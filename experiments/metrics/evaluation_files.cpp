@@ -35,6 +35,8 @@ Json CurvesJson(const DistanceScores& scores) {
   Json json = WithinJson(scores.within);
   json["mean_mm"] = Millimetres(scores.mean);
   json["percentile_95_mm"] = Millimetres(scores.percentile_95);
+  json["false_length"] = scores.false_length;
+  json["missing_length"] = scores.missing_length;
   return json;
 }
 
@@ -46,6 +48,14 @@ Json JunctionsJson(const JunctionScores& scores) {
           {"precision", Value(scores.Score().precision)},
           {"recall", Value(scores.Score().recall)},
           {"valence_share", Value(scores.ValenceShare())}};
+}
+
+Json TipsJson(const TipScores& scores) {
+  return {{"truth", scores.truth},
+          {"found", scores.found},
+          {"matched", scores.matched},
+          {"precision", Value(scores.Score().precision)},
+          {"recall", Value(scores.Score().recall)}};
 }
 
 Json PathsJson(const AplsScores& scores) {
@@ -83,13 +93,26 @@ Json Emptied(Json json) {
   return json;
 }
 
-Json PlacedJson(const PlacedScores& scores) {
+Json PlacedCurvesJson(const PlacedScores& scores) {
   return {{"curves", CurvesJson(scores.curves)},
           {"junctions_10mm", JunctionsJson(scores.junctions_10mm)},
           {"junctions_5mm", JunctionsJson(scores.junctions_5mm)},
+          {"tips_5mm", TipsJson(scores.tips_5mm)},
           {"apls", PathsJson(scores.paths)},
-          {"diameter", DiametersJson(scores.diameters)},
-          {"surface", SurfaceJson(scores.surface.value_or(SurfaceScores{}))}};
+          {"diameter", DiametersJson(scores.diameters)}};
+}
+
+Json PlacedJson(const PlacedScores& scores) {
+  Json json = PlacedCurvesJson(scores);
+  json["surface"] = SurfaceJson(scores.surface.value_or(SurfaceScores{}));
+  return json;
+}
+
+Json MainPieceJson(const MainPieceScores& scores) {
+  return {{"length", scores.length},
+          {"cycles", scores.cycles},
+          {"raw", PlacedCurvesJson(scores.raw)},
+          {"aligned", PlacedCurvesJson(scores.aligned)}};
 }
 
 Json MeshJson(const Evaluation& evaluation) {
@@ -119,6 +142,7 @@ Json AlignmentJson(const RigidTransform& T_truth_result) {
 // A bare mesh has no curves to give figures of.
 void EmptyCurves(Json& json) {
   for (const char* key : {"length", "components", "cycles"}) json[key] = nullptr;
+  json["main_piece"] = Emptied(json["main_piece"]);
   for (const char* place : {"raw", "aligned"}) {
     for (auto& [key, value] : json[place].items()) {
       if (key != "surface") value = Emptied(value);
@@ -139,6 +163,7 @@ Json EvaluationJson(const EvaluationLabels& labels, const Evaluation& evaluation
                {"alignment", AlignmentJson(evaluation.T_truth_result)},
                {"raw", PlacedJson(evaluation.raw)},
                {"aligned", PlacedJson(evaluation.aligned)},
+               {"main_piece", MainPieceJson(evaluation.main_piece)},
                {"mesh", MeshJson(evaluation)}};
   if (!evaluation.has_curves) EmptyCurves(json);
   return json;

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "experiments/metrics/assignment.h"
+#include "experiments/metrics/point_matching.h"
 
 namespace curvefusion {
 namespace {
@@ -15,35 +15,31 @@ std::vector<NodeId> Junctions(const SkeletonGraph& graph) {
   return junctions;
 }
 
-std::optional<double> Share(int part, int whole) {
-  if (whole == 0) return std::nullopt;
-  return static_cast<double>(part) / whole;
+std::vector<Vec3> Positions(const SkeletonGraph& graph, const std::vector<NodeId>& nodes) {
+  std::vector<Vec3> positions;
+  for (const NodeId node : nodes) positions.push_back(graph.position(node));
+  return positions;
 }
 
 }  // namespace
 
 PrecisionRecall JunctionScores::Score() const {
-  return {Share(matched, found), Share(matched, truth)};
+  return {ShareOfCount(matched, found), ShareOfCount(matched, truth)};
 }
 
-std::optional<double> JunctionScores::ValenceShare() const { return Share(valence_right, truth); }
+std::optional<double> JunctionScores::ValenceShare() const {
+  return ShareOfCount(valence_right, truth);
+}
 
 JunctionScores MatchJunctions(const SkeletonGraph& result, const SkeletonGraph& truth,
                               double max_distance) {
-  constexpr double kTooFar = 1e3;  // one more pair is worth more than any sum of distances
   const std::vector<NodeId> found = Junctions(result);
   const std::vector<NodeId> expected = Junctions(truth);
   JunctionScores scores{static_cast<int>(expected.size()), static_cast<int>(found.size()), 0, 0};
-  Eigen::MatrixXd cost(expected.size(), found.size());
+  const std::vector<int> partner =
+      MatchPoints(Positions(truth, expected), Positions(result, found), max_distance);
   for (size_t i = 0; i < expected.size(); ++i) {
-    for (size_t j = 0; j < found.size(); ++j) {
-      const double distance = (truth.position(expected[i]) - result.position(found[j])).norm();
-      cost(i, j) = distance < max_distance ? distance : kTooFar;
-    }
-  }
-  const std::vector<int> partner = MinimumCostAssignment(cost);
-  for (size_t i = 0; i < expected.size(); ++i) {
-    if (partner[i] < 0 || cost(i, partner[i]) >= kTooFar) continue;
+    if (partner[i] < 0) continue;
     ++scores.matched;
     if (truth.Degree(expected[i]) == result.Degree(found[partner[i]])) ++scores.valence_right;
   }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "experiments/metrics/truth_alignment.h"
 #include "kernel/parallel.h"
 #include "kernel/spatial_search.h"
 
@@ -150,14 +151,6 @@ double WeightedMean(const std::vector<double>& values, const std::vector<double>
   return sum / total;
 }
 
-// About `count` of them, evenly picked.
-std::vector<Vec3> Thinned(const std::vector<Vec3>& points, size_t count) {
-  const size_t step = std::max<size_t>(1, points.size() / count);
-  std::vector<Vec3> thinned;
-  for (size_t i = 0; i < points.size(); i += step) thinned.push_back(points[i]);
-  return thinned;
-}
-
 SurfaceScores ScoresOfEmpty(bool mesh_is_empty, bool truth_is_empty) {
   SurfaceScores scores;
   for (PrecisionRecall& score : scores.within) {
@@ -190,11 +183,10 @@ SurfaceScores CompareSurface(const TriangleMesh& mesh, const SkeletonGraph& trut
 }
 
 RigidTransform AlignSurfaceToTruth(const TriangleMesh& mesh, const SkeletonGraph& truth) {
-  constexpr size_t kSamples = 10000;
   const SurfaceSamples surface = SampleMesh(mesh);
   if (surface.positions.empty() || truth.empty()) return RigidTransform::Identity();
   const SurfaceSamples visible = SampleTubes(truth, TrueTubes(truth));
-  return AlignToTruth(Thinned(surface.positions, kSamples), visible.positions);
+  return AlignToTruth({surface.positions, {}}, {visible.positions, {}});
 }
 
 MeshPart PartAroundTruth(const TriangleMesh& mesh, const SkeletonGraph& truth) {

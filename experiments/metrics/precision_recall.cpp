@@ -26,6 +26,11 @@ std::optional<double> ShareWithin(const std::vector<double>& distances,
   return within / total;
 }
 
+std::optional<double> ShareOfCount(int part, int whole) {
+  if (whole == 0) return std::nullopt;
+  return static_cast<double>(part) / whole;
+}
+
 double Percentile(std::vector<double> values, double share) {
   assert(!values.empty());
   const double rank = share * static_cast<double>(values.size() - 1);

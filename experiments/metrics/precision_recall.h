@@ -20,6 +20,9 @@ struct PrecisionRecall {
 std::optional<double> ShareWithin(const std::vector<double>& distances,
                                   const std::vector<double>& weights, double threshold);
 
+/// part / whole, none for a whole of 0.
+std::optional<double> ShareOfCount(int part, int whole);
+
 /// The value below which `share` of the values lie, between neighbours interpolated linearly. At
 /// least one value. O(n).
 double Percentile(std::vector<double> values, double share);

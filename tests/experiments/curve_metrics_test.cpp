@@ -16,17 +16,6 @@ SkeletonGraph Wire(const Vec3& a, const Vec3& b, double radius) {
   return graph;
 }
 
-SkeletonGraph Moved(const SkeletonGraph& graph, const RigidTransform& T) {
-  SkeletonGraph moved;
-  for (const NodeId node : graph.Nodes()) moved.AddNode(T * graph.position(node));
-  for (const EdgeId id : graph.Edges()) {
-    SkeletonEdge edge = graph.edge(id);
-    for (Vec3& p : edge.points) p = T * p;
-    moved.AddEdge(std::move(edge));
-  }
-  return moved;
-}
-
 TEST(PrecisionRecall, FIsHarmonicAndZeroWhereOneIsMissing) {
   EXPECT_NEAR(*(PrecisionRecall{0.5, 1.0}.F()), 2.0 / 3, 1e-15);  // rounding
   EXPECT_EQ((PrecisionRecall{0.0, 0.0}.F()), 0.0);
@@ -101,31 +90,6 @@ TEST(CompareCurves, NothingFoundAndNothingToFind) {
   EXPECT_EQ(all_false.within[2].F(), 0.0);
   EXPECT_EQ(CompareCurves({}, {}).within[2].F(), std::nullopt);
   EXPECT_EQ(CompareCurves({}, {}).mean, std::nullopt);
-}
-
-TEST(AlignToTruth, UndoesASmallMotion) {
-  // Three planes' worth of curves, so that the motion is determined.
-  SkeletonGraph truth = Lattice(3, 4, 0.05);
-  truth.AddPolyline(StraightLine({0, 0, 0.02}, {0.03, 0.08, 0.1}));
-  RigidTransform motion = RigidTransform::Identity();
-  motion.rotate(Eigen::AngleAxisd(0.02, Vec3(1, 2, 3).normalized()));
-  motion.pretranslate(Vec3(0.002, -0.001, 0.0015));
-  const SkeletonSamples samples = SampleSkeleton(truth);
-  const SkeletonSamples moved = SampleSkeleton(Moved(truth, motion));
-  const RigidTransform T = AlignToTruth(moved.positions, samples.positions);
-  double worst = 0;
-  for (size_t i = 0; i < samples.size(); ++i) {
-    worst = std::max(worst, (T * moved.positions[i] - samples.positions[i]).norm());
-  }
-  // Points pair with samples 1 mm apart, so along the curves it may rest half a step away.
-  EXPECT_LT(worst, 0.0005);
-}
-
-TEST(AlignToTruth, LeavesFewPointsAlone) {
-  const std::vector<Vec3> points(10, Vec3(0.001, 0, 0));
-  EXPECT_TRUE(AlignToTruth(points, points).isApprox(RigidTransform::Identity(), 0));
-  EXPECT_TRUE(AlignToTruth(std::vector<Vec3>(20, Vec3::Zero()), {})
-                  .isApprox(RigidTransform::Identity(), 0));
 }
 
 TEST(CompareDiameters, MeanRelativeAndPerEdge) {
