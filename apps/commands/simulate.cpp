@@ -99,6 +99,11 @@ void AddSensorOptions(CLI::App& command, SimulateArguments& arguments) {
       .add_option("--readout-time", scan.readout_time,
                   "Seconds from the first to the last row (rolling shutter; 0.028 for a Kinect V1)")
       ->check(CLI::Range(0.0, 0.033));
+  command
+      .add_option("--speckle-filter", scan.matching.drop_small_components,
+                  "Whether kinect_v1 and primesense drop small components of depth, as the real "
+                  "ones do: on or off")
+      ->default_str("on");
 }
 
 void AddMotionOptions(CLI::App& command, SimulateArguments& arguments) {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "experiments/simulation/small_components.h"
+
 // The hot loops once for processors with AVX2 and once for all: integer sums and single float
 // operations, so both give the same bits. Sanitizers cannot run the code that chooses.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
@@ -104,6 +106,15 @@ void VisitOptions(BlockMatchingOptions& options, OptionVisitor& visitor) {
   visitor.Visit(
       {"grow_correlation", "", 0, 1, "Correlation that a neighbour of a match needs; own choice."},
       options.grow_correlation);
+  visitor.Visit({"drop_small_components", "", 0, 1,
+                 "Whether the chip drops small components of depth; fitted to recordings."},
+                options.drop_small_components);
+  visitor.Visit({"min_component", "px", 1, 10000,
+                 "Pixels of the smallest component that it keeps; fitted to recordings."},
+                options.min_component);
+  visitor.Visit({"component_step", "px", 0, 10,
+                 "Largest step of disparity within a component; fitted to recordings."},
+                options.component_step);
 }
 
 BlockMatcher::BlockMatcher(int width, int height, const Pattern& pattern,
@@ -252,6 +263,9 @@ Image<float> BlockMatcher::Match(const IntensityImage& image) const {
         refined(u, v) = static_cast<float>(eighths) / kSubpixels;
       }
     }
+  }
+  if (options_.drop_small_components) {
+    DropSmallComponents(refined, options_.min_component, options_.component_step);
   }
   return refined;
 }

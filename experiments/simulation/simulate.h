@@ -14,7 +14,7 @@ namespace curvefusion {
 
 /// To be raised with every change of the bytes of a simulated scan: what keeps scans under a name
 /// then makes them anew.
-inline constexpr int kSimulatorVersion = 1;
+inline constexpr int kSimulatorVersion = 2;
 
 /// A scan to simulate.
 struct SimulationOptions {

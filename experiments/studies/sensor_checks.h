@@ -17,6 +17,7 @@ struct SensorMeasurement {
   double diameter_mm = 0;  ///< of the wires; exact, as labels show it
   double albedo = 0.7;     ///< of the wires
   int frames = 0;          ///< length of the trajectories, at 30 frames a second
+  bool filter = true;      ///< of structured light: BlockMatchingOptions::drop_small_components
 
   bool operator==(const SensorMeasurement&) const = default;
 };

@@ -26,6 +26,7 @@ Labels LabelsOf(const SensorMeasurement& what) {
           {"distance_m", number(what.distance)},
           {"diameter_mm", number(what.diameter_mm)},
           {"albedo", wires ? number(what.albedo) : ""},
+          {"filter", what.filter ? "" : "off"},
           {"frames", number(what.frames)}};
 }
 
@@ -52,9 +53,8 @@ RunOutcome Run(const RunInput& input) {
 class Measured {
  public:
   explicit Measured(const StudyResults& results)
-      : groups_(GroupRuns(results.runs,
-                          {"target", "subject", "distance_m", "diameter_mm", "albedo", "frames"})) {
-  }
+      : groups_(GroupRuns(results.runs, {"target", "subject", "distance_m", "diameter_mm", "albedo",
+                                         "filter", "frames"})) {}
 
   std::optional<Spread> Find(const SensorMeasurement& what, const std::string& figure) const {
     const Labels labels = LabelsOf(what);
@@ -77,8 +77,9 @@ std::string PlaceOf(const SensorMeasurement& what) {
     case Kind::kWall:
       return fmt::format("wall at {} m", what.distance);
     case Kind::kWires:
-      return fmt::format("{} mm at {} m{}", what.diameter_mm, what.distance,
-                         what.albedo == 0.7 ? "" : fmt::format(", albedo {}", what.albedo));
+      return fmt::format("{} mm at {} m{}{}", what.diameter_mm, what.distance,
+                         what.albedo == 0.7 ? "" : fmt::format(", albedo {}", what.albedo),
+                         what.filter ? "" : ", no filter");
     case Kind::kPoses:
       break;
   }
@@ -106,10 +107,15 @@ SensorMeasurement WiresBefore(const std::string& sensor, double distance, double
       .kind = Kind::kWires, .subject = sensor, .distance = distance, .diameter_mm = diameter_mm};
 }
 
-double Recall(const Measured& measured, size_t distance, size_t diameter) {
-  const auto spread = measured.Find(
-      WiresBefore("kinect_v1", RecallDistances()[distance], RecallDiameters_mm()[diameter]),
-      "recall");
+SensorMeasurement KinectBeforeWires(size_t distance, size_t diameter, bool filter) {
+  SensorMeasurement wires =
+      WiresBefore("kinect_v1", RecallDistances()[distance], RecallDiameters_mm()[diameter]);
+  wires.filter = filter;
+  return wires;
+}
+
+double Recall(const Measured& measured, size_t distance, size_t diameter, bool filter) {
+  const auto spread = measured.Find(KinectBeforeWires(distance, diameter, filter), "recall");
   return spread ? spread->median : std::nan("");
 }
 
@@ -119,14 +125,16 @@ struct RecallOrder {
   double by_distance = 0;
 };
 
-RecallOrder OrderOf(const Measured& measured) {
+RecallOrder OrderOf(const Measured& measured, bool filter) {
   RecallOrder worst;
   for (size_t i = 0; i < RecallDistances().size(); ++i) {
     for (size_t k = 0; k < RecallDiameters_mm().size(); ++k) {
-      const double here = Recall(measured, i, k);
+      const double here = Recall(measured, i, k, filter);
       if (std::isnan(here)) return {HUGE_VAL, HUGE_VAL};
-      if (k > 0) worst.by_diameter = std::max(worst.by_diameter, Recall(measured, i, k - 1) - here);
-      if (i > 0) worst.by_distance = std::max(worst.by_distance, here - Recall(measured, i - 1, k));
+      if (k > 0)
+        worst.by_diameter = std::max(worst.by_diameter, Recall(measured, i, k - 1, filter) - here);
+      if (i > 0)
+        worst.by_distance = std::max(worst.by_distance, here - Recall(measured, i - 1, k, filter));
     }
   }
   return worst;
@@ -149,13 +157,18 @@ Table CheckTable(const Measured& measured) {
   Table table{
       {"subject", "figure", "where", "basis", "source", "band", "measured", "result"}, {}, 5};
   for (const SensorCheck& check : SensorChecks()) table.rows.push_back(CheckRow(check, measured));
-  const RecallOrder worst = OrderOf(measured);
-  table.rows.push_back(OrderRow("fall to a thicker wire", worst.by_diameter));
-  table.rows.push_back(OrderRow("rise to a farther wire", worst.by_distance));
+  for (const bool filter : {true, false}) {
+    const RecallOrder worst = OrderOf(measured, filter);
+    const char* where = filter ? "" : ", no filter";
+    table.rows.push_back(
+        OrderRow(fmt::format("fall to a thicker wire{}", where), worst.by_diameter));
+    table.rows.push_back(
+        OrderRow(fmt::format("rise to a farther wire{}", where), worst.by_distance));
+  }
   return table;
 }
 
-// Measured here, and the prototype's in brackets.
+// With the filter of small components, without, and in brackets the prototype's, which had none.
 Table RecallTable(const Measured& measured) {
   Table table{{"distance (m)"}, {}, 1};
   for (const double diameter_mm : RecallDiameters_mm()) {
@@ -164,7 +177,8 @@ Table RecallTable(const Measured& measured) {
   for (size_t i = 0; i < RecallDistances().size(); ++i) {
     std::vector<std::string> row = {fmt::format("{}", RecallDistances()[i])};
     for (size_t k = 0; k < RecallDiameters_mm().size(); ++k) {
-      row.push_back(fmt::format("{:.2f} ({:.2f})", Recall(measured, i, k), PrototypeRecall(i, k)));
+      row.push_back(fmt::format("{:.2f} / {:.2f} ({:.2f})", Recall(measured, i, k, true),
+                                Recall(measured, i, k, false), PrototypeRecall(i, k)));
     }
     table.rows.push_back(row);
   }
@@ -217,11 +231,9 @@ std::string PlotData(const Measured& measured) {
   for (size_t i = 0; i < RecallDistances().size(); ++i) {
     data += "\n\n";
     for (size_t k = 0; k < RecallDiameters_mm().size(); ++k) {
-      const double diameter_mm = RecallDiameters_mm()[k];
-      data += fmt::format(
-          "{} {} {}\n", diameter_mm,
-          measured.Data(WiresBefore("kinect_v1", RecallDistances()[i], diameter_mm), "recall"),
-          PrototypeRecall(i, k));
+      data += fmt::format("{} {} {}\n", RecallDiameters_mm()[k],
+                          measured.Data(KinectBeforeWires(i, k, true), "recall"),
+                          Recall(measured, i, k, false));
     }
   }
   for (const char* sensor : kSensors) {
@@ -253,9 +265,10 @@ std::string Curves(const Names& names, int first, const std::string& unit) {
 }
 
 std::string PlotCommands(double greatest_ate_mm) {
-  std::string prototype;
+  std::string unfiltered;
   for (size_t i = 0; i < RecallDistances().size(); ++i) {
-    prototype += fmt::format(", data index {} using 1:5 with lines dashtype 3 lt {}", i + 1, i + 1);
+    unfiltered +=
+        fmt::format(", data index {} using 1:5 with lines dashtype 3 lt {}", i + 1, i + 1);
   }
   return "set datafile missing '?'\nset key noenhanced samplen 1.5 font ',7'\n"
          "set multiplot layout 2,2 margins 0.11,0.98,0.12,0.94 spacing 0.12,0.20\n"
@@ -265,11 +278,11 @@ std::string PlotCommands(double greatest_ate_mm) {
          "plot data index 0 using 1:2:3:4 with yerrorbars lt 1 title 'simulated', "
          "1.425*x*x with lines lt 2 title 'Khoshelham 2012', "
          "1.2+1.9*(x-0.4)**2 with lines lt 3 title 'Nguyen 2012'\n"
-         "set title 'Kinect V1: recall (dotted: prototype)'\n"
+         "set title 'Kinect V1: recall (dotted: no filter)'\n"
          "set xlabel 'Diameter (mm)'\nset ylabel 'Recall'\nset key bottom right\n"
          "set yrange [0:1.05]\nset xrange [0:12.5]\n"
          "plot " +
-         Curves(RecallDistances(), 1, " m") + prototype +
+         Curves(RecallDistances(), 1, " m") + unfiltered +
          "\nset title 'Recall of wires at 0.7 m by sensor'\nplot " + Curves(kSensors, 5, "") +
          "\nset title 'Absolute trajectory error'\nset xlabel 'Length of the scan (s)'\n"
          "set ylabel 'ATE (mm)'\nset key at graph 0.99,0.42\nset xrange [0:55]\n" +
