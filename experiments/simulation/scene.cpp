@@ -10,14 +10,17 @@ namespace curvefusion {
 namespace {
 
 constexpr double kLongestCapsule = 0.010;  // keeps the tiles a piece may touch few
-constexpr double kFlat = 1.0 / 3;          // height over width below which an object is stood up
+constexpr double kTaperStep = 5e-5;  // of a radius from piece to piece: below what any sensor sees
+constexpr double kFlat = 1.0 / 3;    // height over width below which an object is stood up
 
 Eigen::AlignedBox3d Bounds(const WireObject& object) {
   Eigen::AlignedBox3d bounds;
   for (const WireCurve& curve : object.curves) {
-    for (const Vec3& p : curve.points) {
-      bounds.extend(Vec3(p - Vec3::Constant(curve.diameter / 2)));
-      bounds.extend(Vec3(p + Vec3::Constant(curve.diameter / 2)));
+    for (size_t i = 0; i < curve.points.size(); ++i) {
+      const Vec3& p = curve.points[i];
+      const double radius = curve.DiameterAt(i) / 2;
+      bounds.extend(Vec3(p - Vec3::Constant(radius)));
+      bounds.extend(Vec3(p + Vec3::Constant(radius)));
     }
   }
   if (bounds.isEmpty()) bounds.extend(Vec3::Constant(-0.15)).extend(Vec3::Constant(0.15));
@@ -39,16 +42,20 @@ WireObject Placed(WireObject object) {
   return object;
 }
 
+// A wire that tapers becomes a row of steps.
 std::vector<SceneCapsule> Capsules(const WireObject& object) {
   std::vector<SceneCapsule> capsules;
   for (const WireCurve& curve : object.curves) {
     for (size_t i = 0; i + 1 < curve.points.size(); ++i) {
       const Vec3& a = curve.points[i];
       const Vec3& b = curve.points[i + 1];
-      const int pieces = std::max(1, static_cast<int>(std::ceil((b - a).norm() / kLongestCapsule)));
+      const double radius = curve.DiameterAt(i) / 2;
+      const double growth = curve.DiameterAt(i + 1) / 2 - radius;
+      const int pieces = std::max({1, static_cast<int>(std::ceil((b - a).norm() / kLongestCapsule)),
+                                   static_cast<int>(std::ceil(std::abs(growth) / kTaperStep))});
       for (int k = 0; k < pieces; ++k) {
-        capsules.push_back(
-            {a + (b - a) * k / pieces, a + (b - a) * (k + 1) / pieces, curve.diameter / 2});
+        capsules.push_back({a + (b - a) * k / pieces, a + (b - a) * (k + 1) / pieces,
+                            radius + growth * (k + 0.5) / pieces});
       }
     }
   }

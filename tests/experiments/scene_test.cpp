@@ -76,6 +76,22 @@ TEST(SceneView, TracesTheSameDepthAsSphereTracing) {
   EXPECT_LE(different, kRays / 500);
 }
 
+TEST(SceneView, SeesHowAWireTapers) {
+  // Thins from 12 to 4 mm on its way up, 0.5 m before the camera.
+  WireObject object{"taper", {{{{0, 0, -0.1}, {0, 0, 0.1}}, 0.008, {0.012, 0.004}}}};
+  const Scene scene = MakeScene(object, {}, 1);
+  RigidTransform T_world_camera = RigidTransform::Identity();
+  T_world_camera.linear() << 1, 0, 0, 0, 0, 1, 0, -1, 0;  // looks along y, z up
+  T_world_camera.translation() = Vec3(0, -0.5, 0);
+  const SceneView view(scene, kCamera, T_world_camera, T_world_camera);
+  for (const double z : {-0.09, -0.03, 0.02, 0.08}) {
+    const double radius = 0.004 - 0.02 * z;
+    const double v = kCamera.cy - kCamera.fy * z / 0.5;
+    // Steps of 0.05 mm, half of one at most beside the even taper; the ray slants by a fifth.
+    EXPECT_NEAR(view.Trace(kCamera.cx, v).depth, 0.5 - radius, 0.0001) << z;
+  }
+}
+
 TEST(SceneView, NormalsFaceTheCameraAndAreUnit) {
   const CageView cage;
   const SceneView view(cage.scene, kCamera, cage.poses[0], cage.poses[0]);
