@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "experiments/simulation/furniture.h"
 #include "experiments/simulation/random.h"
 
 namespace curvefusion {
@@ -119,7 +120,7 @@ std::vector<SceneBox> BoxesAround(const Eigen::AlignedBox3d& object,
     box.half_size = {random.Uniform(0.04, 0.10), random.Uniform(0.04, 0.10),
                      random.Uniform(0.05, 0.16)};
     const double yaw = random.Uniform(0, std::numbers::pi);
-    box.heading = {std::cos(yaw), std::sin(yaw)};
+    box.rotation = Eigen::AngleAxisd(yaw, Vec3::UnitZ()).toRotationMatrix();
     const double reach = box.half_size.head<2>().norm();
     box.center = {random.Uniform(object.min().x() - 0.35, object.max().x() + 0.35),
                   random.Uniform(object.min().y(), wall - reach), table + box.half_size.z()};
@@ -128,7 +129,9 @@ std::vector<SceneBox> BoxesAround(const Eigen::AlignedBox3d& object,
       const double gap = (other.center - box.center).head<2>().norm();
       clear = clear && gap > reach + other.half_size.head<2>().norm();
     }
-    if (clear) boxes.push_back(box);
+    if (!clear) continue;
+    box.material = static_cast<int>(1 + room.size() + boxes.size());
+    boxes.push_back(box);
   }
   return boxes;
 }
@@ -148,6 +151,9 @@ void VisitOptions(SceneOptions& options, OptionVisitor& visitor) {
   visitor.Visit({"wire_shininess", "", 0, 1,
                  "Share of light the wires mirror; CurveFusion 4, effect of colour."},
                 options.wire_shininess);
+  visitor.Visit({"furniture", "", 0, 40,
+                 "Things in the room that are no wires: books, cups, slats, leaves; own choice."},
+                options.furniture);
 }
 
 double MirrorLobe(double cosine) {
@@ -168,6 +174,7 @@ Scene MakeScene(const WireObject& object, const SceneOptions& options, uint64_t 
     const uint64_t texture_seed = Random(seed, RandomStream::kTexture, i).Next();
     scene.materials.push_back(BackgroundMaterial(random, texture_seed));
   }
+  Furnish(scene, options.furniture, seed);
   return scene;
 }
 
