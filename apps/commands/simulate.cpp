@@ -6,13 +6,16 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "apps/commands/command.h"
 #include "apps/output_folder.h"
 #include "experiments/simulation/depth_sensor.h"
 #include "experiments/simulation/drift.h"
+#include "experiments/simulation/families/scan_draw.h"
 #include "experiments/simulation/object_truth.h"
+#include "experiments/simulation/scan_settings.h"
 #include "graph/graph_io.h"
 #include "kernel/error.h"
 #include "kernel/run_lock.h"
@@ -24,6 +27,7 @@ namespace {
 constexpr const char* kSmallColor = "640x480";
 constexpr const char* kLargeColor = "1280x1024";
 constexpr const char* kSpacedObject = "parallel_wires";
+constexpr const char* kRandom = "random";
 
 struct SimulateArguments {
   std::string scene;
@@ -31,6 +35,8 @@ struct SimulateArguments {
   std::string color_size = kSmallColor;
   std::optional<double> spacing_mm;
   double wire_diameter_mm = 0;  // 0 = the object's own
+  std::string family;
+  std::filesystem::path draw;
   SimulationOptions scan;
   RunOptions run;
 };
@@ -56,6 +62,46 @@ double SpacingOf(const SimulateArguments& arguments) {
   return *arguments.spacing_mm * kMillimetre;
 }
 
+// What `random` draws itself must not be given as well.
+void RefuseDrawnOptions(const CLI::App& command) {
+  static const std::set<std::string> kOwn = {"SCENE",   "--output",  "--family",
+                                             "--draw",  "--seed",    "--frames",
+                                             "--quiet", "--threads", "--help"};
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->count() == 0 || kOwn.contains(option->get_name())) continue;
+    if (kOwn.contains("--" + option->get_single_name())) continue;
+    throw Error(ErrorKind::kUsage, option->get_name() +
+                                       " is drawn by simulate random: leave it out, or name an "
+                                       "object");
+  }
+}
+
+// A scan whose everything but the number of frames is drawn, or was drawn earlier.
+SimulationOptions RandomScan(const CLI::App& command, const SimulateArguments& arguments) {
+  RefuseDrawnOptions(command);
+  if (arguments.family.empty() == arguments.draw.empty()) {
+    throw Error(ErrorKind::kUsage,
+                "simulate random needs --family (with --seed), or --draw with the settings.json of "
+                "an earlier scan");
+  }
+  SimulationOptions scan = arguments.draw.empty() ? DrawScan(arguments.family, arguments.scan.seed)
+                                                  : ReadScanSettings(arguments.draw);
+  if (command.count("--frames") > 0) scan.frames = arguments.scan.frames;
+  return scan;
+}
+
+SimulationOptions ChosenScan(SimulateArguments& arguments) {
+  if (!arguments.family.empty() || !arguments.draw.empty()) {
+    throw Error(ErrorKind::kUsage, "--family and --draw are for simulate random only");
+  }
+  SimulationOptions& scan = arguments.scan;
+  scan.large_color = arguments.color_size == kLargeColor;
+  scan.object_options.spacing = SpacingOf(arguments);
+  scan.object_options.wire_diameter = arguments.wire_diameter_mm * kMillimetre;
+  ChooseObject(arguments.scene, scan);
+  return scan;
+}
+
 // Beside the folder, which appears only in the end.
 RunLock LockOf(const std::filesystem::path& folder) {
   std::filesystem::path named = std::filesystem::absolute(folder).lexically_normal();
@@ -64,12 +110,9 @@ RunLock LockOf(const std::filesystem::path& folder) {
   return {named.string() + ".lock", folder};
 }
 
-int RunSimulate(SimulateArguments arguments) {
-  SimulationOptions& scan = arguments.scan;
-  scan.large_color = arguments.color_size == kLargeColor;
-  scan.object_options.spacing = SpacingOf(arguments);
-  scan.object_options.wire_diameter = arguments.wire_diameter_mm * kMillimetre;
-  ChooseObject(arguments.scene, scan);
+int RunSimulate(const CLI::App& command, SimulateArguments arguments) {
+  const bool random = arguments.scene == kRandom;
+  const SimulationOptions scan = random ? RandomScan(command, arguments) : ChosenScan(arguments);
   const RunLock lock = LockOf(arguments.output);
   ProgressPrinter printer = MakeProgressPrinter(arguments.run.quiet);
   LimitThreads(arguments.run);
@@ -155,7 +198,7 @@ void AddSimulateCommand(CLI::App& app, int& exit_code) {
   command
       ->add_option("SCENE", arguments->scene,
                    "An object: " + CLI::detail::join(ObjectNames(), ", ") +
-                       "; or a skeleton.json with radii")
+                       "; or a skeleton.json with radii; or random")
       ->required();
   command
       ->add_option("-o,--output", arguments->output,
@@ -165,6 +208,16 @@ void AddSimulateCommand(CLI::App& app, int& exit_code) {
   AddSensorOptions(*command, *arguments);
   AddMotionOptions(*command, *arguments);
   AddWireOptions(*command, *arguments);
+  command->option_defaults()->group("Random scans");
+  command
+      ->add_option("--family", arguments->family,
+                   "Of random: object, room, camera, colours, light, path and poses are drawn from "
+                   "the seed")
+      ->check(CLI::IsMember(FamilyNames()));
+  command
+      ->add_option("--draw", arguments->draw,
+                   "Of random: the truth/settings.json of a simulated scan, to have it again")
+      ->check(CLI::ExistingFile);
   command->option_defaults()->group("Run");
   command->add_option("--seed", arguments->scan.seed,
                       "Another room, path and noise for each number");
@@ -174,8 +227,10 @@ void AddSimulateCommand(CLI::App& app, int& exit_code) {
       "bytes.\n"
       "Example:\n  curvefusion simulate cage -o scans/cage --frames 227\n"
       "  curvefusion simulate parallel_wires -o scans/close --spacing 12 --seed 2\n"
+      "  curvefusion simulate random --family tree --seed 7 -o scans/tree_7\n"
       "  curvefusion simulate my_object.json -o scans/mine --rgb 1280x1024 --wire-albedo 0.05");
-  command->callback([arguments, &exit_code] { exit_code = RunSimulate(*arguments); });
+  command->callback(
+      [command, arguments, &exit_code] { exit_code = RunSimulate(*command, *arguments); });
 }
 
 }  // namespace curvefusion

@@ -15,6 +15,7 @@
 #include "experiments/simulation/object_truth.h"
 #include "experiments/simulation/random.h"
 #include "experiments/simulation/scan_files.h"
+#include "experiments/simulation/scan_settings.h"
 #include "graph/graph_io.h"
 #include "kernel/atomic_file.h"
 #include "kernel/error.h"
@@ -202,6 +203,8 @@ void WriteTruth(const ScanPlan& plan, const SimulationOptions& options,
   const nlohmann::ordered_json scene = SceneJson(plan, options);
   WriteStreamAtomically(folder / "scene.json",
                         [&](std::ostream& stream) { stream << scene.dump(1) << "\n"; });
+  WriteStreamAtomically(folder / "settings.json",
+                        [&](std::ostream& stream) { stream << ScanSettings(options) << "\n"; });
 }
 
 }  // namespace

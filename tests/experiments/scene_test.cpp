@@ -246,6 +246,26 @@ TEST(Motion, HandCarriesTheCameraAtItsSpeedAndDistance) {
   }
 }
 
+TEST(Motion, RestsAndKeepsToOneSideWhereAsked) {
+  const CageView cage;
+  ScanTask task;
+  task.object_bounds = cage.scene.object_bounds;
+  task.table_height = cage.scene.TableHeight();
+  MotionOptions options{.hand_noise = 0, .sweep = 0.2, .azimuth = 0.6, .pause = 1};
+  const auto poses = HandheldPath(task, 600, options, 1);
+  int resting = 0;
+  for (size_t i = 0; i + 1 < poses.size(); ++i) {
+    const Vec3& eye = poses[i].translation();
+    resting += (poses[i + 1].translation() - eye).norm() == 0;
+    // The middle of the way is drawn within 8 degrees, .14 rad, of the one asked for.
+    const double azimuth = std::atan2(eye.x(), -eye.y());
+    EXPECT_GT(azimuth, 0.6 - 0.2 - 0.141);
+    EXPECT_LT(azimuth, 0.6 + 0.2 + 0.141);
+  }
+  // 1 s of 2.5 s; the first and last moments of motion are slow, not at rest.
+  EXPECT_NEAR(resting / 600.0, 0.4, 0.03);
+}
+
 TEST(Motion, SwayHasItsAmplitude) {
   const CageView cage;
   ScanTask task;

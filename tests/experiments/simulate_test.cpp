@@ -63,7 +63,7 @@ TEST(SimulateScan, SameBytesForAnyNumberOfThreads) {
   options.frames = 3;
   const auto one = Simulated(options, 1, "one");
   const auto four = Simulated(options, 4, "four");
-  EXPECT_EQ(one.size(), 3u * 2 + 5 + 4);
+  EXPECT_EQ(one.size(), 3u * 2 + 5 + 5);
   EXPECT_TRUE(one == four);
 }
 
