@@ -238,7 +238,7 @@ TEST(AlignToTruth, ExplainsNoLessThanRaw) {
   const Eigen::AlignedBox3d bounds = BoundsOf(truth);
   std::mt19937_64 random(11);
   std::uniform_real_distribution<double> uniform(-1, 1);
-  for (int trial = 0; trial < 12; ++trial) {
+  for (int trial = 0; trial < 8; ++trial) {
     SkeletonGraph result = trial % 3 == 0 ? HalfOf(truth) : WithNoise(truth, 0.004, trial);
     if (trial % 4 == 0) result = {};
     AddRandomCurves(result, bounds, (trial % 5) * truth.TotalLength(), trial);
