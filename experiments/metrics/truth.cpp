@@ -1,5 +1,6 @@
 #include "experiments/metrics/truth.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -34,9 +35,11 @@ WireCurve CurveOf(const nlohmann::json& json) {
     curve.points.emplace_back(point.at(0).get<double>(), point.at(1).get<double>(),
                               point.at(2).get<double>());
   }
+  if (json.contains("diameters")) json.at("diameters").get_to(curve.diameters);
   const bool closed = json.at("closed").get<bool>();
   if (closed && !curve.points.empty() && curve.points.front() != curve.points.back()) {
     curve.points.push_back(curve.points.front());
+    if (!curve.diameters.empty()) curve.diameters.push_back(curve.diameters.front());
   }
   return curve;
 }
@@ -55,6 +58,12 @@ SkeletonGraph TruthFromCurves(const std::string& text, const std::string& source
     const WireCurve& curve = object.curves[i];
     const double length = Length(curve.points);
     total_length += length;
+    const bool tapers = !curve.diameters.empty();
+    if (tapers && (curve.diameters.size() != curve.points.size() ||
+                   !(std::ranges::min(curve.diameters) > 0))) {
+      throw Error(ErrorKind::kBadInput, source + ": curve " + std::to_string(i) +
+                                            " needs one positive diameter a point, or none");
+    }
     if (!(curve.diameter > 0 && length > 0)) {
       throw Error(ErrorKind::kBadInput,
                   source + ": curve " + std::to_string(i) + " has no length or no diameter");

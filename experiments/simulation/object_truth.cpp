@@ -1,6 +1,7 @@
 #include "experiments/simulation/object_truth.h"
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numeric>
 
@@ -152,6 +153,16 @@ std::vector<Stop> StopsOf(const WireCurve& curve, std::vector<Stop> stops, Skele
   return stops;
 }
 
+// At an arc length, which may lie one round on where the wire is closed.
+double RadiusAt(const WireCurve& curve, const std::vector<double>& cumulative, double arc_length) {
+  if (curve.diameters.empty()) return curve.diameter / 2;
+  if (arc_length > cumulative.back()) arc_length -= cumulative.back();
+  const auto after = std::upper_bound(cumulative.begin(), cumulative.end() - 1, arc_length);
+  const size_t i = std::max<std::ptrdiff_t>(after - cumulative.begin(), 1);
+  const double share = (arc_length - cumulative[i - 1]) / (cumulative[i] - cumulative[i - 1]);
+  return ((1 - share) * curve.diameters[i - 1] + share * curve.diameters[i]) / 2;
+}
+
 // The part of a curve between two stops, its ends bent to the nodes. Vertices within a tenth of a
 // millimetre of a stop are left out, so that no segment degenerates.
 void AddPart(const WireCurve& curve, const Stop& from, const Stop& to, SkeletonGraph& graph) {
@@ -160,6 +171,7 @@ void AddPart(const WireCurve& curve, const Stop& from, const Stop& to, SkeletonG
   SkeletonEdge edge;
   edge.nodes = {from.node, to.node};
   edge.points = {graph.position(from.node)};
+  edge.radii = {RadiusAt(curve, cumulative, from.arc_length)};
   const int rounds = curve.IsClosed() ? 2 : 1;
   for (int round = 0; round < rounds; ++round) {
     for (size_t i = round; i < curve.points.size(); ++i) {
@@ -167,26 +179,65 @@ void AddPart(const WireCurve& curve, const Stop& from, const Stop& to, SkeletonG
       if (at > from.arc_length + kClear && at < to.arc_length - kClear &&
           curve.points[i] != edge.points.back()) {  // shapes joined end to end repeat a point
         edge.points.push_back(curve.points[i]);
+        edge.radii.push_back(curve.DiameterAt(i) / 2);
       }
     }
   }
   edge.points.push_back(graph.position(to.node));
-  edge.radii.assign(edge.points.size(), curve.diameter / 2);
+  edge.radii.push_back(RadiusAt(curve, cumulative, to.arc_length));
   graph.AddEdge(std::move(edge));
+}
+
+// Where wires come near each other, of each curve.
+std::vector<std::vector<Stop>> StopsByNearness(const WireObject& object, SkeletonGraph& graph) {
+  std::vector<std::vector<Stop>> stops_of_curve(object.curves.size());
+  for (const Contact& contact : FindContacts(object)) {
+    const NodeId node = graph.AddNode(contact.position);
+    for (const int i : contact.curves) {
+      const double at = Project(object.curves[i].points, contact.position).arc_length;
+      stops_of_curve[i].push_back({at, node});
+    }
+  }
+  return stops_of_curve;
+}
+
+// Where wires share a point, of each curve.
+std::vector<std::vector<Stop>> StopsBySharedPoints(const WireObject& object, SkeletonGraph& graph) {
+  struct Place {
+    int uses = 0;
+    NodeId node = -1;
+  };
+  const auto before = [](const Vec3& a, const Vec3& b) {
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+  };
+  std::map<Vec3, Place, decltype(before)> places(before);
+  const auto own_points = [](const WireCurve& curve) {
+    return curve.points.size() - (curve.IsClosed() ? 1 : 0);
+  };
+  for (const WireCurve& curve : object.curves) {
+    for (size_t k = 0; k < own_points(curve); ++k) ++places[curve.points[k]].uses;
+  }
+  std::vector<std::vector<Stop>> stops_of_curve(object.curves.size());
+  for (size_t i = 0; i < object.curves.size(); ++i) {
+    const WireCurve& curve = object.curves[i];
+    const std::vector<double> cumulative = CumulativeLength(curve.points);
+    for (size_t k = 0; k < own_points(curve); ++k) {
+      Place& place = places[curve.points[k]];
+      if (place.uses < 2) continue;
+      if (place.node < 0) place.node = graph.AddNode(curve.points[k]);
+      stops_of_curve[i].push_back({cumulative[k], place.node});
+    }
+  }
+  return stops_of_curve;
 }
 
 }  // namespace
 
 SkeletonGraph TruthSkeleton(const WireObject& object) {
   SkeletonGraph graph;
-  std::vector<std::vector<Stop>> contacts_of_curve(object.curves.size());
-  for (const Contact& contact : FindContacts(object)) {
-    const NodeId node = graph.AddNode(contact.position);
-    for (const int i : contact.curves) {
-      const double at = Project(object.curves[i].points, contact.position).arc_length;
-      contacts_of_curve[i].push_back({at, node});
-    }
-  }
+  const std::vector<std::vector<Stop>> contacts_of_curve = object.welds == WeldRule::kNearness
+                                                               ? StopsByNearness(object, graph)
+                                                               : StopsBySharedPoints(object, graph);
   for (size_t i = 0; i < object.curves.size(); ++i) {
     const std::vector<Stop> stops = StopsOf(object.curves[i], contacts_of_curve[i], graph);
     for (size_t k = 0; k + 1 < stops.size(); ++k) {
@@ -210,7 +261,11 @@ std::vector<WireCurve> WiresOf(const SkeletonGraph& skeleton, const std::string&
                   source + ": edge " + std::to_string(id) + " has no radius; a wire needs one");
     }
     const double sum = std::accumulate(edge.radii.begin(), edge.radii.end(), 0.0);
-    wires.push_back({edge.points, 2 * sum / static_cast<double>(edge.radii.size())});
+    WireCurve wire{edge.points, 2 * sum / static_cast<double>(edge.radii.size())};
+    if (std::ranges::min(edge.radii) != std::ranges::max(edge.radii)) {
+      for (const double radius : edge.radii) wire.diameters.push_back(2 * radius);
+    }
+    wires.push_back(std::move(wire));
   }
   return wires;
 }
@@ -225,6 +280,10 @@ void WriteCurves(const std::filesystem::path& path, const WireObject& object) {
     }
     curves.push_back(
         {{"diameter", curve.diameter}, {"closed", curve.IsClosed()}, {"points", points}});
+    if (!curve.diameters.empty()) {
+      curves.back()["diameters"] =
+          std::vector<double>(curve.diameters.begin(), curve.diameters.begin() + count);
+    }
   }
   WriteStreamAtomically(path, [&](std::ostream& stream) { stream << curves.dump() << "\n"; });
 }

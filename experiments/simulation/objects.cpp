@@ -13,14 +13,17 @@ std::vector<std::string> ObjectNames() {
 }
 
 WireObject MakeObject(const std::string& name, const ObjectOptions& options) {
-  WireObject object{name, options.curves};
+  WireObject object{name, options.curves, options.welds};
   if (object.curves.empty() && !MakePaperObject(name, object.curves) &&
       !MakeEverydayObject(name, object.curves) && !MakeStudyObject(name, options, object.curves)) {
     throw Error(ErrorKind::kUsage, "no object is called '" + name + "'; did you mean '" +
                                        NearestName(name, ObjectNames()) + "'?");
   }
   if (options.wire_diameter > 0) {
-    for (WireCurve& curve : object.curves) curve.diameter = options.wire_diameter;
+    for (WireCurve& curve : object.curves) {
+      curve.diameter = options.wire_diameter;
+      curve.diameters.clear();
+    }
   }
   return object;
 }

@@ -10,23 +10,32 @@ namespace curvefusion {
 /// One wire: its centre line (a closed one repeats its first point) and its diameter, in metres.
 struct WireCurve {
   Polyline points;
-  double diameter = 0;
+  double diameter = 0;                 ///< everywhere, or where it tapers: on average
+  std::vector<double> diameters = {};  ///< of a wire that tapers: one a point; otherwise empty
 
   bool IsClosed() const { return points.size() > 2 && points.front() == points.back(); }
+  double DiameterAt(size_t point) const { return diameters.empty() ? diameter : diameters[point]; }
 };
 
-/// A thing made of wires, in its own frame: z up, seen best from -y. Wires whose centre lines meet
-/// are welded there.
+/// Where wires are joined.
+enum class WeldRule {
+  kNearness,     ///< wherever their centre lines come within 1.2 mm
+  kSharedPoints  ///< at the points they share bit for bit and nowhere else: others touch or pass
+};
+
+/// A thing made of wires, in its own frame: z up, seen best from -y.
 struct WireObject {
   std::string name;
   std::vector<WireCurve> curves;
+  WeldRule welds = WeldRule::kNearness;
 };
 
 /// How an object may differ from its description.
 struct ObjectOptions {
-  double wire_diameter = 0;            ///< metres; 0 keeps the object's own diameters
-  double spacing = 0.020;              ///< metres between the axes of `parallel_wires`
-  std::vector<WireCurve> curves = {};  ///< the caller's own object, under any name
+  double wire_diameter = 0;              ///< metres; 0 keeps the object's own diameters
+  double spacing = 0.020;                ///< metres between the axes of `parallel_wires`
+  std::vector<WireCurve> curves = {};    ///< the caller's own object, under any name
+  WeldRule welds = WeldRule::kNearness;  ///< of the caller's own object
 };
 
 /// Every name MakeObject knows: the paper's eight first, in the order of its Table 1.

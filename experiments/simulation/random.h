@@ -26,6 +26,9 @@ enum class RandomStream : uint64_t {
   kDepthNoise,
   kColorNoise,
   kRegistration,
+  kShape,      ///< of an object of a family
+  kDraw,       ///< of what a random scan is like
+  kFurniture,  ///< of the things in a room
 };
 
 /// Random numbers that depend on nothing but seed, stream and index (a frame, say), so that frames
@@ -42,6 +45,19 @@ class Random {
 
   /// In [low, high).
   double Uniform(double low, double high) { return low + (high - low) * Uniform(); }
+
+  /// In [low, high), equally likely in equal ratios.
+  double LogUniform(double low, double high) {
+    return std::exp(Uniform(std::log(low), std::log(high)));
+  }
+
+  /// A whole number from low to high, both included.
+  int Integer(int low, int high) {
+    return low + static_cast<int>(Next() % static_cast<uint64_t>(high - low + 1));
+  }
+
+  /// True with that probability.
+  bool Chance(double probability) { return Uniform() < probability; }
 
   /// Standard normal (Box-Muller).
   double Normal() {

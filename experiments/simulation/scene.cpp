@@ -4,20 +4,24 @@
 #include <cmath>
 #include <numbers>
 
+#include "experiments/simulation/furniture.h"
 #include "experiments/simulation/random.h"
 
 namespace curvefusion {
 namespace {
 
 constexpr double kLongestCapsule = 0.010;  // keeps the tiles a piece may touch few
-constexpr double kFlat = 1.0 / 3;          // height over width below which an object is stood up
+constexpr double kTaperStep = 5e-5;  // of a radius from piece to piece: below what any sensor sees
+constexpr double kFlat = 1.0 / 3;    // height over width below which an object is stood up
 
 Eigen::AlignedBox3d Bounds(const WireObject& object) {
   Eigen::AlignedBox3d bounds;
   for (const WireCurve& curve : object.curves) {
-    for (const Vec3& p : curve.points) {
-      bounds.extend(Vec3(p - Vec3::Constant(curve.diameter / 2)));
-      bounds.extend(Vec3(p + Vec3::Constant(curve.diameter / 2)));
+    for (size_t i = 0; i < curve.points.size(); ++i) {
+      const Vec3& p = curve.points[i];
+      const double radius = curve.DiameterAt(i) / 2;
+      bounds.extend(Vec3(p - Vec3::Constant(radius)));
+      bounds.extend(Vec3(p + Vec3::Constant(radius)));
     }
   }
   if (bounds.isEmpty()) bounds.extend(Vec3::Constant(-0.15)).extend(Vec3::Constant(0.15));
@@ -39,16 +43,20 @@ WireObject Placed(WireObject object) {
   return object;
 }
 
+// A wire that tapers becomes a row of steps.
 std::vector<SceneCapsule> Capsules(const WireObject& object) {
   std::vector<SceneCapsule> capsules;
   for (const WireCurve& curve : object.curves) {
     for (size_t i = 0; i + 1 < curve.points.size(); ++i) {
       const Vec3& a = curve.points[i];
       const Vec3& b = curve.points[i + 1];
-      const int pieces = std::max(1, static_cast<int>(std::ceil((b - a).norm() / kLongestCapsule)));
+      const double radius = curve.DiameterAt(i) / 2;
+      const double growth = curve.DiameterAt(i + 1) / 2 - radius;
+      const int pieces = std::max({1, static_cast<int>(std::ceil((b - a).norm() / kLongestCapsule)),
+                                   static_cast<int>(std::ceil(std::abs(growth) / kTaperStep))});
       for (int k = 0; k < pieces; ++k) {
-        capsules.push_back(
-            {a + (b - a) * k / pieces, a + (b - a) * (k + 1) / pieces, curve.diameter / 2});
+        capsules.push_back({a + (b - a) * k / pieces, a + (b - a) * (k + 1) / pieces,
+                            radius + growth * (k + 0.5) / pieces});
       }
     }
   }
@@ -112,7 +120,7 @@ std::vector<SceneBox> BoxesAround(const Eigen::AlignedBox3d& object,
     box.half_size = {random.Uniform(0.04, 0.10), random.Uniform(0.04, 0.10),
                      random.Uniform(0.05, 0.16)};
     const double yaw = random.Uniform(0, std::numbers::pi);
-    box.heading = {std::cos(yaw), std::sin(yaw)};
+    box.rotation = Eigen::AngleAxisd(yaw, Vec3::UnitZ()).toRotationMatrix();
     const double reach = box.half_size.head<2>().norm();
     box.center = {random.Uniform(object.min().x() - 0.35, object.max().x() + 0.35),
                   random.Uniform(object.min().y(), wall - reach), table + box.half_size.z()};
@@ -121,7 +129,9 @@ std::vector<SceneBox> BoxesAround(const Eigen::AlignedBox3d& object,
       const double gap = (other.center - box.center).head<2>().norm();
       clear = clear && gap > reach + other.half_size.head<2>().norm();
     }
-    if (clear) boxes.push_back(box);
+    if (!clear) continue;
+    box.material = static_cast<int>(1 + room.size() + boxes.size());
+    boxes.push_back(box);
   }
   return boxes;
 }
@@ -141,6 +151,9 @@ void VisitOptions(SceneOptions& options, OptionVisitor& visitor) {
   visitor.Visit({"wire_shininess", "", 0, 1,
                  "Share of light the wires mirror; CurveFusion 4, effect of colour."},
                 options.wire_shininess);
+  visitor.Visit({"furniture", "", 0, 40,
+                 "Things in the room that are no wires: books, cups, slats, leaves; own choice."},
+                options.furniture);
 }
 
 double MirrorLobe(double cosine) {
@@ -161,6 +174,7 @@ Scene MakeScene(const WireObject& object, const SceneOptions& options, uint64_t 
     const uint64_t texture_seed = Random(seed, RandomStream::kTexture, i).Next();
     scene.materials.push_back(BackgroundMaterial(random, texture_seed));
   }
+  Furnish(scene, options.furniture, seed);
   return scene;
 }
 

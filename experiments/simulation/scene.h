@@ -28,6 +28,7 @@ struct SceneCapsule {
   Vec3 start;
   Vec3 end;
   double radius;
+  int material = 0;  ///< index into Scene::materials; 0 is the wires'
 };
 
 /// The points with normal . p = offset; the scene lies on the side the normal points to.
@@ -36,11 +37,21 @@ struct ScenePlane {
   double offset;
 };
 
-/// A box on the table, turned about the vertical.
+/// What of a box is filled.
+enum class BoxShape {
+  kBox,
+  kEllipsoid,  ///< the inscribed one
+  kCylinder    ///< about its z axis, as wide as its x: solid, or open at the top with a wall
+};
+
+/// A box, or what is inscribed in it.
 struct SceneBox {
   Vec3 center;
   Vec3 half_size;
-  Vec2 heading;  ///< unit vector of its x axis in the table's plane
+  Mat3 rotation = Mat3::Identity();  ///< columns: its axes in the world
+  BoxShape shape = BoxShape::kBox;
+  double wall = 0;   ///< of a cylinder that is open at the top; 0 = solid
+  int material = 0;  ///< index into Scene::materials
 };
 
 /// What stands before the camera, in the world frame: z up, the object's bounding box centred at
@@ -51,7 +62,7 @@ struct Scene {
   std::vector<SceneCapsule> capsules;
   std::vector<ScenePlane> planes;
   std::vector<SceneBox> boxes;
-  std::vector<SurfaceMaterial> materials;  ///< of the wires, of each plane, of each box
+  std::vector<SurfaceMaterial> materials;  ///< of the wires, of each plane, of other things
 
   double TableHeight() const { return planes.front().offset; }
 };
@@ -62,6 +73,7 @@ struct SceneOptions {
   double wire_hue = 0.35;        ///< 0 to 1, red through green and blue to red
   double wire_saturation = 0.6;  ///< 0 (grey) to 1
   double wire_shininess = 0;     ///< 0 (matt) to 1 (mirror)
+  int furniture = 0;             ///< things that are no wires (furniture.h), beside the boxes
 };
 
 void VisitOptions(SceneOptions& options, OptionVisitor& visitor);
@@ -69,7 +81,8 @@ void VisitOptions(SceneOptions& options, OptionVisitor& visitor);
 /// A room with a table 60 to 100 mm below the object, a wall 0.4 to 0.6 m behind it, walls to both
 /// sides and 3 to 5 boxes on the table that neither touch the object nor stand in front of it.
 /// Objects flatter than a third of their width are stood up, as one would hang them to scan them.
-/// An object without curves gets the room of one of 0.3 m. The same seed gives the same scene.
+/// An object without curves gets the room of one of 0.3 m. Furniture stands around the object and
+/// hangs on the wall. The same seed gives the same scene, and with more furniture the same room.
 Scene MakeScene(const WireObject& object, const SceneOptions& options, uint64_t seed);
 
 }  // namespace curvefusion

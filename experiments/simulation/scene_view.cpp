@@ -2,81 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "experiments/simulation/scene_primitives.h"
 
 namespace curvefusion {
 namespace {
 
 constexpr int kTile = 8;
 constexpr double kNearest = 0.02;  // nothing is seen nearer to the camera than this
-constexpr double kMiss = std::numeric_limits<double>::infinity();
 constexpr double kHiddenBy = 1e-3;
-
-// Parameter of the first crossing of a ray with a capsule. The capsule lies inside its infinite
-// cylinder, so a ray that misses the cylinder misses all.
-double HitCapsule(const SceneCapsule& capsule, const Vec3& origin, const Vec3& direction) {
-  const Vec3 axis = capsule.end - capsule.start;
-  const Vec3 from_start = origin - capsule.start;
-  const double axis_axis = axis.squaredNorm();
-  const double axis_direction = axis.dot(direction);
-  const double axis_from = axis.dot(from_start);
-  const double direction_direction = direction.squaredNorm();
-  const double a = axis_axis * direction_direction - axis_direction * axis_direction;
-  const double b = axis_axis * direction.dot(from_start) - axis_from * axis_direction;
-  const double c = axis_axis * (from_start.squaredNorm() - capsule.radius * capsule.radius) -
-                   axis_from * axis_from;
-  const double discriminant = b * b - a * c;
-  if (discriminant < 0) return kMiss;
-  double along = axis_from;
-  if (a > 0) {
-    const double t = (-b - std::sqrt(discriminant)) / a;
-    along = axis_from + t * axis_direction;
-    if (along > 0 && along < axis_axis) return t;
-  }
-  const Vec3 from_ball = along <= 0 ? from_start : Vec3(origin - capsule.end);
-  const double half_b = direction.dot(from_ball);
-  const double ball_c = from_ball.squaredNorm() - capsule.radius * capsule.radius;
-  const double ball = half_b * half_b - direction_direction * ball_c;
-  return ball < 0 ? kMiss : (-half_b - std::sqrt(ball)) / direction_direction;
-}
-
-double HitPlane(const ScenePlane& plane, const Vec3& origin, const Vec3& direction) {
-  const double approach = plane.normal.dot(direction);
-  return approach < 0 ? (plane.offset - plane.normal.dot(origin)) / approach : kMiss;
-}
-
-// Between the world's directions and those of a box.
-Vec3 IntoBox(const SceneBox& box, const Vec3& p) {
-  const Vec2& h = box.heading;
-  return {h.x() * p.x() + h.y() * p.y(), h.x() * p.y() - h.y() * p.x(), p.z()};
-}
-Vec3 OutOfBox(const SceneBox& box, const Vec3& p) {
-  const Vec2& h = box.heading;
-  return {h.x() * p.x() - h.y() * p.y(), h.x() * p.y() + h.y() * p.x(), p.z()};
-}
-
-double HitBox(const SceneBox& box, const Vec3& origin, const Vec3& direction) {
-  const Vec3 o = IntoBox(box, origin - box.center);
-  const Vec3 d = IntoBox(box, direction);
-  double enter = -kMiss;
-  double leave = kMiss;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double near = (-box.half_size[axis] - o[axis]) / d[axis];
-    const double far = (box.half_size[axis] - o[axis]) / d[axis];
-    enter = std::max(enter, std::min(near, far));
-    leave = std::min(leave, std::max(near, far));
-  }
-  return enter <= leave ? enter : kMiss;
-}
-
-std::vector<Vec3> Corners(const SceneBox& box) {
-  std::vector<Vec3> corners;
-  for (int k = 0; k < 8; ++k) {
-    const Vec3 sign(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1);
-    corners.push_back(box.center + OutOfBox(box, sign.cwiseProduct(box.half_size)));
-  }
-  return corners;
-}
 
 }  // namespace
 
@@ -153,7 +87,7 @@ std::vector<SceneView::TileRect> SceneView::PrimitiveRects() const {
 int SceneView::NearestPlane(double u, double v) const {
   const Vec3 direction = Direction(u, v);
   int nearest = -1;
-  double nearest_depth = kMiss;
+  double nearest_depth = kNoHit;
   for (size_t i = 0; i < scene_.planes.size(); ++i) {
     const double depth = HitPlane(scene_.planes[i], Center(v), direction);
     if (depth < nearest_depth) nearest = static_cast<int>(i);
@@ -215,7 +149,7 @@ RayHit SceneView::Trace(double u, double v) const {
   const Vec3 direction = Direction(u, v);
   const Vec3& center = Center(v);
   const int tile = TileRow(v) * columns_ + TileColumn(u);
-  RayHit hit{-1, kMiss};
+  RayHit hit{-1, kNoHit};
   for (int k = tile_begin_[tile]; k < tile_begin_[tile + 1]; ++k) {
     const double depth = HitDepth(tile_primitives_[k], center, direction);
     if (depth > kNearest && depth < hit.depth) hit = {tile_primitives_[k], depth};
@@ -241,21 +175,19 @@ Vec3 SceneView::Normal(int primitive, const Vec3& p_world) const {
   const int capsules = static_cast<int>(scene_.capsules.size());
   const int planes = static_cast<int>(scene_.planes.size());
   if (primitive < capsules) {
-    const SceneCapsule& capsule = scene_.capsules[primitive];
-    const Vec3 axis = capsule.end - capsule.start;
-    const double along = (p_world - capsule.start).dot(axis) / axis.squaredNorm();
-    return (p_world - capsule.start - std::clamp(along, 0.0, 1.0) * axis).normalized();
+    return CapsuleNormal(scene_.capsules[primitive], p_world);
   }
   if (primitive < capsules + planes) return scene_.planes[primitive - capsules].normal;
-  const SceneBox& box = scene_.boxes[primitive - capsules - planes];
-  const Vec3 p = IntoBox(box, p_world - box.center).cwiseQuotient(box.half_size);
-  int axis = 0;
-  p.cwiseAbs().maxCoeff(&axis);
-  return OutOfBox(box, Vec3::Unit(axis) * (p[axis] > 0 ? 1 : -1));
+  return BoxNormal(scene_.boxes[primitive - capsules - planes], p_world);
 }
 
 int SceneView::Surface(int primitive) const {
-  return std::max(0, primitive - static_cast<int>(scene_.capsules.size()) + 1);
+  const int capsules = static_cast<int>(scene_.capsules.size());
+  const int planes = static_cast<int>(scene_.planes.size());
+  if (primitive < 0) return 0;
+  if (primitive < capsules) return scene_.capsules[primitive].material;
+  if (primitive < capsules + planes) return 1 + primitive - capsules;
+  return scene_.boxes[primitive - capsules - planes].material;
 }
 
 bool SceneView::IsUniform(int u, int v) const {

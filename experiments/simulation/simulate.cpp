@@ -165,10 +165,20 @@ nlohmann::ordered_json SceneJson(const ScanPlan& plan, const SimulationOptions& 
   for (const ScenePlane& plane : plan.scene.planes) {
     json["planes"].push_back({{"normal", JsonOf(plane.normal)}, {"offset", plane.offset}});
   }
+  constexpr const char* kShapes[] = {"box", "ellipsoid", "cylinder"};
   for (const SceneBox& box : plan.scene.boxes) {
-    json["boxes"].push_back({{"center", JsonOf(box.center)},
+    json["boxes"].push_back({{"shape", kShapes[static_cast<int>(box.shape)]},
+                             {"center", JsonOf(box.center)},
                              {"half_size", JsonOf(box.half_size)},
-                             {"heading", {box.heading.x(), box.heading.y()}}});
+                             {"x_axis", JsonOf(box.rotation.col(0))},
+                             {"z_axis", JsonOf(box.rotation.col(2))},
+                             {"wall", box.wall}});
+  }
+  for (const SceneCapsule& capsule : plan.scene.capsules) {
+    if (capsule.material == 0) continue;  // a wire
+    json["capsules"].push_back({{"start", JsonOf(capsule.start)},
+                                {"end", JsonOf(capsule.end)},
+                                {"radius", capsule.radius}});
   }
   return json;
 }

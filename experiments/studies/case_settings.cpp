@@ -43,6 +43,7 @@ Json CurvesJson(const std::vector<WireCurve>& curves) {
     Json points = Json::array();
     for (const Vec3& p : curve.points) points.push_back({p.x(), p.y(), p.z()});
     json.push_back({{"diameter", curve.diameter}, {"points", points}});
+    if (!curve.diameters.empty()) json.back()["diameters"] = curve.diameters;
   }
   return json;
 }

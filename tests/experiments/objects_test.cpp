@@ -3,10 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <map>
 
+#include "experiments/metrics/truth.h"
 #include "experiments/simulation/object_truth.h"
 #include "kernel/error.h"
+#include "tests/temporary_path.h"
 
 namespace curvefusion {
 namespace {
@@ -125,6 +128,49 @@ TEST(StudyObjects, UnknownNameIsRefusedWithTheNearest) {
     EXPECT_EQ(error.kind(), ErrorKind::kUsage);
     EXPECT_THAT(error.what(), testing::HasSubstr("'cage'"));
   }
+}
+
+TEST(TruthSkeleton, WiresThatShareAPointAreWeldedAndOthersPass) {
+  // Two wires cross in a shared point, a third passes 0.5 mm above the crossing.
+  const WireObject object{"cross",
+                          {{{{-0.1, 0, 0}, {0, 0, 0}, {0.1, 0, 0}}, 0.004},
+                           {{{0, -0.1, 0}, {0, 0, 0}, {0, 0.1, 0}}, 0.004},
+                           {{{-0.1, -0.1, 0.0005}, {0.1, 0.1, 0.0005}}, 0.004}},
+                          WeldRule::kSharedPoints};
+  const SkeletonGraph truth = TruthSkeleton(object);
+  EXPECT_EQ(CountDegrees(truth), (std::map<int, int>{{1, 6}, {4, 1}}));
+  EXPECT_EQ(truth.ComponentCount(), 2);
+  WireObject near = object;
+  near.welds = WeldRule::kNearness;
+  EXPECT_EQ(TruthSkeleton(near).ComponentCount(), 1);
+}
+
+TEST(TruthSkeleton, RadiiFollowAWireThatTapers) {
+  // Thins from 8 to 4 mm over 100 mm; a branch leaves where it is 7 mm thick.
+  const WireObject object{"branch",
+                          {{{{0, 0, 0}, {0, 0, 0.025}, {0, 0, 0.1}}, 0.006, {0.008, 0.007, 0.004}},
+                           {{{0, 0, 0.025}, {0.1, 0, 0.025}}, 0.003}},
+                          WeldRule::kSharedPoints};
+  const SkeletonGraph truth = TruthSkeleton(object);
+  ASSERT_EQ(truth.edge_count(), 3);
+  for (const EdgeId id : truth.Edges()) {
+    const SkeletonEdge& edge = truth.edge(id);
+    for (size_t i = 0; i < edge.points.size(); ++i) {
+      const bool branch = edge.points.back().x() > 0 || edge.points.front().x() > 0;
+      const double expected = branch ? 0.0015 : 0.004 - 0.02 * edge.points[i].z();
+      EXPECT_NEAR(edge.radii[i], expected, 1e-15);  // rounding
+    }
+  }
+}
+
+TEST(TruthSkeleton, CurvesFileKeepsTheTaper) {
+  const WireObject object{"taper", {{{{0, 0, 0}, {0, 0, 0.1}}, 0.006, {0.008, 0.004}}}};
+  const std::filesystem::path path = TemporaryPath("objects_curves.json");
+  WriteCurves(path, object);
+  const SkeletonGraph truth = ReadTruth(path);
+  std::filesystem::remove(path);
+  ASSERT_EQ(truth.edge_count(), 1);
+  EXPECT_EQ(truth.edge(truth.Edges()[0]).radii, (std::vector<double>{0.004, 0.002}));
 }
 
 }  // namespace

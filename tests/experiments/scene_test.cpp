@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "experiments/simulation/motion.h"
 #include "experiments/simulation/random.h"
 #include "experiments/simulation/scene_view.h"
@@ -14,8 +16,7 @@ const PinholeCamera kCamera{640, 480, 580, 580, 319.5, 239.5};
 
 double DistanceToBox(const SceneBox& box, const Vec3& p) {
   const Vec3 d = p - box.center;
-  const Vec3 local(box.heading.dot(d.head<2>()), box.heading.x() * d.y() - box.heading.y() * d.x(),
-                   d.z());
+  const Vec3 local = box.rotation.transpose() * d;
   const Vec3 outside = local.cwiseAbs() - box.half_size;
   return outside.cwiseMax(0).norm() + std::min(outside.maxCoeff(), 0.0);
 }
@@ -31,6 +32,14 @@ double DistanceToScene(const Scene& scene, const Vec3& p) {
   }
   for (const SceneBox& box : scene.boxes) distance = std::min(distance, DistanceToBox(box, p));
   return distance;
+}
+
+// A camera that looks along y, z up.
+RigidTransform LookAlongY(const Vec3& position) {
+  RigidTransform T_world_camera = RigidTransform::Identity();
+  T_world_camera.linear() << 1, 0, 0, 0, 0, 1, 0, -1, 0;
+  T_world_camera.translation() = position;
+  return T_world_camera;
 }
 
 // Sphere tracing without any tiles. Grazed surfaces count as hit within 1 um.
@@ -76,6 +85,20 @@ TEST(SceneView, TracesTheSameDepthAsSphereTracing) {
   EXPECT_LE(different, kRays / 500);
 }
 
+TEST(SceneView, SeesHowAWireTapers) {
+  // Thins from 12 to 4 mm on its way up, 0.5 m before the camera.
+  WireObject object{"taper", {{{{0, 0, -0.1}, {0, 0, 0.1}}, 0.008, {0.012, 0.004}}}};
+  const Scene scene = MakeScene(object, {}, 1);
+  const RigidTransform pose = LookAlongY(Vec3(0, -0.5, 0));
+  const SceneView view(scene, kCamera, pose, pose);
+  for (const double z : {-0.09, -0.03, 0.02, 0.08}) {
+    const double radius = 0.004 - 0.02 * z;
+    const double v = kCamera.cy - kCamera.fy * z / 0.5;
+    // Steps of 0.05 mm, half of one at most beside the even taper; the ray slants by a fifth.
+    EXPECT_NEAR(view.Trace(kCamera.cx, v).depth, 0.5 - radius, 0.0001) << z;
+  }
+}
+
 TEST(SceneView, NormalsFaceTheCameraAndAreUnit) {
   const CageView cage;
   const SceneView view(cage.scene, kCamera, cage.poses[0], cage.poses[0]);
@@ -99,6 +122,85 @@ TEST(SceneView, HidesWhatLiesBehindAWire) {
       const double depth = view.Trace(u, v).depth;
       EXPECT_FALSE(view.IsHidden(u, v, depth));
       EXPECT_TRUE(view.IsHidden(u, v, depth + 0.01) || view.IsUniform(u, v));
+    }
+  }
+}
+
+TEST(SceneView, SeesWhatIsInscribedInBoxes) {
+  Scene scene;
+  scene.materials.resize(2);
+  SceneBox cup;  // 100 mm wide and high with a wall of 5 mm, 0.5 m before the camera
+  cup.center = {0, 0.5, 0};
+  cup.half_size = {0.05, 0.05, 0.05};
+  cup.shape = BoxShape::kCylinder;
+  cup.wall = 0.005;
+  cup.material = 1;
+  SceneBox leaf = cup;  // an ellipsoid of half axes 30, 10 and 20 mm beside it
+  leaf.center = {0.2, 0.5, 0};
+  leaf.half_size = {0.03, 0.01, 0.02};
+  leaf.shape = BoxShape::kEllipsoid;
+  scene.boxes = {cup, leaf};
+  const RigidTransform level = LookAlongY(Vec3::Zero());
+  const SceneView front(scene, kCamera, level, level);
+  const auto depth_at = [](const SceneView& view, double x, double z, double depth) {
+    const double u = kCamera.cx + kCamera.fx * x / depth;
+    return view.Trace(u, kCamera.cy - kCamera.fy * z / depth).depth;
+  };
+  EXPECT_NEAR(depth_at(front, 0, 0, 0.45), 0.45, 1e-9);  // rounding, as all below
+  EXPECT_NEAR(front.Normal(0, {0, 0.45, 0}).y(), -1, 1e-9);
+  EXPECT_EQ(depth_at(front, 0.051, 0, 0.5), 0);
+  EXPECT_NEAR(depth_at(front, 0.2, 0, 0.49), 0.49, 1e-3);  // seen aslant: nearly its middle
+  EXPECT_EQ(depth_at(front, 0.2, 0.021, 0.5), 0);
+  // From 0.2 m above its rim, straight down: the floor lies 5 mm above the base.
+  RigidTransform down = RigidTransform::Identity();
+  down.linear() << 1, 0, 0, 0, -1, 0, 0, 0, -1;
+  down.translation() = Vec3(0, 0.5, 0.25);
+  const SceneView above(scene, kCamera, down, down);
+  EXPECT_NEAR(above.Trace(kCamera.cx, kCamera.cy).depth, 0.295, 1e-9);
+  EXPECT_NEAR(depth_at(above, 0.047, 0, 0.2), 0.2, 1e-9);  // the rim
+  // Through the mouth at half the rim's radius outwards, onto the inside of the wall.
+  const Vec3 inside = above.PointAt(kCamera.cx + kCamera.fx * 0.18, kCamera.cy,
+                                    above.Trace(kCamera.cx + kCamera.fx * 0.18, kCamera.cy).depth);
+  EXPECT_NEAR(inside.x(), 0.045, 1e-9);
+  EXPECT_NEAR(above.Normal(0, inside).x(), -1, 1e-9);
+}
+
+TEST(Scene, FurnitureIsNoWireAndKeepsClear) {
+  for (uint64_t seed = 1; seed <= 8; ++seed) {
+    const SceneOptions options{.furniture = 25};
+    const Scene scene = MakeScene(MakeObject("cage"), options, seed);
+    const Scene bare = MakeScene(MakeObject("cage"), {}, seed);
+    EXPECT_GT(scene.boxes.size(), bare.boxes.size() + 20) << seed;
+    EXPECT_LE(scene.materials.size(), 64u);  // the projector's dots know so many surfaces
+    for (const SceneCapsule& capsule : scene.capsules) {
+      EXPECT_LT(capsule.material, static_cast<int>(scene.materials.size()));
+      if (capsule.material == 0) continue;
+      EXPECT_GE(capsule.radius, 0.007);
+      EXPECT_GT(scene.object_bounds.exteriorDistance(capsule.start), 0) << seed;
+    }
+    for (const SceneBox& box : scene.boxes) {
+      EXPECT_GT(box.material, 0);
+      Vec3 half = box.half_size;
+      std::sort(half.begin(), half.end());
+      // Flat where it is thin: its second width is at least 12 mm.
+      EXPECT_GE(half[1], 0.006) << seed;
+      EXPECT_GT(scene.object_bounds.exteriorDistance(box.center), 0) << seed;
+    }
+  }
+  EXPECT_TRUE(MakeScene(MakeObject("empty"), {.furniture = 20}, 1).object.curves.empty());
+}
+
+TEST(SceneView, NormalsOfFurnitureFaceTheCamera) {
+  const Scene scene = MakeScene(MakeObject("empty"), {.furniture = 30}, 4);
+  const RigidTransform pose = LookAlongY(Vec3(0, -0.9, 0.05));
+  const SceneView view(scene, kCamera, pose, pose);
+  for (int v = 0; v < kCamera.height; v += 5) {
+    for (int u = 0; u < kCamera.width; u += 5) {
+      const RayHit hit = view.Trace(u, v);
+      ASSERT_GE(hit.primitive, 0);
+      const Vec3 p = view.PointAt(u, v, hit.depth);
+      EXPECT_NEAR(view.Normal(hit.primitive, p).norm(), 1, 1e-9);  // rounding
+      EXPECT_GT(view.Normal(hit.primitive, p).dot(view.Center(v) - p), -1e-6);
     }
   }
 }
