@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <numbers>
+#include <utility>
+#include <vector>
 
 namespace curvefusion {
 
@@ -27,52 +29,94 @@ std::string Scores(const PrecisionRecall& score) {
                      Share(score.F()));
 }
 
-std::string Row(const std::string& name, const std::string& raw, const std::string& aligned) {
-  return fmt::format("{:<26}{:>18}   {:>18}\n", name, raw, aligned);
+std::string Metres(double metres) { return fmt::format("{:.3f} m", metres); }
+
+// Cells of the columns raw, aligned and main piece.
+std::string Row(const std::string& name, const std::vector<std::string>& cells) {
+  std::string row = fmt::format("{:<23}", name);
+  for (const std::string& cell : cells) row += fmt::format("  {:>17}", cell);
+  return row + "\n";
 }
 
-std::string WithinRows(const std::string& name, const Within& raw, const Within& aligned) {
+// The scores of each column, and a row with a cell of each.
+class Columns {
+ public:
+  explicit Columns(std::vector<const PlacedScores*> columns) : columns_(std::move(columns)) {}
+
+  template <class Cell>
+  std::string Row(const std::string& name, const Cell& cell) const {
+    std::vector<std::string> cells;
+    for (const PlacedScores* scores : columns_) cells.push_back(cell(*scores));
+    return curvefusion::Row(name, cells);
+  }
+
+ private:
+  std::vector<const PlacedScores*> columns_;
+};
+
+template <class WithinOf>
+std::string WithinRows(const std::string& name, const Columns& columns, const WithinOf& within) {
   std::string rows;
-  for (size_t i = 0; i < raw.size(); ++i) {
+  for (size_t i = 0; i < kDistanceThresholds.size(); ++i) {
     const double threshold_mm = kDistanceThresholds[i] / kMillimetre;
-    rows += Row(fmt::format("{} within {:.0f} mm", name, threshold_mm), Scores(raw[i]),
-                Scores(aligned[i]));
+    rows += columns.Row(fmt::format("{} within {:.0f} mm", name, threshold_mm),
+                        [&](const PlacedScores& s) { return Scores(within(s)[i]); });
   }
   return rows;
 }
 
-std::string JunctionRows(const std::string& radius, const JunctionScores& raw,
-                         const JunctionScores& aligned) {
-  const auto counts = [](const JunctionScores& scores) {
-    return fmt::format("{} of {} ({})", scores.matched, scores.truth, scores.found);
-  };
-  return Row("junctions within " + radius, Scores(raw.Score()), Scores(aligned.Score())) +
-         Row("  matched of true (found)", counts(raw), counts(aligned)) +
-         Row("  valence right", Share(raw.ValenceShare()), Share(aligned.ValenceShare()));
+std::string Counts(int matched, int truth, int found) {
+  return fmt::format("{} of {} ({})", matched, truth, found);
 }
 
-std::string PlacedRows(const PlacedScores& raw, const PlacedScores& aligned) {
-  std::string rows = WithinRows("curves", raw.curves.within, aligned.curves.within);
-  rows += Row("  mean distance", Millimetres(raw.curves.mean), Millimetres(aligned.curves.mean));
-  rows += Row("  95th percentile", Millimetres(raw.curves.percentile_95),
-              Millimetres(aligned.curves.percentile_95));
-  rows += JunctionRows("10 mm", raw.junctions_10mm, aligned.junctions_10mm);
-  rows += JunctionRows("5 mm", raw.junctions_5mm, aligned.junctions_5mm);
-  rows += Row("paths (APLS)", Scores({raw.paths.result_to_truth, raw.paths.truth_to_result}),
-              Scores({aligned.paths.result_to_truth, aligned.paths.truth_to_result}));
-  rows += Row("diameter error", Millimetres(raw.diameters.mean_error),
-              Millimetres(aligned.diameters.mean_error));
-  rows += Row("  relative", Percent(raw.diameters.relative_error),
-              Percent(aligned.diameters.relative_error));
-  return rows;
+std::string JunctionRows(const std::string& radius, JunctionScores PlacedScores::*junctions,
+                         const Columns& columns) {
+  return columns.Row("junctions within " + radius, [&](const PlacedScores& s) {
+    return Scores((s.*junctions).Score());
+  }) + columns.Row("  of true ones (found)", [&](const PlacedScores& s) {
+    const JunctionScores& scores = s.*junctions;
+    return Counts(scores.matched, scores.truth, scores.found);
+  }) + columns.Row("  valence right", [&](const PlacedScores& s) {
+    return Share((s.*junctions).ValenceShare());
+  });
 }
 
-std::string SurfaceRows(const SurfaceScores& raw, const SurfaceScores& aligned) {
-  return WithinRows("surface", raw.within, aligned.within) +
-         Row("  mean mesh to tubes", Millimetres(raw.mean_to_truth),
-             Millimetres(aligned.mean_to_truth)) +
-         Row("  mean tubes to mesh", Millimetres(raw.mean_to_mesh),
-             Millimetres(aligned.mean_to_mesh));
+std::string TipRows(const Columns& columns) {
+  return columns.Row("tips within 5 mm", [](const PlacedScores& s) {
+    return Scores(s.tips_5mm.Score());
+  }) + columns.Row("  of true ones (found)", [](const PlacedScores& s) {
+    return Counts(s.tips_5mm.matched, s.tips_5mm.truth, s.tips_5mm.found);
+  });
+}
+
+std::string CurveRows(const Columns& columns) {
+  using S = const PlacedScores&;
+  return WithinRows("curves", columns, [](S s) -> const Within& { return s.curves.within; }) +
+         columns.Row("  mean distance", [](S s) { return Millimetres(s.curves.mean); }) +
+         columns.Row("  95th percentile", [](S s) { return Millimetres(s.curves.percentile_95); }) +
+         columns.Row("  false (over 10 mm)", [](S s) { return Metres(s.curves.false_length); }) +
+         columns.Row("  missing", [](S s) { return Metres(s.curves.missing_length); });
+}
+
+std::string PlacedRows(const Columns& columns) {
+  using S = const PlacedScores&;
+  return CurveRows(columns) + JunctionRows("10 mm", &PlacedScores::junctions_10mm, columns) +
+         JunctionRows("5 mm", &PlacedScores::junctions_5mm, columns) + TipRows(columns) +
+         columns.Row("paths (APLS)",
+                     [](S s) {
+                       return Scores({s.paths.result_to_truth, s.paths.truth_to_result});
+                     }) +
+         columns.Row("diameter error", [](S s) { return Millimetres(s.diameters.mean_error); }) +
+         columns.Row("  relative", [](S s) { return Percent(s.diameters.relative_error); });
+}
+
+std::string SurfaceRows(const Columns& columns) {
+  using S = const PlacedScores&;
+  return WithinRows("surface", columns, [](S s) -> const Within& { return s.surface->within; }) +
+         columns.Row("  mean mesh to tubes",
+                     [](S s) { return Millimetres(s.surface->mean_to_truth); }) +
+         columns.Row("  mean tubes to mesh",
+                     [](S s) { return Millimetres(s.surface->mean_to_mesh); });
 }
 
 std::string MeshRows(const Evaluation& evaluation) {
@@ -84,24 +128,30 @@ std::string MeshRows(const Evaluation& evaluation) {
                         *evaluation.VolumeRatio(), 100 * truth.relative_error)
           : "- (the surface is not closed)";
   return fmt::format(
-      "mesh around the truth     {} faces, {} parts, {} boundary edges, {} edges of more than two\n"
-      "                          faces, {} self-intersections; {:.4f} m2, elsewhere {:.4f} m2\n"
-      "mesh volume               {}\n",
+      "mesh around the truth    {} faces, {} parts, {} boundary edges, {} edges of more than two\n"
+      "                         faces, {} self-intersections; {:.4f} m2, elsewhere {:.4f} m2\n"
+      "mesh volume              {}\n",
       mesh.faces, mesh.components, mesh.boundary_edges, mesh.non_manifold_edges,
       mesh.self_intersections, mesh.area, evaluation.mesh_area_outside, ratio);
 }
 
 std::string TopologyRows(const Evaluation& evaluation) {
   const TopologyScores& topology = evaluation.topology;
-  return fmt::format(
-      "\n{:<26}{} (truth {})\n{:<26}{} (truth {})\n{:<26}{:.3f} m (truth {:.3f} m)\n", "components",
-      topology.components, topology.true_components, "cycles", topology.cycles,
-      topology.true_cycles, "length", evaluation.length, evaluation.true_length);
+  const MainPieceScores& piece = evaluation.main_piece;
+  const std::string header = Row("", {"truth", "result", "main piece"});
+  const std::string components = Row("components", {std::to_string(topology.true_components),
+                                                    std::to_string(topology.components), "-"});
+  const std::string cycles =
+      Row("cycles", {std::to_string(topology.true_cycles), std::to_string(topology.cycles),
+                     std::to_string(piece.cycles)});
+  const std::string length = Row(
+      "length", {Metres(evaluation.true_length), Metres(evaluation.length), Metres(piece.length)});
+  return fmt::format("\n{}{}{}{}", header, components, cycles, length);
 }
 
 std::string AlignmentRow(const RigidTransform& T_truth_result) {
   const Eigen::AngleAxisd rotation(T_truth_result.rotation());
-  return fmt::format("{:<26}{:.2f} mm, {:.3f} degrees\n", "alignment",
+  return fmt::format("\n{:<25}{:.2f} mm, {:.3f} degrees\n", "alignment",
                      T_truth_result.translation().norm() / kMillimetre,
                      rotation.angle() * 180 / std::numbers::pi);
 }
@@ -109,11 +159,17 @@ std::string AlignmentRow(const RigidTransform& T_truth_result) {
 }  // namespace
 
 std::string EvaluationTable(const Evaluation& evaluation) {
-  const PlacedScores& raw = evaluation.raw;
-  const PlacedScores& aligned = evaluation.aligned;
-  std::string table = Row("", "raw", "aligned") + Row("", "  P     R     F  ", "  P     R     F  ");
-  if (evaluation.has_curves) table += PlacedRows(raw, aligned);
-  if (raw.surface && aligned.surface) table += SurfaceRows(*raw.surface, *aligned.surface);
+  std::vector<std::string> names = {"raw", "aligned"};
+  if (evaluation.has_curves) names.emplace_back("main piece");
+  std::string table =
+      Row("", names) + Row("", std::vector<std::string>(names.size(), "P     R     F  "));
+  if (evaluation.has_curves) {
+    table +=
+        PlacedRows(Columns({&evaluation.raw, &evaluation.aligned, &evaluation.main_piece.aligned}));
+  }
+  if (evaluation.raw.surface && evaluation.aligned.surface) {
+    table += SurfaceRows(Columns({&evaluation.raw, &evaluation.aligned}));
+  }
   if (evaluation.has_curves) table += TopologyRows(evaluation);
   table += AlignmentRow(evaluation.T_truth_result);
   if (evaluation.mesh) table += MeshRows(evaluation);

@@ -6,7 +6,8 @@
 
 namespace curvefusion {
 
-/// An evaluation as a table for people: raw and aligned figures beside each other, lengths in mm.
+/// An evaluation as a table for people: figures raw, aligned, and of the main piece, aligned,
+/// beside each other.
 std::string EvaluationTable(const Evaluation& evaluation);
 
 }  // namespace curvefusion

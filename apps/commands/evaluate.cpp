@@ -108,8 +108,11 @@ void AddEvaluateCommand(CLI::App& app, int& exit_code) {
                       "Add all figures as a row to a CSV file, which is made where it is missing");
   AddRunOptions(*command, arguments->run);
   command->footer(
-      "Raw figures compare the result as it lies; aligned ones after one rigid motion, found by\n"
-      "iterative closest points. P and R are the shares of the result that is true and of the\n"
+      "Raw figures compare the result as it lies; aligned ones after the rigid motion, of some\n"
+      "centimetres and degrees, under which most of the truth is explained; those of the main "
+      "piece,\n"
+      "the connected piece that explains most of it, after the same motion. P and R are the shares "
+      "of the result that is true and of the\n"
       "truth that was found, F is their harmonic mean; - means there is nothing to take them of.\n"
       "Of a mesh, what lies within 30 mm of the true object's bounding box is compared by area "
       "with\n"

@@ -7,13 +7,17 @@ namespace curvefusion {
 
 namespace {
 
-constexpr double kCellSize = 5 * kMillimetre;  // some points each, as curves are sampled at 1 mm
-constexpr int64_t kGrain = 256;                // points per chunk of a parallel loop
+constexpr int64_t kGrain = 256;  // points per chunk of a parallel loop
 
 }  // namespace
 
 ExplainingPoints::ExplainingPoints(const std::vector<Vec3>& positions)
-    : positions_(positions), grid_(positions, kCellSize) {}
+    : positions_(positions), index_(positions) {}
+
+int ExplainingPoints::Nearest(const Vec3& p, double reach) const {
+  const int nearest = index_.Nearest(p);
+  return (positions_[nearest] - p).norm() <= reach ? nearest : -1;
+}
 
 double ExplainingPoints::ShareOf(const std::vector<Vec3>& truth,
                                  const RigidTransform& T_truth_result, double reach) const {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "kernel/geometry.h"
-#include "kernel/point_grid.h"
+#include "kernel/spatial_search.h"
 
 namespace curvefusion {
 
@@ -16,7 +16,7 @@ class ExplainingPoints {
   const Vec3& operator[](int index) const { return positions_[index]; }
 
   /// Index of the nearest point within `reach` of p; -1 where there is none.
-  int Nearest(const Vec3& p, double reach) const { return grid_.Nearest(p, reach); }
+  int Nearest(const Vec3& p, double reach) const;
 
   /// The mean over the truth's points (some) of max(0, 1 - distance to the moved result / reach).
   /// That is the share of the truth within a threshold of the result (recall), averaged over all
@@ -26,7 +26,7 @@ class ExplainingPoints {
 
  private:
   const std::vector<Vec3>& positions_;
-  PointGrid grid_;
+  PointIndex index_;
 };
 
 }  // namespace curvefusion

@@ -70,7 +70,7 @@ class Aligner {
 
  private:
   static constexpr size_t kScored = 20000;  // of the truth's points: 20 m at 1 mm
-  static constexpr size_t kFitted = 4000;   // pairs: 6 unknowns are exact to 1/60 of their noise
+  static constexpr size_t kFitted = 1000;   // pairs: 6 unknowns are exact to 1/30 of their noise
 
   double Explained(const RigidTransform& T) const {
     return result_.ShareOf(truth_.positions, T, kCurveReach);
@@ -131,7 +131,7 @@ class Aligner {
   // Iterates closest points within a gate until they come to rest.
   void Descend(double gate, RigidTransform& T) const {
     constexpr int kIterations = 15;
-    constexpr double kAtRest = 1e-6;  // metres: a thousandth of the finest threshold
+    constexpr double kAtRest = 1e-5;  // metres: a hundredth of the finest threshold
     for (int iteration = 0; iteration < kIterations; ++iteration) {
       const std::optional<Vec6> step = Step(gate, T);
       if (!step) return;

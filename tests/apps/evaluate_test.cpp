@@ -38,6 +38,25 @@ TEST_F(Evaluate, ASimulatedTruthIsPerfect) {
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 3);
 }
 
+// A scan of a room without wires.
+TEST_F(Evaluate, AnEmptyTruthAndAnEmptyResult) {
+  ASSERT_EQ(Run("simulate cat -o scan --sensor ideal --frames 1 --quiet").exit_code, 0);
+  std::ofstream(folder_ / "none.json") << "[]";
+  const Outcome all_false = Run("evaluate scan/truth --truth none.json --json a.json");
+  EXPECT_EQ(all_false.exit_code, 0) << all_false.output;
+  const nlohmann::json json = nlohmann::json::parse(Text("a.json"));
+  EXPECT_EQ(json["true_length"], 0);
+  EXPECT_NEAR(json["raw"]["curves"]["false_length"], json["length"], 1e-9);  // rounding
+  EXPECT_TRUE(json["raw"]["curves"]["10mm"]["recall"].is_null());
+  std::ofstream(folder_ / "nothing.json")
+      << R"({"format":"curvefusion-skeleton","version":1,"units":"m","nodes":[],"edges":[]})";
+  for (const char* truth : {"none.json", "scan/truth"}) {
+    const Outcome empty = Run(std::string("evaluate nothing.json --truth ") + truth);
+    EXPECT_EQ(empty.exit_code, 0) << empty.output;
+    EXPECT_THAT(empty.output, HasSubstr("main piece"));
+  }
+}
+
 TEST_F(Evaluate, ABareMeshNeedsNoSkeleton) {
   ASSERT_EQ(Run("simulate cat -o scan --sensor ideal --frames 1 --quiet").exit_code, 0);
   ASSERT_EQ(Run("mesh scan/truth/skeleton.json -o tubes.ply --quiet").exit_code, 0);

@@ -79,6 +79,24 @@ TEST(CompareCurves, MissingLengthLowersRecallAndFalseLengthPrecision) {
   EXPECT_EQ(extra.within[2].precision, missing.within[2].recall);
 }
 
+TEST(CompareCurves, FalseAndMissingLengthInMetres) {
+  // 0.1 m are in both, 0.2 m are missing, 0.3 m false; 10 mm next to what is in both count as near.
+  const SkeletonSamples truth = SampleSkeleton(Wire({0, 0, 0}, {0.3, 0, 0}, 0.002));
+  SkeletonGraph found = Wire({0, 0, 0}, {0.1, 0, 0}, 0.002);
+  found.AddPolyline({{0, 1, 0}, {0, 1.3, 0}});
+  const DistanceScores scores = CompareCurves(SampleSkeleton(found), truth);
+  EXPECT_NEAR(scores.false_length, 0.3, 1e-9);       // rounding
+  EXPECT_NEAR(scores.missing_length, 0.19, 0.0011);  // one sample more or less
+}
+
+TEST(CompareCurves, LengthsOfTheEmpty) {
+  const SkeletonSamples wire = SampleSkeleton(Wire({0, 0, 0}, {0.2, 0, 0}, 0.002));
+  EXPECT_NEAR(CompareCurves(wire, {}).false_length, 0.2, 1e-9);  // rounding
+  EXPECT_EQ(CompareCurves(wire, {}).missing_length, 0);
+  EXPECT_NEAR(CompareCurves({}, wire).missing_length, 0.2, 1e-9);
+  EXPECT_EQ(CompareCurves({}, wire).false_length, 0);
+}
+
 TEST(CompareCurves, NothingFoundAndNothingToFind) {
   const SkeletonSamples wire = SampleSkeleton(Wire({0, 0, 0}, {0.2, 0, 0}, 0.002));
   const DistanceScores nothing_found = CompareCurves({}, wire);

@@ -10,7 +10,6 @@
 #include "experiments/metrics/evaluation_files.h"
 #include "experiments/metrics/truth.h"
 #include "experiments/simulation/object_truth.h"
-#include "fusion/registration/alignment.h"
 #include "graph/graph_io.h"
 #include "kernel/error.h"
 #include "kernel/parallel.h"
@@ -84,6 +83,44 @@ TEST(Evaluate, AlignmentRemovesAShiftThatTheRawFiguresShow) {
   EXPECT_NEAR(evaluation.T_truth_result.translation().norm(), shift.translation().norm(), 0.0005);
 }
 
+// Half of the result and more is false: the alignment before kept 80 % of it, and moved the object.
+TEST(Evaluate, FalseCurvesLeaveTheObjectInPlace) {
+  const SkeletonGraph truth = TruthSkeleton(MakeObject("cat"));
+  RigidTransform shift = RigidTransform::Identity();
+  shift.translation() = Vec3(0.003, 0.002, -0.002);
+  SkeletonGraph result = Transformed(truth, shift);
+  for (int i = 0; i < 12; ++i) result.AddPolyline({{0.1, 0.02 * i, 0.3}, {0.5, 0.02 * i, 0.4}});
+  const Evaluation evaluation = Evaluate(result, nullptr, truth);
+  EXPECT_EQ(evaluation.aligned.junctions_5mm.matched, 22);
+  EXPECT_EQ(evaluation.aligned.curves.within[0].recall, 1.0);
+  EXPECT_LT(evaluation.aligned.curves.within[3].precision, 0.5);
+  const PlacedScores& main_piece = evaluation.main_piece.aligned;
+  EXPECT_EQ(main_piece.curves.within[0].F(), 1.0);
+  EXPECT_EQ(main_piece.junctions_5mm.Score().F(), 1.0);
+  EXPECT_EQ(main_piece.curves.false_length, 0);
+  EXPECT_EQ(evaluation.main_piece.cycles, 12);
+  EXPECT_NEAR(evaluation.main_piece.length, truth.TotalLength(), 1e-9);  // rounding
+  // The raw figures are of the same piece.
+  EXPECT_LT(*evaluation.main_piece.raw.curves.within[1].F(), 1.0);
+  EXPECT_EQ(evaluation.main_piece.raw.curves.within[2].F(), 1.0);
+}
+
+// A room without wires: all that is found is false.
+TEST(Evaluate, AnEmptyTruth) {
+  const SkeletonGraph result = TruthSkeleton(MakeObject("cat"));
+  const TriangleMesh tubes = ToTriangleMesh(BuildTubes(result, {}).surface);
+  const Evaluation evaluation = Evaluate(result, &tubes, {});
+  EXPECT_NEAR(evaluation.aligned.curves.false_length, result.TotalLength(), 1e-9);  // rounding
+  EXPECT_EQ(evaluation.aligned.curves.missing_length, 0);
+  EXPECT_EQ(evaluation.aligned.curves.within[3].precision, 0.0);
+  EXPECT_EQ(evaluation.aligned.curves.within[3].recall, std::nullopt);
+  EXPECT_EQ(evaluation.aligned.tips_5mm.Score().recall, std::nullopt);
+  EXPECT_EQ(evaluation.true_length, 0);
+  EXPECT_TRUE(evaluation.T_truth_result.isApprox(RigidTransform::Identity(), 0));
+  EXPECT_EQ(EvaluationFigures(evaluation).at("aligned.curves.false_length"),
+            evaluation.aligned.curves.false_length);
+}
+
 TEST(Evaluate, TheSameForAnyNumberOfThreads) {
   const SkeletonGraph truth = TruthSkeleton(MakeObject("deco"));
   RigidTransform shift = RigidTransform::Identity();
@@ -147,6 +184,10 @@ TEST_F(EvaluationFiles, TruthReadsAlikeFromSkeletonAndCurves) {
   EXPECT_EQ(SkeletonToJson(from_folder), SkeletonToJson(from_curves));
   fs::remove(folder_ / "skeleton.json");
   EXPECT_EQ(ReadTruth(folder_).CycleRank(), 41);
+  WriteCurves(folder_ / "curves.json", {"room", {}});
+  EXPECT_TRUE(ReadTruth(folder_).empty());
+  WriteSkeleton(folder_ / "skeleton.json", {});
+  EXPECT_TRUE(ReadTruth(folder_).empty());
 }
 
 TEST_F(EvaluationFiles, RefusesWhatIsNoTruth) {

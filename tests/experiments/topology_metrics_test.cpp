@@ -8,6 +8,8 @@
 
 #include "experiments/metrics/assignment.h"
 #include "experiments/metrics/junction_metrics.h"
+#include "experiments/metrics/main_piece.h"
+#include "experiments/metrics/tip_metrics.h"
 #include "tests/graph/graph_fixtures.h"
 
 namespace curvefusion {
@@ -110,6 +112,60 @@ TEST(MatchJunctions, NoJunctions) {
   EXPECT_EQ(none.Score().F(), std::nullopt);
   EXPECT_EQ(none.ValenceShare(), std::nullopt);
   EXPECT_EQ(MatchJunctions(wire, YShape(0.05), 0.01).Score().recall, 0.0);
+}
+
+TEST(MatchTips, PairsFreeEndsWithinTheLimit) {
+  const SkeletonGraph truth = YShape(0.05);
+  SkeletonGraph result = truth;
+  // One tip 4 mm short, one 6 mm; a false wire adds two.
+  const auto shorten = [&](EdgeId edge, size_t points) {
+    const NodeId node = result.SplitEdge(edge, result.edge(edge).points.size() - 1 - points);
+    for (const EdgeId part : std::vector<EdgeId>(result.IncidentEdges(node).begin(),
+                                                 result.IncidentEdges(node).end())) {
+      const NodeId end = result.OtherEnd(part, node);
+      if (result.Degree(end) == 1) result.RemoveEdge(part);
+    }
+    result.RemoveIsolatedNodes();
+  };
+  const std::vector<EdgeId> arms = truth.Edges();
+  shorten(arms[0], 4);
+  shorten(arms[1], 6);
+  result.AddPolyline(StraightLine({1, 0, 0}, {1, 0.1, 0}));
+  const TipScores tips = MatchTips(result, truth, 0.005);
+  EXPECT_EQ(tips.truth, 3);
+  EXPECT_EQ(tips.found, 5);
+  EXPECT_EQ(tips.matched, 2);
+  EXPECT_EQ(tips.Score().recall, 2.0 / 3);
+  EXPECT_EQ(tips.Score().precision, 2.0 / 5);
+}
+
+TEST(MatchTips, ClosedCurvesHaveNone) {
+  SkeletonGraph ring;
+  ring.AddPolyline(Ring(0.1, 40));
+  const TipScores tips = MatchTips(ring, Lattice(3, 3, 0.05), 0.005);
+  EXPECT_EQ(tips.Score().recall, std::nullopt);
+  EXPECT_EQ(tips.Score().precision, std::nullopt);
+  EXPECT_EQ(MatchTips({}, YShape(0.05), 0.005).Score().recall, 0.0);
+}
+
+TEST(MainPiece, ExplainsMostEvenIfAFalseOneIsLonger) {
+  const SkeletonGraph truth = Lattice(3, 3, 0.05);
+  SkeletonGraph result = truth;
+  const EdgeId false_piece = result.AddPolyline(StraightLine({0, 0, 0.1}, {3, 0, 0.1}));
+  const EdgeId fragment = result.AddPolyline(StraightLine({0, 0, 0.005}, {0.1, 0, 0.005}));
+  const SkeletonGraph main = MainPiece(result, truth);
+  EXPECT_EQ(main.Edges(), truth.Edges());
+  EXPECT_FALSE(main.HasEdge(false_piece));
+  EXPECT_FALSE(main.HasEdge(fragment));
+  EXPECT_EQ(main.node_count(), truth.node_count());
+}
+
+TEST(MainPiece, TheLongestWhereNothingIsExplained) {
+  SkeletonGraph result;
+  result.AddPolyline(StraightLine({0, 0, 0}, {0.1, 0, 0}));
+  const EdgeId longest = result.AddPolyline(StraightLine({0, 1, 0}, {0.2, 1, 0}));
+  EXPECT_EQ(MainPiece(result, {}).Edges(), std::vector<EdgeId>{longest});
+  EXPECT_TRUE(MainPiece({}, result).empty());
 }
 
 TEST(CompareTopology, CountsPiecesAndCycles) {

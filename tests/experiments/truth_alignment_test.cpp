@@ -107,12 +107,13 @@ SkeletonGraph Cube() {
   return cube;
 }
 
-// Each point elsewhere by a normal error in each axis.
+// Curves through points every 10 mm that are off by a normal error in each axis.
 SkeletonGraph WithNoise(SkeletonGraph graph, double sigma, uint64_t seed) {
+  constexpr double kSpacing = 0.01;
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal(0, sigma);
   for (const EdgeId id : graph.Edges()) {
-    Polyline points = graph.edge(id).points;
+    Polyline points = Resample(graph.edge(id).points, kSpacing);
     for (size_t i = 1; i + 1 < points.size(); ++i) {
       points[i] += Vec3(normal(random), normal(random), normal(random));
     }
@@ -205,10 +206,10 @@ TEST(AlignToTruth, ACubeIsNotTurned) {
   for (const uint64_t seed : {1, 2, 3, 4}) {
     SkeletonGraph result = WithNoise(cube, 0.001, seed);
     result.RemoveEdge(static_cast<EdgeId>(seed));
-    // 3600 points with an error of 1 mm give a mean to less than 0.1 mm.
-    EXPECT_LT(WorstOffset(cube, Align(result, cube)), 0.0003) << seed;
+    // 360 points with an error of 1 mm give a mean to 0.05 mm, the corners to thrice that.
+    EXPECT_LT(WorstOffset(cube, Align(result, cube)), 0.0005) << seed;
     const RigidTransform drift = Motion({0.004, -0.003, 0.005}, 1 * kDegree);
-    EXPECT_LT(WorstOffset(cube, Align(Transformed(result, drift), cube) * drift), 0.0003) << seed;
+    EXPECT_LT(WorstOffset(cube, Align(Transformed(result, drift), cube) * drift), 0.0005) << seed;
   }
 }
 
@@ -237,7 +238,7 @@ TEST(AlignToTruth, ExplainsNoLessThanRaw) {
   const Eigen::AlignedBox3d bounds = BoundsOf(truth);
   std::mt19937_64 random(11);
   std::uniform_real_distribution<double> uniform(-1, 1);
-  for (int trial = 0; trial < 12; ++trial) {
+  for (int trial = 0; trial < 8; ++trial) {
     SkeletonGraph result = trial % 3 == 0 ? HalfOf(truth) : WithNoise(truth, 0.004, trial);
     if (trial % 4 == 0) result = {};
     AddRandomCurves(result, bounds, (trial % 5) * truth.TotalLength(), trial);
