@@ -26,6 +26,8 @@ enum class RandomStream : uint64_t {
   kDepthNoise,
   kColorNoise,
   kRegistration,
+  kLight,
+  kExposureDrift,
 };
 
 /// Random numbers that depend on nothing but seed, stream and index (a frame, say), so that frames

@@ -52,6 +52,8 @@ Json ScanJson(const SimulationOptions& scan) {
           {"object", scan.object},
           {"sensor", scan.sensor},
           {"pose_source", scan.pose_source},
+          {"registration", RegistrationName(scan.color.registration)},
+          {"light", LightName(scan.scene.light)},
           {"seed", scan.seed},
           {"options", OptionsJson(scan)},
           {"curves", CurvesJson(scan.object_options.curves)}};
