@@ -37,6 +37,8 @@ struct SimulateArguments {
   double wire_diameter_mm = 0;  // 0 = the object's own
   std::string family;
   std::filesystem::path draw;
+  std::string registration = RegistrationName(Registration::kRegistered);
+  std::string light = LightName(LightKind::kLamp);
   SimulationOptions scan;
   RunOptions run;
 };
@@ -98,6 +100,8 @@ SimulationOptions ChosenScan(SimulateArguments& arguments) {
   scan.large_color = arguments.color_size == kLargeColor;
   scan.object_options.spacing = SpacingOf(arguments);
   scan.object_options.wire_diameter = arguments.wire_diameter_mm * kMillimetre;
+  scan.color.registration = RegistrationOf(arguments.registration);
+  scan.scene.light = LightOf(arguments.light);
   ChooseObject(arguments.scene, scan);
   return scan;
 }
@@ -135,10 +139,6 @@ void AddSensorOptions(CLI::App& command, SimulateArguments& arguments) {
                   "Size of colour images: 640x480 (as depth) or 1280x1024 (twice the resolution)")
       ->check(CLI::IsMember({kSmallColor, kLargeColor}));
   command
-      .add_option("--registration-error", scan.registration_error_px,
-                  "Fixed shift between depth and colour in depth pixels")
-      ->check(CLI::Range(0.0, 20.0));
-  command
       .add_option("--readout-time", scan.readout_time,
                   "Seconds from the first to the last row (rolling shutter; 0.028 for a Kinect V1)")
       ->check(CLI::Range(0.0, 0.033));
@@ -147,6 +147,38 @@ void AddSensorOptions(CLI::App& command, SimulateArguments& arguments) {
                   "Whether kinect_v1 and primesense drop small components of depth, as the real "
                   "ones do: on or off")
       ->default_str("on");
+}
+
+void AddColorOptions(CLI::App& command, SimulateArguments& arguments) {
+  command.option_defaults()->group("Colour");
+  ColorOptions& color = arguments.scan.color;
+  command
+      .add_option("--registration", arguments.registration,
+                  "How colour lies to depth: registered (one viewpoint); or a colour camera of its "
+                  "own, told exactly, as calibrated, or not at all (raw)")
+      ->check(CLI::IsMember(RegistrationNames()));
+  command
+      .add_option("--registration-error", arguments.scan.registration_error_px,
+                  "Error of registered and calibrated colour in depth pixels")
+      ->check(CLI::Range(0.0, 20.0));
+  command
+      .add_option("--exposure-time", color.exposure_time,
+                  "Seconds in which the camera's motion blurs an image")
+      ->check(CLI::Range(0.0, 0.033));
+  command
+      .add_option("--exposure-drift", color.exposure_drift,
+                  "Standard deviation of the exposure over the scan in stops")
+      ->check(CLI::Range(0.0, 3.0));
+  command
+      .add_option("--white-balance-drift", color.white_balance_drift,
+                  "The same of red and blue against green, as a share")
+      ->check(CLI::Range(0.0, 0.5));
+  command.add_option("--vignetting", color.vignetting, "Share of light missing in the corners")
+      ->check(CLI::Range(0.0, 0.9));
+  command
+      .add_option("--light", arguments.light,
+                  "From one lamp and all around, one side, several lamps, or all around alone")
+      ->check(CLI::IsMember(LightNames()));
 }
 
 void AddMotionOptions(CLI::App& command, SimulateArguments& arguments) {
@@ -185,6 +217,17 @@ void AddWireOptions(CLI::App& command, SimulateArguments& arguments) {
                   "Brightness of the wires in colour and infrared: 0.05 black, 0.9 white")
       ->check(CLI::Range(0.0, 1.0));
   command
+      .add_option("--wire-infrared", scene.wire_infrared_albedo,
+                  "Brightness of the wires in infrared alone; otherwise as in colour")
+      ->default_str("")
+      ->check(CLI::Range(0.0, 1.0));
+  command.add_option("--wire-hue", scene.wire_hue, "From red (0) over green and blue to red (1)")
+      ->check(CLI::Range(0.0, 1.0));
+  command.add_option("--wire-saturation", scene.wire_saturation, "From grey (0) to clear (1)")
+      ->check(CLI::Range(0.0, 1.0));
+  command.add_flag("--wire-like-background", scene.wire_like_background,
+                   "Wires of the colour of the wall behind them");
+  command
       .add_option("--wire-shininess", scene.wire_shininess, "From 0 (matt) to 1 (like a mirror)")
       ->check(CLI::Range(0.0, 1.0));
 }
@@ -206,6 +249,7 @@ void AddSimulateCommand(CLI::App& app, int& exit_code) {
       ->required();
   command->option_defaults()->always_capture_default();
   AddSensorOptions(*command, *arguments);
+  AddColorOptions(*command, *arguments);
   AddMotionOptions(*command, *arguments);
   AddWireOptions(*command, *arguments);
   command->option_defaults()->group("Random scans");

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "experiments/simulation/block_matching.h"
+#include "experiments/simulation/color_camera.h"
 #include "experiments/simulation/motion.h"
 #include "experiments/simulation/objects.h"
 #include "experiments/simulation/scene.h"
@@ -28,6 +29,7 @@ struct SimulationOptions {
   double registration_error_px = 1;     ///< fixed shift between depth and colour, in depth pixels
   double registration_jitter_px = 0.5;  ///< standard deviation of its change from frame to frame
   double readout_time = 0;  ///< seconds from first to last row (rolling shutter); 0 = all at once
+  ColorOptions color;
   ObjectOptions object_options;
   SceneOptions scene;
   MotionOptions motion;

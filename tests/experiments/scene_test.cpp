@@ -280,5 +280,22 @@ TEST(Motion, SwayHasItsAmplitude) {
   EXPECT_NEAR(std::sqrt(squares / smooth.size()), 0.004, 0.0004);
 }
 
+TEST(MakeScene, WiresLikeTheWallDifferInInfraredAlone) {
+  SceneOptions options;
+  options.wire_like_background = true;
+  options.wire_albedo = 0.05;
+  options.wire_infrared_albedo = 0.6;
+  const Scene scene = MakeScene(MakeObject("cubeframe", {}), options, 1);
+  const SurfaceMaterial& wall = scene.materials[2];
+  EXPECT_EQ(scene.planes[1].normal, Vec3(-Vec3::UnitY()));  // the wall behind
+  EXPECT_EQ(scene.materials[0].color, wall.color);
+  EXPECT_EQ(scene.materials[0].texture_seed, wall.texture_seed);
+  EXPECT_EQ(scene.materials[0].infrared_albedo, 0.6);
+  options.wire_like_background = false;
+  options.wire_saturation = 0;
+  const Scene black = MakeScene(MakeObject("cubeframe", {}), options, 1);
+  EXPECT_EQ(black.materials[0].color, Vec3(Vec3::Constant(0.05)));
+}
+
 }  // namespace
 }  // namespace curvefusion
