@@ -50,7 +50,8 @@ void AddCost(const Cost& cost, int frames, Figures& figures) {
 }
 
 std::optional<std::filesystem::path> TruthOf(const std::filesystem::path& scan) {
-  for (const std::filesystem::path& truth : {scan / "truth", scan.string() + ".truth"}) {
+  for (const std::filesystem::path& truth :
+       {scan / "truth", std::filesystem::path(scan.string() + ".truth")}) {
     if (std::filesystem::is_directory(truth)) return truth;
   }
   return std::nullopt;

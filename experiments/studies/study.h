@@ -64,7 +64,7 @@ std::string LabelOf(const Labels& labels, const std::string& name);
 struct StudyCase {
   Labels labels;
   uint64_t seed = 1;
-  /// The scan to simulate (scan.seed should be `seed`); none where the study makes its own data.
+  /// The scan to simulate, which `seed` gives; none where the study makes its own data.
   std::optional<SimulationOptions> scan;
   Config config;
   std::filesystem::path recording;  ///< of a study that measures scans which are there

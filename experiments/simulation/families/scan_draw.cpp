@@ -15,6 +15,7 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr const char* kFurnished = "furnished";
 constexpr const char* kRoom = "room";
+constexpr uint64_t kMostFamilies = 64;
 
 // One of several, by weights.
 template <class Choice, size_t count>
@@ -50,16 +51,40 @@ void DrawSensor(Random& random, SimulationOptions& scan) {
     double nearest, farthest;
   };
   static constexpr Camera kCameras[] = {
-      {0.45, "kinect_v1", 0.5, 0.75}, {0.25, "primesense", 0.45, 0.75},
-      {0.12, "d400", 0.35, 0.7},      {0.08, "azure_kinect", 0.55, 0.8},
-      {0.05, "kinect_v2", 0.6, 0.8},  {0.05, "sr300", 0.3, 0.6}};
+      {0.45, "kinect_v1", 0.45, 0.65}, {0.25, "primesense", 0.42, 0.65},
+      {0.12, "d400", 0.35, 0.6},       {0.08, "azure_kinect", 0.55, 0.8},
+      {0.05, "kinect_v2", 0.6, 0.8},   {0.05, "sr300", 0.3, 0.6}};
   const Camera& camera = Drawn(random, kCameras);
   scan.sensor = camera.name;
   scan.motion.standoff = random.Uniform(camera.nearest, camera.farthest);
   scan.readout_time = random.Chance(0.5) ? random.Uniform(0.01, 0.03) : 0;
-  const bool calibrated = random.Chance(0.5);
-  scan.registration_error_px = calibrated ? random.Uniform(0, 1) : random.Uniform(1, 5);
+}
+
+// The colour camera's place, what its driver tells of it, and how it takes its pictures.
+void DrawColorCamera(Random& random, SimulationOptions& scan) {
+  struct Kind {
+    double weight;
+    Registration registration;
+    double error_low, error_high;  // px
+  };
+  static constexpr Kind kKinds[] = {{0.3, Registration::kRegistered, 0, 1},
+                                    {0.2, Registration::kRegistered, 1, 5},
+                                    {0.15, Registration::kExact, 0, 0},
+                                    {0.2, Registration::kCalibrated, 0.5, 1.5},
+                                    {0.15, Registration::kRaw, 0, 0}};
+  const Kind& kind = Drawn(random, kKinds);
+  scan.color.registration = kind.registration;
+  scan.registration_error_px = random.Uniform(kind.error_low, kind.error_high);
   scan.registration_jitter_px = random.Uniform(0, 0.7);
+  scan.color.focal_length_px = random.Uniform(515, 545);
+  scan.color.center_u_px = random.Uniform(-5, 5);
+  scan.color.center_v_px = random.Uniform(-8, 4);
+  scan.color.baseline = random.Uniform(0.02, 0.03);
+  // Blur costs: one rendering a pixel of motion.
+  scan.color.exposure_time = random.Chance(0.3) ? random.Uniform(0.003, 0.012) : 0;
+  scan.color.exposure_drift = random.Uniform(0, 0.3);
+  scan.color.white_balance_drift = random.Uniform(0, 0.08);
+  scan.color.vignetting = random.Uniform(0, 0.35);
 }
 
 // Half of the scans have fewer than 70 frames, one in ten more than 200: what a study of 120 scans
@@ -99,22 +124,37 @@ void DrawPoses(Random& random, SimulationOptions& scan) {
   scan.pose_error_scale = random.LogUniform(0.5, 1.6);
 }
 
-// Of the wires.
+// Of the wires, and the light on all.
 void DrawColors(Random& random, SimulationOptions& scan) {
   struct Paint {
     double weight;
     double albedo_low, albedo_high;
     double saturation_low, saturation_high;
+    double infrared_low, infrared_high;  // below 0: as bright as in colour
+    bool like_background;
   };
-  static constexpr Paint kPaints[] = {{0.45, 0.35, 0.85, 0.35, 0.9},  // a clear colour
-                                      {0.25, 0.75, 0.95, 0, 0.08},    // white
-                                      {0.2, 0.3, 0.65, 0, 0.1},       // grey
-                                      {0.1, 0.12, 0.25, 0, 0.2}};     // nearly black
+  static constexpr Paint kPaints[] = {
+      {0.35, 0.35, 0.85, 0.35, 0.9, -1, -1, false},  // a clear colour
+      {0.2, 0.75, 0.95, 0, 0.08, -1, -1, false},     // white
+      {0.15, 0.3, 0.65, 0, 0.1, -1, -1, false},      // grey
+      {0.15, 0.03, 0.1, 0, 0.2, 0.35, 0.7, false},   // black, but bright in infrared
+      {0.15, 0.5, 0.5, 0.5, 0.5, 0.4, 0.8, true}};   // of the wall's colour
   const Paint& paint = Drawn(random, kPaints);
   scan.scene.wire_albedo = random.Uniform(paint.albedo_low, paint.albedo_high);
   scan.scene.wire_saturation = random.Uniform(paint.saturation_low, paint.saturation_high);
+  scan.scene.wire_infrared_albedo = random.Uniform(paint.infrared_low, paint.infrared_high);
+  scan.scene.wire_like_background = paint.like_background;
   scan.scene.wire_hue = random.Uniform();
   scan.scene.wire_shininess = random.Chance(0.3) ? random.Uniform(0.05, 0.4) : 0;
+  struct Light {
+    double weight;
+    LightKind kind;
+  };
+  static constexpr Light kLights[] = {{0.3, LightKind::kLamp},
+                                      {0.25, LightKind::kSide},
+                                      {0.3, LightKind::kSeveral},
+                                      {0.15, LightKind::kDiffuse}};
+  scan.scene.light = Drawn(random, kLights).kind;
 }
 
 double Difference(const Vec3& a, const Vec3& b) { return (a - b).norm() / std::sqrt(3.0); }
@@ -135,20 +175,19 @@ SimulationOptions DrawScan(const std::string& family, uint64_t seed) {
     throw Error(ErrorKind::kUsage, "there is no family " + family + "; did you mean " +
                                        NearestName(family, names) + "?");
   }
-  // Each kind of choice has its own stream: a change of one leaves the others.
-  const auto stream = [&](uint64_t kind) {
-    return Random(seed, RandomStream::kDraw,
-                  16 * static_cast<uint64_t>(place - names.begin()) + kind);
-  };
   SimulationOptions scan;
-  scan.seed = seed;
+  // Of its own for every family, or rooms, paths and noise of all families would be the same.
+  scan.seed = kMostFamilies * seed + static_cast<uint64_t>(place - names.begin());
+  // Each kind of choice has its own stream: a change of one leaves the others.
+  const auto stream = [&](uint64_t kind) { return Random(scan.seed, RandomStream::kDraw, kind); };
   Random object = stream(0), sensor = stream(1), path = stream(2), poses = stream(3);
-  Random colors = stream(4);
+  Random colors = stream(4), camera = stream(5);
   DrawObject(family, object, scan);
   DrawSensor(sensor, scan);
   DrawPath(path, scan);
   DrawPoses(poses, scan);
   DrawColors(colors, scan);
+  DrawColorCamera(camera, scan);
   return scan;
 }
 

@@ -14,8 +14,8 @@ std::vector<std::string> FamilyNames();
 
 /// A scan of a family with all that can be chosen about it drawn: object, room, camera, colours,
 /// light, path, poses and registration, 60 to 400 frames. docs/simulator.md lists the ranges. The
-/// same seed gives the same draw, and SimulateScan writes it to truth/settings.json. Throws
-/// Error(kUsage) for an unknown family.
+/// same seed gives the same draw, which has another seed of its own (no two families share one),
+/// and SimulateScan writes it to truth/settings.json. Throws Error(kUsage) for an unknown family.
 SimulationOptions DrawScan(const std::string& family, uint64_t seed);
 
 /// How far the wires' colour is from that of the table and the wall: root mean square over red,
