@@ -145,7 +145,7 @@ std::string PlotData(const std::vector<RunGroup>& profiles,
 }
 
 std::string PlotCommands(const std::vector<RunGroup>& profiles,
-                         const std::vector<std::string>& families) {
+                         const std::vector<std::string>& families, double greatest_false_length) {
   std::vector<std::string> tics;
   for (size_t i = 0; i < families.size(); ++i) {
     tics.push_back(fmt::format("'{}' {}", families[i], i));
@@ -156,7 +156,8 @@ std::string PlotCommands(const std::vector<RunGroup>& profiles,
       "set multiplot layout 2,1 margins 0.07,0.99,0.14,0.95 spacing 0,0.2\n",
       static_cast<double>(families.size()) - 0.4, fmt::join(tics, ", "));
   const auto panel = [&](const char* title, int column) {
-    std::vector<std::string> parts;
+    // Of runs that have all failed gnuplot would draw nothing, and say so as an error.
+    std::vector<std::string> parts = {"data index 0 using 1:(0) with points pointsize 0 notitle"};
     for (size_t i = 0; i < profiles.size(); ++i) {
       const double shift = (static_cast<double>(i) - (profiles.size() - 1) / 2.) * 0.3;
       parts.push_back(fmt::format(
@@ -168,7 +169,7 @@ std::string PlotCommands(const std::vector<RunGroup>& profiles,
   };
   commands += "set yrange [0:1.05]\n";
   panel("F at 2 mm, aligned", 2);
-  commands += "set yrange [0:*<1000]\n";
+  commands += fmt::format("set yrange [0:{}]\n", 1.05 * greatest_false_length);
   panel("False length (m)", 3);
   return commands + "unset multiplot";
 }
@@ -208,7 +209,8 @@ void ReportFamilies(const StudyResults& results) {
     families.push_back(group.labels.front().second);
   }
   DrawPlot(results.folder, results.stem,
-           {PlotData(profiles, families), PlotCommands(profiles, families), 7, 5});
+           {PlotData(profiles, families),
+            PlotCommands(profiles, families, GreatestOf(results.runs, kFalseLength, 0.1)), 7, 5});
 }
 
 }  // namespace curvefusion

@@ -49,8 +49,8 @@ TEST(FamiliesStudy, TakesRecordingsAlong) {
   const auto cases = FamiliesStudy().cases(
       {.profiles = {Profile::kBest}, .seeds = 1, .objects = {"room"}, .data = data});
   ASSERT_EQ(cases.size(), 3u);
-  EXPECT_EQ(cases[1].recording, data / "sim" / "basket");
-  EXPECT_EQ(LabelOf(cases[2].labels, "family"), "recording kitchen");
+  EXPECT_EQ(cases[1].recording, data / "real" / "kitchen");
+  EXPECT_EQ(LabelOf(cases[2].labels, "family"), "recording basket");
   EXPECT_FALSE(cases[2].scan);
   std::filesystem::remove_all(data);
 }
