@@ -94,6 +94,10 @@ TEST_F(Evaluate, SimulateRefusesWhatCannotBe) {
   EXPECT_EQ(Run("simulate cat").exit_code, 2);
   EXPECT_EQ(Run("simulate cat -o scan --sensor lidar").exit_code, 2);
   EXPECT_EQ(Run("simulate cat -o scan --frames 0").exit_code, 2);
+  EXPECT_EQ(Run("simulate random -o scan").exit_code, 2);
+  EXPECT_EQ(Run("simulate random --family tre -o scan").exit_code, 2);
+  EXPECT_EQ(Run("simulate cat --family tree -o scan").exit_code, 2);
+  EXPECT_EQ(Run("simulate random --family tree --sensor ideal -o scan").exit_code, 2);
   const Outcome unknown = Run("simulate cag -o scan");
   EXPECT_EQ(unknown.exit_code, 2);
   EXPECT_THAT(unknown.output, HasSubstr("did you mean 'cage'"));
@@ -129,6 +133,14 @@ TEST_F(Evaluate, SimulatesASkeletonOfTheUsers) {
   const nlohmann::json truth = nlohmann::json::parse(Text("scan/truth/skeleton.json"));
   EXPECT_EQ(truth["nodes"].size(), 4u);
   EXPECT_EQ(truth["edges"].size(), 3u);
+}
+
+TEST_F(Evaluate, SimulateRandomHasTheSameScanAgainFromItsDraw) {
+  ASSERT_EQ(Run("simulate random --family knot --seed 2 --frames 1 -o scan --quiet").exit_code, 0);
+  ASSERT_EQ(Run("simulate random --draw scan/truth/settings.json -o again --quiet").exit_code, 0);
+  for (const char* file : {"truth/skeleton.json", "truth/settings.json", "trajectory.txt"}) {
+    EXPECT_EQ(Text(std::string("scan/") + file), Text(std::string("again/") + file)) << file;
+  }
 }
 
 }  // namespace
