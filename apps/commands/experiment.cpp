@@ -38,7 +38,7 @@ struct ExperimentArguments {
 StudyRequest RequestOf(const ExperimentArguments& arguments) {
   StudyRequest request = arguments.request;
   if (arguments.profile != "both") request.profiles = {ProfileNamed(arguments.profile)};
-  request.split = arguments.split == "test" ? Split::kTest : Split::kTrain;
+  request.split = SplitNamed(arguments.split);
   return request;
 }
 
@@ -170,9 +170,10 @@ void AddRequestOptions(CLI::App& command, ExperimentArguments& arguments) {
       ->check(CLI::Range(1, 99));
   command
       .add_option("--split", arguments.split,
-                  "train (default): seeds from 1, on which constants may be chosen; test: seeds "
-                  "from 101, for final figures only")
-      ->check(CLI::IsMember({"train", "test"}));
+                  "train (default): seeds from 1, on which constants may be chosen; validation: "
+                  "seeds from 201, to see whether they carry; test: seeds from 101, for final "
+                  "figures only")
+      ->check(CLI::IsMember(SplitNames()));
   command
       .add_option(
           "--set", arguments.request.assignments,
@@ -182,12 +183,18 @@ void AddRequestOptions(CLI::App& command, ExperimentArguments& arguments) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command
       .add_option("--objects", arguments.request.objects,
-                  "Objects of the studies objects, ablation and sweep, separated by commas")
+                  "Objects of the studies objects, ablation and sweep, or families of the study "
+                  "families, separated by commas")
       ->delimiter(',');
   command
       .add_option("--scans", arguments.request.scans,
-                  "Folders of good real scans for the study check, separated by commas")
+                  "Folders of good real scans for the studies check and families, separated by "
+                  "commas; families compares with SCAN/truth or SCAN.truth where it is there")
       ->delimiter(',')
+      ->check(CLI::ExistingDirectory);
+  command
+      .add_option("--data", arguments.request.data,
+                  "A folder whose sim/ and real/ hold more scans for the study families")
       ->check(CLI::ExistingDirectory);
 }
 
@@ -224,6 +231,7 @@ void AddExperimentCommand(CLI::App& app, int& exit_code) {
                   "fusion.overlap_distance=0.008\n"
                   "  curvefusion experiment sweep -o sweep --set bundle.min_frames=1,2,3 --objects "
                   "cage,cat --seeds 1\n"
+                  "  curvefusion experiment families -o families --profile best --split test\n"
                   "  curvefusion experiment sweep -o now --objects cage,cat --baseline before");
   command->callback([arguments, &exit_code] { exit_code = RunExperiment(*arguments); });
 }

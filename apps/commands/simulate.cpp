@@ -6,13 +6,16 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "apps/commands/command.h"
 #include "apps/output_folder.h"
 #include "experiments/simulation/depth_sensor.h"
 #include "experiments/simulation/drift.h"
+#include "experiments/simulation/families/scan_draw.h"
 #include "experiments/simulation/object_truth.h"
+#include "experiments/simulation/scan_settings.h"
 #include "graph/graph_io.h"
 #include "kernel/error.h"
 #include "kernel/run_lock.h"
@@ -24,6 +27,7 @@ namespace {
 constexpr const char* kSmallColor = "640x480";
 constexpr const char* kLargeColor = "1280x1024";
 constexpr const char* kSpacedObject = "parallel_wires";
+constexpr const char* kRandom = "random";
 
 struct SimulateArguments {
   std::string scene;
@@ -31,6 +35,10 @@ struct SimulateArguments {
   std::string color_size = kSmallColor;
   std::optional<double> spacing_mm;
   double wire_diameter_mm = 0;  // 0 = the object's own
+  std::string family;
+  std::filesystem::path draw;
+  std::string registration = RegistrationName(Registration::kRegistered);
+  std::string light = LightName(LightKind::kLamp);
   SimulationOptions scan;
   RunOptions run;
 };
@@ -56,6 +64,48 @@ double SpacingOf(const SimulateArguments& arguments) {
   return *arguments.spacing_mm * kMillimetre;
 }
 
+// What `random` draws itself must not be given as well.
+void RefuseDrawnOptions(const CLI::App& command) {
+  static const std::set<std::string> kOwn = {"SCENE",   "--output",  "--family",
+                                             "--draw",  "--seed",    "--frames",
+                                             "--quiet", "--threads", "--help"};
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->count() == 0 || kOwn.contains(option->get_name())) continue;
+    if (kOwn.contains("--" + option->get_single_name())) continue;
+    throw Error(ErrorKind::kUsage, option->get_name() +
+                                       " is drawn by simulate random: leave it out, or name an "
+                                       "object");
+  }
+}
+
+// A scan whose everything but the number of frames is drawn, or was drawn earlier.
+SimulationOptions RandomScan(const CLI::App& command, const SimulateArguments& arguments) {
+  RefuseDrawnOptions(command);
+  if (arguments.family.empty() == arguments.draw.empty()) {
+    throw Error(ErrorKind::kUsage,
+                "simulate random needs --family (with --seed), or --draw with the settings.json of "
+                "an earlier scan");
+  }
+  SimulationOptions scan = arguments.draw.empty() ? DrawScan(arguments.family, arguments.scan.seed)
+                                                  : ReadScanSettings(arguments.draw);
+  if (command.count("--frames") > 0) scan.frames = arguments.scan.frames;
+  return scan;
+}
+
+SimulationOptions ChosenScan(SimulateArguments& arguments) {
+  if (!arguments.family.empty() || !arguments.draw.empty()) {
+    throw Error(ErrorKind::kUsage, "--family and --draw are for simulate random only");
+  }
+  SimulationOptions& scan = arguments.scan;
+  scan.large_color = arguments.color_size == kLargeColor;
+  scan.object_options.spacing = SpacingOf(arguments);
+  scan.object_options.wire_diameter = arguments.wire_diameter_mm * kMillimetre;
+  scan.color.registration = RegistrationOf(arguments.registration);
+  scan.scene.light = LightOf(arguments.light);
+  ChooseObject(arguments.scene, scan);
+  return scan;
+}
+
 // Beside the folder, which appears only in the end.
 RunLock LockOf(const std::filesystem::path& folder) {
   std::filesystem::path named = std::filesystem::absolute(folder).lexically_normal();
@@ -64,12 +114,9 @@ RunLock LockOf(const std::filesystem::path& folder) {
   return {named.string() + ".lock", folder};
 }
 
-int RunSimulate(SimulateArguments arguments) {
-  SimulationOptions& scan = arguments.scan;
-  scan.large_color = arguments.color_size == kLargeColor;
-  scan.object_options.spacing = SpacingOf(arguments);
-  scan.object_options.wire_diameter = arguments.wire_diameter_mm * kMillimetre;
-  ChooseObject(arguments.scene, scan);
+int RunSimulate(const CLI::App& command, SimulateArguments arguments) {
+  const bool random = arguments.scene == kRandom;
+  const SimulationOptions scan = random ? RandomScan(command, arguments) : ChosenScan(arguments);
   const RunLock lock = LockOf(arguments.output);
   ProgressPrinter printer = MakeProgressPrinter(arguments.run.quiet);
   LimitThreads(arguments.run);
@@ -92,10 +139,6 @@ void AddSensorOptions(CLI::App& command, SimulateArguments& arguments) {
                   "Size of colour images: 640x480 (as depth) or 1280x1024 (twice the resolution)")
       ->check(CLI::IsMember({kSmallColor, kLargeColor}));
   command
-      .add_option("--registration-error", scan.registration_error_px,
-                  "Fixed shift between depth and colour in depth pixels")
-      ->check(CLI::Range(0.0, 20.0));
-  command
       .add_option("--readout-time", scan.readout_time,
                   "Seconds from the first to the last row (rolling shutter; 0.028 for a Kinect V1)")
       ->check(CLI::Range(0.0, 0.033));
@@ -104,6 +147,38 @@ void AddSensorOptions(CLI::App& command, SimulateArguments& arguments) {
                   "Whether kinect_v1 and primesense drop small components of depth, as the real "
                   "ones do: on or off")
       ->default_str("on");
+}
+
+void AddColorOptions(CLI::App& command, SimulateArguments& arguments) {
+  command.option_defaults()->group("Colour");
+  ColorOptions& color = arguments.scan.color;
+  command
+      .add_option("--registration", arguments.registration,
+                  "How colour lies to depth: registered (one viewpoint); or a colour camera of its "
+                  "own, told exactly, as calibrated, or not at all (raw)")
+      ->check(CLI::IsMember(RegistrationNames()));
+  command
+      .add_option("--registration-error", arguments.scan.registration_error_px,
+                  "Error of registered and calibrated colour in depth pixels")
+      ->check(CLI::Range(0.0, 20.0));
+  command
+      .add_option("--exposure-time", color.exposure_time,
+                  "Seconds in which the camera's motion blurs an image")
+      ->check(CLI::Range(0.0, 0.033));
+  command
+      .add_option("--exposure-drift", color.exposure_drift,
+                  "Standard deviation of the exposure over the scan in stops")
+      ->check(CLI::Range(0.0, 3.0));
+  command
+      .add_option("--white-balance-drift", color.white_balance_drift,
+                  "The same of red and blue against green, as a share")
+      ->check(CLI::Range(0.0, 0.5));
+  command.add_option("--vignetting", color.vignetting, "Share of light missing in the corners")
+      ->check(CLI::Range(0.0, 0.9));
+  command
+      .add_option("--light", arguments.light,
+                  "From one lamp and all around, one side, several lamps, or all around alone")
+      ->check(CLI::IsMember(LightNames()));
 }
 
 void AddMotionOptions(CLI::App& command, SimulateArguments& arguments) {
@@ -142,6 +217,17 @@ void AddWireOptions(CLI::App& command, SimulateArguments& arguments) {
                   "Brightness of the wires in colour and infrared: 0.05 black, 0.9 white")
       ->check(CLI::Range(0.0, 1.0));
   command
+      .add_option("--wire-infrared", scene.wire_infrared_albedo,
+                  "Brightness of the wires in infrared alone; otherwise as in colour")
+      ->default_str("")
+      ->check(CLI::Range(0.0, 1.0));
+  command.add_option("--wire-hue", scene.wire_hue, "From red (0) over green and blue to red (1)")
+      ->check(CLI::Range(0.0, 1.0));
+  command.add_option("--wire-saturation", scene.wire_saturation, "From grey (0) to clear (1)")
+      ->check(CLI::Range(0.0, 1.0));
+  command.add_flag("--wire-like-background", scene.wire_like_background,
+                   "Wires of the colour of the wall behind them");
+  command
       .add_option("--wire-shininess", scene.wire_shininess, "From 0 (matt) to 1 (like a mirror)")
       ->check(CLI::Range(0.0, 1.0));
 }
@@ -155,7 +241,7 @@ void AddSimulateCommand(CLI::App& app, int& exit_code) {
   command
       ->add_option("SCENE", arguments->scene,
                    "An object: " + CLI::detail::join(ObjectNames(), ", ") +
-                       "; or a skeleton.json with radii")
+                       "; or a skeleton.json with radii; or random")
       ->required();
   command
       ->add_option("-o,--output", arguments->output,
@@ -163,8 +249,19 @@ void AddSimulateCommand(CLI::App& app, int& exit_code) {
       ->required();
   command->option_defaults()->always_capture_default();
   AddSensorOptions(*command, *arguments);
+  AddColorOptions(*command, *arguments);
   AddMotionOptions(*command, *arguments);
   AddWireOptions(*command, *arguments);
+  command->option_defaults()->group("Random scans");
+  command
+      ->add_option("--family", arguments->family,
+                   "Of random: object, room, camera, colours, light, path and poses are drawn from "
+                   "the seed")
+      ->check(CLI::IsMember(FamilyNames()));
+  command
+      ->add_option("--draw", arguments->draw,
+                   "Of random: the truth/settings.json of a simulated scan, to have it again")
+      ->check(CLI::ExistingFile);
   command->option_defaults()->group("Run");
   command->add_option("--seed", arguments->scan.seed,
                       "Another room, path and noise for each number");
@@ -174,8 +271,10 @@ void AddSimulateCommand(CLI::App& app, int& exit_code) {
       "bytes.\n"
       "Example:\n  curvefusion simulate cage -o scans/cage --frames 227\n"
       "  curvefusion simulate parallel_wires -o scans/close --spacing 12 --seed 2\n"
+      "  curvefusion simulate random --family tree --seed 7 -o scans/tree_7\n"
       "  curvefusion simulate my_object.json -o scans/mine --rgb 1280x1024 --wire-albedo 0.05");
-  command->callback([arguments, &exit_code] { exit_code = RunSimulate(*arguments); });
+  command->callback(
+      [command, arguments, &exit_code] { exit_code = RunSimulate(*command, *arguments); });
 }
 
 }  // namespace curvefusion

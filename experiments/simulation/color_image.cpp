@@ -1,6 +1,9 @@
 #include "experiments/simulation/color_image.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <cassert>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
@@ -12,14 +15,9 @@ namespace curvefusion {
 namespace {
 
 constexpr int kSamples = 4;  // a pixel's side
+constexpr size_t kMostMoments = 8;
 
 using LinearImage = Image<Vec3f>;
-
-// A lamp above, to the left and behind the camera, and as much light again from everywhere.
-double Shade(const Vec3& normal) {
-  static const Vec3 to_lamp = Vec3(-0.45, -0.65, 0.75).normalized();
-  return 0.5 + 0.55 * std::max(0.0, normal.dot(to_lamp));
-}
 
 Vec3 Textured(const SurfaceMaterial& material, const Vec3& p) {
   if (material.texture_contrast == 0) return material.color;
@@ -30,45 +28,60 @@ Vec3 Textured(const SurfaceMaterial& material, const Vec3& p) {
   return std::max(gain, 0.05) * material.color.cwiseProduct(hue);
 }
 
+// Deals a pixel's samples out to 1, 2, 4 or 8 moments: as many to each, spread over the pixel.
+size_t MomentOf(int column, int row) {
+  return static_cast<size_t>((column + row) % kSamples + kSamples * row);
+}
+
 class ColorRenderer {
  public:
-  ColorRenderer(const Scene& scene, const SceneView& view) : scene_(scene), view_(view) {}
+  ColorRenderer(const Scene& scene, const std::vector<SceneView>& moments)
+      : scene_(scene), moments_(moments) {}
 
   Vec3 Pixel(int u, int v) const {
-    if (view_.IsUniform(u, v)) return Color(view_.Trace(u, v), u, v);
-    // Backgrounds are smooth within a pixel: each surface's texture is looked up once.
-    int known = -1;
-    Vec3 known_color;
+    const auto shows_one_plane = [&](const SceneView& view) { return view.IsUniform(u, v); };
+    if (std::all_of(moments_.begin(), moments_.end(), shows_one_plane)) return PlanePixel(u, v);
+    // Backgrounds are smooth within a pixel: each surface's texture is looked up once a moment.
+    std::array<int, kMostMoments> known;
+    known.fill(-1);
+    std::array<Vec3, kMostMoments> known_color;
     Vec3 sum = Vec3::Zero();
     for (int k = 0; k < kSamples * kSamples; ++k) {
       const double su = u + (k % kSamples + 0.5) / kSamples - 0.5;
       const double sv = v + (k / kSamples + 0.5) / kSamples - 0.5;
-      const RayHit hit = view_.Trace(su, sv);
-      const bool wire = hit.primitive >= 0 && view_.Surface(hit.primitive) == 0;
-      if (wire || hit.primitive != known) known_color = Color(hit, su, sv);
-      known = wire ? -1 : hit.primitive;
-      sum += known_color;
+      const size_t moment = MomentOf(k % kSamples, k / kSamples) % moments_.size();
+      const SceneView& view = moments_[moment];
+      const RayHit hit = view.Trace(su, sv);
+      const bool wire = hit.primitive >= 0 && view.Surface(hit.primitive) == 0;
+      if (wire || hit.primitive != known[moment]) known_color[moment] = Color(view, hit, su, sv);
+      known[moment] = wire ? -1 : hit.primitive;
+      sum += known_color[moment];
     }
     return sum / (kSamples * kSamples);
   }
 
  private:
-  Vec3 Color(const RayHit& hit, double u, double v) const {
+  Vec3 PlanePixel(int u, int v) const {
+    Vec3 sum = Vec3::Zero();
+    for (const SceneView& view : moments_) sum += Color(view, view.Trace(u, v), u, v);
+    return sum / static_cast<double>(moments_.size());
+  }
+
+  Vec3 Color(const SceneView& view, const RayHit& hit, double u, double v) const {
     if (hit.primitive < 0) return Vec3::Zero();
-    const SurfaceMaterial& material = scene_.materials[view_.Surface(hit.primitive)];
-    const Vec3 p = view_.PointAt(u, v, hit.depth);
-    const Vec3 normal = view_.Normal(hit.primitive, p);
-    Vec3 color = (1 - material.shininess) * Shade(normal) * Textured(material, p);
+    const SurfaceMaterial& material = scene_.materials[view.Surface(hit.primitive)];
+    const Vec3 p = view.PointAt(u, v, hit.depth);
+    const Vec3 normal = view.Normal(hit.primitive, p);
+    Vec3 color = (1 - material.shininess) * scene_.lighting.Matt(normal) * Textured(material, p);
     if (material.shininess > 0) {
-      const Vec3 to_eye = (view_.Center(v) - p).normalized();
-      const Vec3 half = (to_eye + Vec3(-0.45, -0.65, 0.75).normalized()).normalized();
-      color += Vec3::Constant(0.5 * material.shininess * MirrorLobe(normal.dot(half)));
+      const Vec3 to_eye = (view.Center(v) - p).normalized();
+      color += Vec3::Constant(material.shininess * scene_.lighting.Mirrored(normal, to_eye));
     }
     return color;
   }
 
   const Scene& scene_;
-  const SceneView& view_;
+  const std::vector<SceneView>& moments_;
 };
 
 std::vector<float> GaussianTaps(double sigma) {
@@ -116,23 +129,40 @@ ColorImage Developed(const LinearImage& light, double noise_sigma, Random random
   return image;
 }
 
+// Light as the sensor gets it: less of it in the corners, amplified.
+void Expose(const Vec3& gain, double vignetting, LinearImage& light) {
+  const Vec2 center((light.width() - 1) / 2.0, (light.height() - 1) / 2.0);
+  for (int v = 0; v < light.height(); ++v) {
+    for (int u = 0; u < light.width(); ++u) {
+      const double shade =
+          1 - vignetting * (Vec2(u, v) - center).squaredNorm() / center.squaredNorm();
+      light(u, v) = light(u, v).cwiseProduct((shade * gain).cast<float>());
+    }
+  }
+}
+
 }  // namespace
 
-ColorImage RenderColor(const Scene& scene, const Exposure& exposure, const Vec2& shift_px,
-                       const ColorCameraOptions& options, uint64_t seed) {
+ColorImage RenderColor(const Scene& scene, const ColorShot& shot, const ColorCameraOptions& options,
+                       uint64_t seed) {
+  assert(std::has_single_bit(shot.moments.size()) && shot.moments.size() <= kMostMoments);
   PinholeCamera camera = options.camera;
-  camera.cx += shift_px.x();
-  camera.cy += shift_px.y();
-  const SceneView view(scene, camera, exposure.T_world_first, exposure.T_world_last);
-  const ColorRenderer renderer(scene, view);
+  camera.cx += shot.shift_px.x();
+  camera.cy += shot.shift_px.y();
+  std::vector<SceneView> moments;
+  for (const Exposure& moment : shot.moments) {
+    moments.emplace_back(scene, camera, moment.T_world_first, moment.T_world_last);
+  }
+  const ColorRenderer renderer(scene, moments);
   LinearImage light(camera.width, camera.height);
   for (int v = 0; v < light.height(); ++v) {
     for (int u = 0; u < light.width(); ++u) light(u, v) = renderer.Pixel(u, v).cast<float>();
   }
   const std::vector<float> taps = GaussianTaps(options.blur_sigma_px);
   light = BlurredAlong(BlurredAlong(light, taps, 1, 0), taps, 0, 1);
+  Expose(shot.gain, options.vignetting, light);
   return Developed(light, options.noise_sigma,
-                   Random(seed, RandomStream::kColorNoise, exposure.frame));
+                   Random(seed, RandomStream::kColorNoise, shot.moments.front().frame));
 }
 
 }  // namespace curvefusion

@@ -57,18 +57,26 @@ RigidTransform LookAt(const Vec3& position, const Vec3& target) {
   return pose;
 }
 
-ArcPath PathAround(const ScanTask& task, double length, Random& random) {
-  constexpr double kWidestSweep = 60 * kDegree;
+ArcPath PathAround(const ScanTask& task, double length, const MotionOptions& options,
+                   Random& random) {
   ArcPath path;
   path.task = task;
   const double distance = task.standoff + 0.4 * task.object_bounds.sizes().head<2>().norm();
   // About two thirds of the way goes sideways, the rest up and down.
-  path.sweep = std::clamp(0.33 * length / distance, 0.1, kWidestSweep);
+  path.sweep = std::clamp(0.33 * length / distance, 0.1, options.sweep);
   path.sweep_length = 2 * path.sweep * distance;
-  path.azimuth_center = random.Uniform(-8, 8) * kDegree;
+  path.azimuth_center = options.azimuth + random.Uniform(-8, 8) * kDegree;
   path.phase_elevation = random.Uniform(0, 2 * kPi);
   path.phase_standoff = random.Uniform(0, 2 * kPi);
   return path;
+}
+
+// 1 while the camera moves, 0 while it rests; stops and starts within a fifth of a second.
+double Going(double time, double pause) {
+  constexpr double kMoving = 1.5, kRamp = 0.2;  // chosen: as one scans part by part
+  if (pause <= 0) return 1;
+  const double at = std::fmod(time, kMoving + pause);
+  return std::clamp(std::min(at, kMoving - at) / kRamp, 0.0, 1.0);
 }
 
 }  // namespace
@@ -82,13 +90,20 @@ void VisitOptions(MotionOptions& options, OptionVisitor& visitor) {
                 options.standoff);
   visitor.Visit({"hand_noise", "", 0, 10, "Factor on the hand's sway and tremor; own choice."},
                 options.hand_noise);
+  visitor.Visit({"sweep", "rad", 0.1, 1.6, "How far the camera goes to either side; own choice."},
+                options.sweep);
+  visitor.Visit({"azimuth", "rad", -1.6, 1.6,
+                 "Where the middle of its way lies beside the front; own choice."},
+                options.azimuth);
+  visitor.Visit({"pause", "s", 0, 10, "Its rests after every 1.5 s of motion; own choice."},
+                options.pause);
 }
 
 std::vector<RigidTransform> HandheldPath(const ScanTask& task, int frames,
                                          const MotionOptions& options, uint64_t seed) {
   Random random(seed, RandomStream::kMotion);
   const double step = 1 / options.frame_rate;
-  const ArcPath path = PathAround(task, options.speed * frames * step, random);
+  const ArcPath path = PathAround(task, options.speed * frames * step, options, random);
   const double speed_phase = random.Uniform(0, 2 * kPi);
   const double tremor_phase = random.Uniform(0, 2 * kPi);
   PoseSway sway(0.004 * options.hand_noise, 0.5 * kDegree * options.hand_noise, 0.4, 0.3);
@@ -103,7 +118,7 @@ std::vector<RigidTransform> HandheldPath(const ScanTask& task, int frames,
     constexpr double kProbe = 1e-4;
     const double metres_per_q = (path.Position(q + kProbe) - path.Position(q)).norm() / kProbe;
     const double speed = options.speed * (1 + std::sin(2 * kPi * time / 3.1 + speed_phase) / 3);
-    q += speed * step / std::max(metres_per_q, 0.5);
+    q += Going(time, options.pause) * speed * step / std::max(metres_per_q, 0.5);
   }
   return poses;
 }

@@ -1,5 +1,6 @@
 #include "experiments/simulation/objects.h"
 
+#include "experiments/simulation/families/families.h"
 #include "kernel/error.h"
 #include "kernel/options.h"
 
@@ -13,9 +14,12 @@ std::vector<std::string> ObjectNames() {
 }
 
 WireObject MakeObject(const std::string& name, const ObjectOptions& options) {
-  WireObject object{name, options.curves, options.welds};
-  if (object.curves.empty() && !MakePaperObject(name, object.curves) &&
-      !MakeEverydayObject(name, object.curves) && !MakeStudyObject(name, options, object.curves)) {
+  WireObject object{name, options.curves};
+  if (options.shape_seed) {
+    object = MakeFamilyObject(name, *options.shape_seed);
+  } else if (object.curves.empty() && !MakePaperObject(name, object.curves) &&
+             !MakeEverydayObject(name, object.curves) &&
+             !MakeStudyObject(name, options, object.curves)) {
     throw Error(ErrorKind::kUsage, "no object is called '" + name + "'; did you mean '" +
                                        NearestName(name, ObjectNames()) + "'?");
   }

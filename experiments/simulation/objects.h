@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,10 +34,11 @@ struct WireObject {
 
 /// How an object may differ from its description.
 struct ObjectOptions {
-  double wire_diameter = 0;              ///< metres; 0 keeps the object's own diameters
-  double spacing = 0.020;                ///< metres between the axes of `parallel_wires`
-  std::vector<WireCurve> curves = {};    ///< the caller's own object, under any name
-  WeldRule welds = WeldRule::kNearness;  ///< of the caller's own object
+  double wire_diameter = 0;            ///< metres; 0 keeps the object's own diameters
+  double spacing = 0.020;              ///< metres between the axes of `parallel_wires`
+  std::vector<WireCurve> curves = {};  ///< the caller's own object, under any name
+  /// The name is one of ShapeFamilyNames (families/families.h), and this the seed of its object.
+  std::optional<uint64_t> shape_seed = {};
 };
 
 /// Every name MakeObject knows: the paper's eight first, in the order of its Table 1.

@@ -29,6 +29,8 @@ enum class RandomStream : uint64_t {
   kShape,      ///< of an object of a family
   kDraw,       ///< of what a random scan is like
   kFurniture,  ///< of the things in a room
+  kLight,
+  kExposureDrift,
 };
 
 /// Random numbers that depend on nothing but seed, stream and index (a frame, say), so that frames

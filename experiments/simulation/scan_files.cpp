@@ -14,17 +14,17 @@ namespace {
 
 constexpr double kStartTime = 1000;  // names of equal width sort by time
 
-nlohmann::ordered_json CameraJson(const PinholeCamera& camera) {
-  return {{"width", camera.width}, {"height", camera.height}, {"fx", camera.fx},
-          {"fy", camera.fy},       {"cx", camera.cx},         {"cy", camera.cy}};
-}
-
 bool SameCamera(const PinholeCamera& a, const PinholeCamera& b) {
   return a.width == b.width && a.height == b.height && a.fx == b.fx && a.fy == b.fy &&
          a.cx == b.cx && a.cy == b.cy;
 }
 
 }  // namespace
+
+nlohmann::ordered_json CameraJson(const PinholeCamera& camera) {
+  return {{"width", camera.width}, {"height", camera.height}, {"fx", camera.fx},
+          {"fy", camera.fy},       {"cx", camera.cx},         {"cy", camera.cy}};
+}
 
 double FrameTime(int frame, double frame_rate) { return kStartTime + frame / frame_rate; }
 
@@ -71,10 +71,17 @@ void WriteFrameLists(const std::filesystem::path& folder, const std::vector<std:
 }
 
 void WriteIntrinsics(const std::filesystem::path& path, const PinholeCamera& depth_camera,
-                     const PinholeCamera& color_camera) {
+                     const PinholeCamera& color_camera, const RigidTransform& T_color_depth) {
   nlohmann::ordered_json json = CameraJson(depth_camera);
   json["depth_scale"] = kDepthScale;
   if (!SameCamera(depth_camera, color_camera)) json["color_camera"] = CameraJson(color_camera);
+  const Eigen::Matrix4d matrix = T_color_depth.matrix();
+  if (!matrix.isIdentity(0)) {
+    for (int row = 0; row < 4; ++row) {
+      json["T_color_depth"].push_back(
+          {matrix(row, 0), matrix(row, 1), matrix(row, 2), matrix(row, 3)});
+    }
+  }
   WriteStreamAtomically(path, [&](std::ostream& stream) { stream << json.dump() << "\n"; });
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,9 @@ namespace curvefusion {
 
 /// Depth units per metre in the files.
 inline constexpr double kDepthScale = 5000;
+
+/// A camera as intrinsics.json holds it.
+nlohmann::ordered_json CameraJson(const PinholeCamera& camera);
 
 /// Time of a frame in seconds.
 double FrameTime(int frame, double frame_rate);
@@ -28,8 +32,8 @@ void WriteColorJpeg(const std::filesystem::path& path, const ColorImage& color);
 /// depth/NAME.png.
 void WriteFrameLists(const std::filesystem::path& folder, const std::vector<std::string>& names);
 
-/// intrinsics.json; the colour camera only where it differs.
+/// intrinsics.json; the colour camera and its place only where they differ.
 void WriteIntrinsics(const std::filesystem::path& path, const PinholeCamera& depth_camera,
-                     const PinholeCamera& color_camera);
+                     const PinholeCamera& color_camera, const RigidTransform& T_color_depth);
 
 }  // namespace curvefusion

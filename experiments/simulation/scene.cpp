@@ -10,6 +10,7 @@
 namespace curvefusion {
 namespace {
 
+constexpr size_t kWall = 2;                // of the materials: after the wires and the table
 constexpr double kLongestCapsule = 0.010;  // keeps the tiles a piece may touch few
 constexpr double kTaperStep = 5e-5;  // of a radius from piece to piece: below what any sensor sees
 constexpr double kFlat = 1.0 / 3;    // height over width below which an object is stood up
@@ -74,9 +75,17 @@ Vec3 ColorOfHue(double hue, double saturation, double value) {
 SurfaceMaterial WireMaterial(const SceneOptions& options) {
   SurfaceMaterial material;
   material.color = ColorOfHue(options.wire_hue, options.wire_saturation, options.wire_albedo);
-  material.infrared_albedo = options.wire_albedo;
+  material.infrared_albedo =
+      options.wire_infrared_albedo < 0 ? options.wire_albedo : options.wire_infrared_albedo;
   material.shininess = options.wire_shininess;
   return material;
+}
+
+// In colour; to infrared it stays what it is.
+void PaintAs(const SurfaceMaterial& other, SurfaceMaterial& material) {
+  material.color = other.color;
+  material.texture_contrast = other.texture_contrast;
+  material.texture_seed = other.texture_seed;
 }
 
 // Matt and speckled, as wallpaper, wood or cardboard.
@@ -154,11 +163,12 @@ void VisitOptions(SceneOptions& options, OptionVisitor& visitor) {
   visitor.Visit({"furniture", "", 0, 40,
                  "Things in the room that are no wires: books, cups, slats, leaves; own choice."},
                 options.furniture);
-}
-
-double MirrorLobe(double cosine) {
-  constexpr double kExponent = 60;
-  return cosine <= 0 ? 0.0 : (kExponent + 8) / 8 * std::pow(cosine, kExponent);
+  visitor.Visit({"wire_infrared_albedo", "", -1, 1,
+                 "Brightness of the wires in infrared; below 0 as in colour."},
+                options.wire_infrared_albedo);
+  visitor.Visit({"wire_like_background", "", 0, 1,
+                 "Whether the wires have the colour of the wall behind them; own choice."},
+                options.wire_like_background);
 }
 
 Scene MakeScene(const WireObject& object, const SceneOptions& options, uint64_t seed) {
@@ -175,6 +185,8 @@ Scene MakeScene(const WireObject& object, const SceneOptions& options, uint64_t 
     scene.materials.push_back(BackgroundMaterial(random, texture_seed));
   }
   Furnish(scene, options.furniture, seed);
+  if (options.wire_like_background) PaintAs(scene.materials[kWall], scene.materials[0]);
+  scene.lighting = MakeLighting(options.light, seed);
   return scene;
 }
 

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "experiments/simulation/lighting.h"
 #include "experiments/simulation/objects.h"
 #include "kernel/geometry.h"
 #include "kernel/options.h"
@@ -17,11 +18,6 @@ struct SurfaceMaterial {
   double infrared_albedo = 0.6;  ///< diffuse reflectance of the projector's light, 0 to 1
   double shininess = 0;          ///< share of the light that is mirrored instead of scattered
 };
-
-/// What a mirror-like surface sends on, relative to a matt white one seen head-on, where the normal
-/// and the direction half-way between light and eye enclose an angle of that cosine: a normalised
-/// Phong lobe of about 10 degrees.
-double MirrorLobe(double cosine);
 
 /// A cylinder with half-balls at its ends: a straight piece of wire.
 struct SceneCapsule {
@@ -63,6 +59,7 @@ struct Scene {
   std::vector<ScenePlane> planes;
   std::vector<SceneBox> boxes;
   std::vector<SurfaceMaterial> materials;  ///< of the wires, of each plane, of other things
+  Lighting lighting;                       ///< for the colour camera
 
   double TableHeight() const { return planes.front().offset; }
 };
@@ -74,6 +71,11 @@ struct SceneOptions {
   double wire_saturation = 0.6;  ///< 0 (grey) to 1
   double wire_shininess = 0;     ///< 0 (matt) to 1 (mirror)
   int furniture = 0;             ///< things that are no wires (furniture.h), beside the boxes
+  /// 0 to 1 for the projector's light; below 0 it is wire_albedo. A black wire whose lacquer is
+  /// bright in infrared: wire_albedo .05 and this .6.
+  double wire_infrared_albedo = -1;
+  bool wire_like_background = false;  ///< the colour and texture of the wall behind, whatever else
+  LightKind light = LightKind::kLamp;
 };
 
 void VisitOptions(SceneOptions& options, OptionVisitor& visitor);

@@ -3,18 +3,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "capture/trajectory.h"
-#include "experiments/simulation/color_image.h"
+#include "experiments/simulation/color_plan.h"
 #include "experiments/simulation/depth_sensor.h"
 #include "experiments/simulation/drift.h"
 #include "experiments/simulation/object_truth.h"
 #include "experiments/simulation/random.h"
 #include "experiments/simulation/scan_files.h"
+#include "experiments/simulation/scan_settings.h"
 #include "graph/graph_io.h"
 #include "kernel/atomic_file.h"
 #include "kernel/error.h"
@@ -29,7 +31,7 @@ namespace {
 struct ScanPlan {
   Scene scene;
   std::unique_ptr<DepthSensor> sensor;
-  ColorCameraOptions color;
+  ColorPlan color;
   Vec2 color_shift_px = Vec2::Zero();
   std::vector<RigidTransform> true_poses;
   std::vector<std::string> frame_names;
@@ -46,17 +48,12 @@ void CheckOptions(const SimulationOptions& options) {
                             "time or the frame rate",
                             options.readout_time, options.motion.frame_rate));
   }
-}
-
-// The colour camera sees what the depth camera sees: pixel by pixel, or at twice the resolution
-// and, as the Kinect's has, with a fifteenth more rows than the depth camera's shape asks for.
-PinholeCamera ColorCamera(const PinholeCamera& depth_camera, bool large) {
-  if (!large) return depth_camera;
-  PinholeCamera camera = depth_camera.Scaled(2);
-  const int more_rows = camera.height / 15;
-  camera.height += more_rows;
-  camera.cy += more_rows / 2.0;
-  return camera;
+  if (options.color.exposure_time * options.motion.frame_rate > 1) {
+    throw Error(ErrorKind::kUsage,
+                fmt::format("images cannot be exposed for {} s at {} frames a second: lower the "
+                            "exposure time or the frame rate",
+                            options.color.exposure_time, options.motion.frame_rate));
+  }
 }
 
 // A shift of the given length in a direction of the seed's.
@@ -93,7 +90,8 @@ ScanPlan PlanScan(const SimulationOptions& options) {
   plan.scene =
       MakeScene(MakeObject(options.object, options.object_options), options.scene, options.seed);
   plan.sensor = MakeDepthSensor(options.sensor, options.seed, options.matching);
-  plan.color.camera = ColorCamera(plan.sensor->camera(), options.large_color);
+  plan.color = PlanColor(options.color, plan.sensor->camera(), options.large_color, options.frames,
+                         options.motion.frame_rate, options.seed);
   plan.color_shift_px = RegistrationShift(options);
   const ScanTask task = TaskOf(plan.scene, *plan.sensor, Standoff(options, *plan.sensor));
   plan.true_poses = HandheldPath(task, options.frames, options.motion, options.seed);
@@ -107,6 +105,7 @@ ScanPlan PlanScan(const SimulationOptions& options) {
 RigidTransform PoseNear(const std::vector<RigidTransform>& poses, int frame, double share) {
   const int other = std::clamp(frame + (share < 0 ? -1 : 1), 0, static_cast<int>(poses.size()) - 1);
   const double t = std::abs(share);
+  if (t == 0) return poses[frame];
   const Eigen::Quaterniond from(poses[frame].rotation());
   const Eigen::Quaterniond to(poses[other].rotation());
   RigidTransform pose = RigidTransform::Identity();
@@ -115,26 +114,63 @@ RigidTransform PoseNear(const std::vector<RigidTransform>& poses, int frame, dou
   return pose;
 }
 
-// A frame's pose is that of its middle row.
-Exposure ExposureOf(const ScanPlan& plan, const SimulationOptions& options, int frame) {
+// The camera while the rows of a frame are read, `delay` seconds late. A frame's pose is that of
+// its middle row.
+Exposure ExposureOf(const ScanPlan& plan, const SimulationOptions& options, int frame,
+                    double delay = 0) {
   const double half = options.readout_time * options.motion.frame_rate / 2;
-  if (half == 0) {
-    return {plan.true_poses[frame], plan.true_poses[frame], static_cast<uint64_t>(frame)};
+  const double late = delay * options.motion.frame_rate;
+  return {PoseNear(plan.true_poses, frame, late - half),
+          PoseNear(plan.true_poses, frame, late + half), static_cast<uint64_t>(frame)};
+}
+
+// By how many pixels the object's centre moves in the colour image between two poses.
+double Displacement(const ScanPlan& plan, const RigidTransform& T_world_from,
+                    const RigidTransform& T_world_to) {
+  const PinholeCamera& camera = plan.color.camera.camera;
+  const Vec3 from = T_world_from.inverse() * Vec3::Zero();
+  const Vec3 to = T_world_to.inverse() * Vec3::Zero();
+  if (from.z() <= 0 || to.z() <= 0) return 0;
+  return (camera.Project(from) - camera.Project(to)).norm();
+}
+
+// At least one moment for every pixel of motion, but at most 8.
+std::vector<Exposure> Moments(const ScanPlan& plan, const SimulationOptions& options, int frame) {
+  const double time = options.color.exposure_time;
+  const double pixels =
+      Displacement(plan, ExposureOf(plan, options, frame, -time / 2).T_world_first,
+                   ExposureOf(plan, options, frame, time / 2).T_world_first);
+  const auto count =
+      static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::ceil(std::min(pixels, 8.0)))));
+  std::vector<Exposure> moments;
+  for (int k = 0; k < count; ++k) {
+    moments.push_back(ExposureOf(plan, options, frame, ((k + 0.5) / count - 0.5) * time));
+    moments.back().T_world_first = moments.back().T_world_first * plan.color.T_depth_color;
+    moments.back().T_world_last = moments.back().T_world_last * plan.color.T_depth_color;
   }
-  return {PoseNear(plan.true_poses, frame, -half), PoseNear(plan.true_poses, frame, half),
-          static_cast<uint64_t>(frame)};
+  return moments;
+}
+
+ColorShot ShotOf(const ScanPlan& plan, const SimulationOptions& options, int frame) {
+  ColorShot shot;
+  shot.moments = Moments(plan, options, frame);
+  shot.gain = plan.color.gains[frame];
+  if (plan.color.shifts) {
+    Random random(options.seed, RandomStream::kRegistration, static_cast<uint64_t>(frame) + 1);
+    const Vec2 jitter = options.registration_jitter_px * Vec2(random.Normal(), random.Normal());
+    const double scale = plan.color.camera.camera.fx / plan.sensor->camera().fx;
+    shot.shift_px = scale * (plan.color_shift_px + jitter);
+  }
+  return shot;
 }
 
 void TakeFrame(const ScanPlan& plan, const SimulationOptions& options, int frame,
                const std::filesystem::path& folder) {
-  const Exposure exposure = ExposureOf(plan, options, frame);
   const std::string& name = plan.frame_names[frame];
-  WriteDepthPng(folder / "depth" / (name + ".png"), plan.sensor->Measure(plan.scene, exposure));
-  Random random(options.seed, RandomStream::kRegistration, exposure.frame + 1);
-  const Vec2 jitter = options.registration_jitter_px * Vec2(random.Normal(), random.Normal());
-  const double scale = plan.color.camera.fx / plan.sensor->camera().fx;
-  const ColorImage color = RenderColor(plan.scene, exposure, scale * (plan.color_shift_px + jitter),
-                                       plan.color, options.seed);
+  WriteDepthPng(folder / "depth" / (name + ".png"),
+                plan.sensor->Measure(plan.scene, ExposureOf(plan, options, frame)));
+  const ColorImage color =
+      RenderColor(plan.scene, ShotOf(plan, options, frame), plan.color.camera, options.seed);
   WriteColorJpeg(folder / "rgb" / (name + ".jpg"), color);
 }
 
@@ -160,7 +196,11 @@ nlohmann::ordered_json SceneJson(const ScanPlan& plan, const SimulationOptions& 
                                  {"seed", options.seed},
                                  {"wire_albedo", options.scene.wire_albedo},
                                  {"wire_shininess", options.scene.wire_shininess},
-                                 {"readout_time", options.readout_time}};
+                                 {"readout_time", options.readout_time},
+                                 {"light", LightName(options.scene.light)},
+                                 {"registration", RegistrationName(options.color.registration)}};
+  json["color_camera"] = CameraJson(plan.color.camera.camera);
+  json["color_position"] = JsonOf(plan.color.T_depth_color.translation());
   json["color_shift_px"] = {plan.color_shift_px.x(), plan.color_shift_px.y()};
   for (const ScenePlane& plane : plan.scene.planes) {
     json["planes"].push_back({{"normal", JsonOf(plane.normal)}, {"offset", plane.offset}});
@@ -202,6 +242,8 @@ void WriteTruth(const ScanPlan& plan, const SimulationOptions& options,
   const nlohmann::ordered_json scene = SceneJson(plan, options);
   WriteStreamAtomically(folder / "scene.json",
                         [&](std::ostream& stream) { stream << scene.dump(1) << "\n"; });
+  WriteStreamAtomically(folder / "settings.json",
+                        [&](std::ostream& stream) { stream << ScanSettings(options) << "\n"; });
 }
 
 }  // namespace
@@ -228,6 +270,7 @@ void VisitOptions(SimulationOptions& options, OptionVisitor& visitor) {
                 options.object_options.wire_diameter);
   visitor.Visit({"spacing", "m", 0.005, 0.1, "Between the axes of parallel_wires."},
                 options.object_options.spacing);
+  VisitOptions(options.color, visitor);
   VisitOptions(options.scene, visitor);
   VisitOptions(options.motion, visitor);
   VisitOptions(options.matching, visitor);
@@ -251,7 +294,8 @@ void SimulateScan(const SimulationOptions& options, const std::filesystem::path&
   WriteFolderAtomically(folder, [&](const std::filesystem::path& scan) {
     TakeFrames(plan, options, scan, progress);
     WriteTruth(plan, options, scan / "truth");
-    WriteIntrinsics(scan / "intrinsics.json", plan.sensor->camera(), plan.color.camera);
+    WriteIntrinsics(scan / "intrinsics.json", plan.sensor->camera(), plan.color.told_camera,
+                    plan.color.T_told_color_depth);
     const std::vector<RigidTransform> drifted_poses =
         DriftedPoses(plan.true_poses, options.motion.frame_rate, pose_errors, options.seed);
     WriteTumTrajectory(scan / "trajectory.txt", TrajectoryOf(drifted_poses, options));

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "experiments/simulation/block_matching.h"
+#include "experiments/simulation/color_camera.h"
 #include "experiments/simulation/motion.h"
 #include "experiments/simulation/objects.h"
 #include "experiments/simulation/scene.h"
@@ -28,6 +29,7 @@ struct SimulationOptions {
   double registration_error_px = 1;     ///< fixed shift between depth and colour, in depth pixels
   double registration_jitter_px = 0.5;  ///< standard deviation of its change from frame to frame
   double readout_time = 0;  ///< seconds from first to last row (rolling shutter); 0 = all at once
+  ColorOptions color;
   ObjectOptions object_options;
   SceneOptions scene;
   MotionOptions motion;
@@ -42,7 +44,8 @@ std::uintmax_t ScanBytes(const SimulationOptions& options);
 /// Simulates a scan into `folder`, which must not exist or be empty: a TUM sequence with depth/,
 /// rgb/, depth.txt, rgb.txt, associations.txt, trajectory.txt with the pose source's errors and
 /// intrinsics.json; and the truth: truth/skeleton.json with radii, truth/curves.json,
-/// truth/trajectory.txt without errors, truth/scene.json. The folder gets its name when all is
+/// truth/trajectory.txt without errors, truth/scene.json, and truth/settings.json, from which
+/// ReadScanSettings has the same scan again. The folder gets its name when all is
 /// written. The same options give the same bytes for any number of threads. Frames are made in
 /// parallel; one takes about .4 s of one core. Throws Error(kUsage) for an unknown name, a count
 /// that is not positive, a readout longer than a frame, a distance out of the sensor's range, wires

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "experiments/simulation/lighting.h"
 #include "experiments/simulation/random.h"
 #include "experiments/simulation/scene_view.h"
 

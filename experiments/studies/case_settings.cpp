@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "experiments/simulation/scan_settings.h"
+
 namespace curvefusion {
 
 namespace {
@@ -36,39 +38,16 @@ Json OptionsJson(Options options) {
   return visitor.json();
 }
 
-// The caller's own object, which has no name that says all.
-Json CurvesJson(const std::vector<WireCurve>& curves) {
-  Json json = Json::array();
-  for (const WireCurve& curve : curves) {
-    Json points = Json::array();
-    for (const Vec3& p : curve.points) points.push_back({p.x(), p.y(), p.z()});
-    json.push_back({{"diameter", curve.diameter}, {"points", points}});
-    if (!curve.diameters.empty()) json.back()["diameters"] = curve.diameters;
-  }
-  return json;
-}
-
-Json ScanJson(const SimulationOptions& scan) {
-  return {{"simulator", kSimulatorVersion},
-          {"object", scan.object},
-          {"sensor", scan.sensor},
-          {"pose_source", scan.pose_source},
-          {"seed", scan.seed},
-          {"options", OptionsJson(scan)},
-          {"curves", CurvesJson(scan.object_options.curves)}};
-}
-
 }  // namespace
-
-std::string ScanSettings(const SimulationOptions& scan) { return ScanJson(scan).dump(); }
 
 std::string CaseSettings(const StudyCase& study_case) {
   Json labels;
   for (const auto& [name, value] : study_case.labels) labels[name] = value;
-  const Json scan = study_case.scan ? ScanJson(*study_case.scan) : Json(nullptr);
+  const Json scan = study_case.scan ? Json::parse(ScanSettings(*study_case.scan)) : Json(nullptr);
   return Json({{"labels", labels},
                {"seed", study_case.seed},
                {"scan", scan},
+               {"recording", study_case.recording.string()},
                {"profile", ProfileName(study_case.config.profile)},
                {"config", OptionsJson(study_case.config)}})
       .dump();

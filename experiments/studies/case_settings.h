@@ -6,10 +6,7 @@
 
 namespace curvefusion {
 
-/// Every setting of a simulated scan as JSON, one text for the same scan.
-std::string ScanSettings(const SimulationOptions& scan);
-
-/// Every setting that decides the outcome of a case, likewise.
+/// Every setting that decides the outcome of a case as JSON, one text for the same case.
 std::string CaseSettings(const StudyCase& study_case);
 
 /// A name for settings: 16 hexadecimal digits of their FNV-1a hash.

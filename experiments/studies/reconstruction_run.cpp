@@ -49,12 +49,21 @@ void AddCost(const Cost& cost, int frames, Figures& figures) {
   figures["cpu_seconds_per_30_frames"] = cost.cpu_seconds * kBundle / frames;
 }
 
+std::optional<std::filesystem::path> TruthOf(const std::filesystem::path& scan) {
+  for (const std::filesystem::path& truth : {scan / "truth", scan.string() + ".truth"}) {
+    if (std::filesystem::is_directory(truth)) return truth;
+  }
+  return std::nullopt;
+}
+
 RunOutcome EvaluateAndKeep(const SkeletonGraph& skeleton, const RunInput& input) {
   const std::string config = ConfigToml(input.study_case.config);
   WriteStreamAtomically(input.folder / "config.toml",
                         [&](std::ostream& stream) { stream << config; });
   WriteSkeleton(input.folder / "skeleton.json", skeleton);
-  const Evaluation evaluation = Evaluate(skeleton, nullptr, ReadTruth(input.scan / "truth"));
+  const std::optional<std::filesystem::path> truth = TruthOf(input.scan);
+  if (!truth) return {!skeleton.empty(), {{"length", skeleton.TotalLength()}}};
+  const Evaluation evaluation = Evaluate(skeleton, nullptr, ReadTruth(*truth));
   WriteEvaluation(input.folder / "evaluation.json",
                   {CaseName(input.study_case), input.scan.filename().string()}, evaluation);
   return {!skeleton.empty(), EvaluationFigures(evaluation)};

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
+#include <optional>
 
 #include "experiments/studies/study.h"
 #include "fusion/pipeline.h"
@@ -31,8 +33,12 @@ class InterruptibleObserver : public PipelineObserver {
   const Progress& progress_;
 };
 
+/// Where the truth of a scan lies: SCAN/truth of a simulated one, or SCAN.truth beside it. None
+/// where there is neither.
+std::optional<std::filesystem::path> TruthOf(const std::filesystem::path& scan);
+
 /// Keeps a result (config.toml, skeleton.json, evaluation.json) and gives all figures of `evaluate`
-/// without a mesh.
+/// without a mesh; of a scan without truth its length alone.
 RunOutcome EvaluateAndKeep(const SkeletonGraph& skeleton, const RunInput& input);
 
 /// The whole method on the case's scan: EvaluateAndKeep and what it cost.

@@ -4,6 +4,7 @@
 
 #include <cassert>
 
+#include "experiments/simulation/scan_settings.h"
 #include "experiments/studies/case_settings.h"
 #include "experiments/studies/headline_figures.h"
 #include "experiments/studies/run_files.h"

@@ -1,7 +1,7 @@
 #include "experiments/studies/scan_cache.h"
 
+#include "experiments/simulation/scan_settings.h"
 #include "experiments/studies/case_settings.h"
-#include "kernel/atomic_file.h"
 
 namespace curvefusion {
 
@@ -17,8 +17,6 @@ fs::path CachedScan(const fs::path& folder, const SimulationOptions& scan,
   const fs::path final_folder = ScanFolder(folder, scan);
   if (fs::exists(final_folder)) return final_folder;
   SimulateScan(scan, final_folder, progress);
-  WriteStreamAtomically(final_folder / "settings.json",
-                        [&](std::ostream& stream) { stream << ScanSettings(scan) << "\n"; });
   return final_folder;
 }
 

@@ -7,7 +7,7 @@ namespace curvefusion {
 
 std::vector<Study> AllStudies() {
   return {ObjectsStudy(),  BundleSizeStudy(), InterWireStudy(), SensorValidationStudy(),
-          AblationStudy(), SweepStudy(),      CheckStudy()};
+          AblationStudy(), SweepStudy(),      CheckStudy(),     FamiliesStudy()};
 }
 
 Study StudyNamed(const std::string& name) {

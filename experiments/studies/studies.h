@@ -21,5 +21,6 @@ Study SensorValidationStudy();
 Study AblationStudy();
 Study SweepStudy();
 Study CheckStudy();
+Study FamiliesStudy();
 
 }  // namespace curvefusion

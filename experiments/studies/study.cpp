@@ -13,16 +13,26 @@ namespace {
 constexpr int kFrames = 150;
 constexpr int kQuickFrames = 60;
 constexpr int kSeeds = 3;
-constexpr uint64_t kFirstTrainSeed = 1;
-constexpr uint64_t kFirstTestSeed = 101;
+// Of train, validation and test: apart by more than the 99 seeds that may be asked for.
+constexpr uint64_t kFirstSeeds[] = {1, 201, 101};
 
 }  // namespace
 
-std::string SplitName(Split split) { return split == Split::kTrain ? "train" : "test"; }
+std::vector<std::string> SplitNames() { return {"train", "validation", "test"}; }
+
+std::string SplitName(Split split) { return SplitNames()[static_cast<size_t>(split)]; }
+
+Split SplitNamed(const std::string& name) {
+  const std::vector<std::string> names = SplitNames();
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found != names.end()) return static_cast<Split>(found - names.begin());
+  throw Error(ErrorKind::kUsage,
+              "there is no split " + name + "; did you mean " + NearestName(name, names) + "?");
+}
 
 std::vector<uint64_t> SeedsOf(const StudyRequest& request) {
   const int count = request.seeds > 0 ? request.seeds : request.quick ? 1 : kSeeds;
-  const uint64_t first = request.split == Split::kTrain ? kFirstTrainSeed : kFirstTestSeed;
+  const uint64_t first = kFirstSeeds[static_cast<size_t>(request.split)];
   std::vector<uint64_t> seeds;
   for (int i = 0; i < count; ++i) seeds.push_back(first + static_cast<uint64_t>(i));
   return seeds;

@@ -15,12 +15,16 @@
 
 namespace curvefusion {
 
-/// Which scans a study looks at: those on which constants may be chosen (seeds 1, 2, 3, ...) or
-/// those kept for the final figures (seeds 101, 102, 103, ...).
-enum class Split { kTrain, kTest };
+/// Which scans a study looks at: those on which constants may be chosen (seeds 1 to 99), those on
+/// which is judged in the course of the work whether a choice carries (seeds 201 to 299), or those
+/// kept for the final figures (seeds 101 to 199).
+enum class Split { kTrain, kValidation, kTest };
 
-/// "train" or "test".
+/// "train", "validation", "test".
+std::vector<std::string> SplitNames();
 std::string SplitName(Split split);
+/// Throws Error(kUsage) for another name.
+Split SplitNamed(const std::string& name);
 
 /// What the user asks of a study.
 struct StudyRequest {
@@ -30,7 +34,8 @@ struct StudyRequest {
   Split split = Split::kTrain;
   std::vector<std::string> assignments;      ///< "section.key=value" for the config of every case
   std::vector<std::string> objects;          ///< of studies of the paper's objects; empty = theirs
-  std::vector<std::filesystem::path> scans;  ///< folders of real scans, for the study `check`
+  std::vector<std::filesystem::path> scans;  ///< folders of scans for `check` and `families`
+  std::filesystem::path data;                ///< whose sim/ and real/ hold more for `families`
 };
 
 /// The seeds a request asks for.
@@ -62,6 +67,7 @@ struct StudyCase {
   /// The scan to simulate (scan.seed should be `seed`); none where the study makes its own data.
   std::optional<SimulationOptions> scan;
   Config config;
+  std::filesystem::path recording;  ///< of a study that measures scans which are there
 };
 
 /// "cage_best_s1": the labels' values and the seed, characters unfit for a file name replaced.

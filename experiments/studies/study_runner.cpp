@@ -8,6 +8,7 @@
 #include <set>
 #include <thread>
 
+#include "experiments/simulation/scan_settings.h"
 #include "experiments/studies/case_settings.h"
 #include "experiments/studies/gnuplot.h"
 #include "experiments/studies/provenance.h"
@@ -240,11 +241,12 @@ fs::path RunFolder(const Study& study, const StudyRequest& request, const fs::pa
 }
 
 StudyPlan PlanStudy(const Study& study, const StudyRequest& request, const fs::path& folder) {
-  if (study.tunes_parameters && request.split == Split::kTest) {
+  if (study.tunes_parameters && request.split != Split::kTrain) {
+    const std::string split = SplitName(request.split);
     throw Error(ErrorKind::kUsage,
                 "study " + study.name +
-                    " chooses constants by what it measures, and constants "
-                    "that have seen the test split say nothing about it; use --split train");
+                    " chooses constants by what it measures, and constants that have seen the " +
+                    split + " split say nothing about it; use --split train");
   }
   StudyPlan plan;
   plan.cases = study.cases(request);

@@ -23,8 +23,8 @@ struct StudyPlan {
 };
 
 /// The cases a request gives and which of them are finished in `folder`. Throws Error(kUsage) for a
-/// study that tunes parameters and is asked for the test split, for two cases of one name, and for
-/// settings that cannot be.
+/// study that tunes parameters and is asked for another split than train, for two cases of one
+/// name, and for settings that cannot be.
 StudyPlan PlanStudy(const Study& study, const StudyRequest& request,
                     const std::filesystem::path& folder);
 

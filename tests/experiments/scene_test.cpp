@@ -246,6 +246,26 @@ TEST(Motion, HandCarriesTheCameraAtItsSpeedAndDistance) {
   }
 }
 
+TEST(Motion, RestsAndKeepsToOneSideWhereAsked) {
+  const CageView cage;
+  ScanTask task;
+  task.object_bounds = cage.scene.object_bounds;
+  task.table_height = cage.scene.TableHeight();
+  MotionOptions options{.hand_noise = 0, .sweep = 0.2, .azimuth = 0.6, .pause = 1};
+  const auto poses = HandheldPath(task, 600, options, 1);
+  int resting = 0;
+  for (size_t i = 0; i + 1 < poses.size(); ++i) {
+    const Vec3& eye = poses[i].translation();
+    resting += (poses[i + 1].translation() - eye).norm() == 0;
+    // The middle of the way is drawn within 8 degrees, .14 rad, of the one asked for.
+    const double azimuth = std::atan2(eye.x(), -eye.y());
+    EXPECT_GT(azimuth, 0.6 - 0.2 - 0.141);
+    EXPECT_LT(azimuth, 0.6 + 0.2 + 0.141);
+  }
+  // 1 s of 2.5 s; the first and last moments of motion are slow, not at rest.
+  EXPECT_NEAR(resting / 600.0, 0.4, 0.03);
+}
+
 TEST(Motion, SwayHasItsAmplitude) {
   const CageView cage;
   ScanTask task;
@@ -258,6 +278,23 @@ TEST(Motion, SwayHasItsAmplitude) {
   }
   // 4 mm per axis; a tenth: 100 s hold about 125 independent samples of three axes.
   EXPECT_NEAR(std::sqrt(squares / smooth.size()), 0.004, 0.0004);
+}
+
+TEST(MakeScene, WiresLikeTheWallDifferInInfraredAlone) {
+  SceneOptions options;
+  options.wire_like_background = true;
+  options.wire_albedo = 0.05;
+  options.wire_infrared_albedo = 0.6;
+  const Scene scene = MakeScene(MakeObject("cubeframe", {}), options, 1);
+  const SurfaceMaterial& wall = scene.materials[2];
+  EXPECT_EQ(scene.planes[1].normal, Vec3(-Vec3::UnitY()));  // the wall behind
+  EXPECT_EQ(scene.materials[0].color, wall.color);
+  EXPECT_EQ(scene.materials[0].texture_seed, wall.texture_seed);
+  EXPECT_EQ(scene.materials[0].infrared_albedo, 0.6);
+  options.wire_like_background = false;
+  options.wire_saturation = 0;
+  const Scene black = MakeScene(MakeObject("cubeframe", {}), options, 1);
+  EXPECT_EQ(black.materials[0].color, Vec3(Vec3::Constant(0.05)));
 }
 
 }  // namespace

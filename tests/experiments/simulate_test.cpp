@@ -63,7 +63,7 @@ TEST(SimulateScan, SameBytesForAnyNumberOfThreads) {
   options.frames = 3;
   const auto one = Simulated(options, 1, "one");
   const auto four = Simulated(options, 4, "four");
-  EXPECT_EQ(one.size(), 3u * 2 + 5 + 4);
+  EXPECT_EQ(one.size(), 3u * 2 + 5 + 5);
   EXPECT_TRUE(one == four);
 }
 
@@ -124,6 +124,22 @@ TEST(SimulateScan, IsASequenceTheReaderTakes) {
   }
 }
 
+// The told camera reads back; of a raw scan nothing is told, so colour seems registered.
+TEST(SimulateScan, AColorCameraOfItsOwnIsToldUnlessRaw) {
+  SimulationOptions options;
+  options.sensor = "ideal";
+  options.frames = 1;
+  for (const Registration registration : {Registration::kExact, Registration::kRaw}) {
+    const TemporaryFolder folder("curvefusion_simulate_test_color");
+    options.color.registration = registration;
+    SimulateScan(options, folder.path(), NoProgress);
+    const Sequence sequence = OpenSequence(folder.path());
+    const bool told = registration == Registration::kExact;
+    EXPECT_EQ(sequence.color_camera.fx, told ? 525 : sequence.depth_camera.fx);
+    EXPECT_EQ(sequence.T_color_depth.translation().x(), told ? -0.025 : 0);
+  }
+}
+
 TEST(SimulateScan, InterruptedScanLeavesNothing) {
   const TemporaryFolder folder("curvefusion_simulate_test_interrupted");
   SimulationOptions options;
@@ -155,6 +171,9 @@ TEST(SimulateScan, RefusesWhatCannotBe) {
   options.readout_time = 0.04;
   EXPECT_THROW(SimulateScan(options, "unused", NoProgress), Error);
   options.readout_time = 0;
+  options.color.exposure_time = 0.04;
+  EXPECT_THROW(SimulateScan(options, "unused", NoProgress), Error);
+  options.color.exposure_time = 0;
   options.motion.standoff = 5;  // a Kinect V1 ends at 4 m
   EXPECT_THROW(SimulateScan(options, "unused", NoProgress), Error);
   options.motion.standoff = 0;

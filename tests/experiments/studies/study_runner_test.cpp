@@ -168,6 +168,9 @@ TEST_F(StudyRunner, SameRunsForAnyNumberOfJobs) {
 TEST_F(StudyRunner, SplitsAndQuickOnesAreKeptApart) {
   EXPECT_THAT(SeedsOf({}), testing::ElementsAre(1, 2, 3));
   EXPECT_THAT(SeedsOf({.seeds = 2, .split = Split::kTest}), testing::ElementsAre(101, 102));
+  EXPECT_THAT(SeedsOf({.seeds = 2, .split = Split::kValidation}), testing::ElementsAre(201, 202));
+  for (const std::string& name : SplitNames()) EXPECT_EQ(SplitName(SplitNamed(name)), name);
+  EXPECT_THROW(SplitNamed("tests"), Error);
   EXPECT_THAT(SeedsOf({.quick = true}), testing::ElementsAre(1));
   EXPECT_EQ(StudyStem(Counting(), {}), "counting_train");
   EXPECT_EQ(StudyStem(Counting(), {.quick = true, .split = Split::kTest}), "counting_test_quick");

@@ -53,6 +53,7 @@ TEST(SweepStudy, RefusesWhatCannotBe) {
 
 TEST(SweepStudy, ChoosesSettingsSoThatItMustNotSeeTheTestSplit) {
   EXPECT_THROW(PlanStudy(SweepStudy(), {.split = Split::kTest}, "none"), Error);
+  EXPECT_THROW(PlanStudy(SweepStudy(), {.split = Split::kValidation}, "none"), Error);
   EXPECT_NO_THROW(PlanStudy(AblationStudy(), {.quick = true, .split = Split::kTest}, "none"));
 }
 

@@ -1,0 +1,126 @@
+#include "experiments/simulation/families/scan_draw.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <set>
+
+#include "experiments/metrics/truth.h"
+#include "experiments/simulation/scan_settings.h"
+#include "kernel/error.h"
+#include "tests/temporary_path.h"
+
+namespace curvefusion {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(DrawScan, KeepsItsRangesAndIsGivenByItsSeed) {
+  std::set<std::string> sensors;
+  int long_scans = 0;
+  for (const std::string& family : FamilyNames()) {
+    for (uint64_t seed = 1; seed <= 20; ++seed) {
+      const SimulationOptions scan = DrawScan(family, seed);
+      EXPECT_GE(scan.frames, 60);
+      EXPECT_LE(scan.frames, 400);
+      // A row is not read for longer than a frame lasts: SimulateScan would refuse that.
+      EXPECT_LE(scan.readout_time * scan.motion.frame_rate, 1);
+      EXPECT_LE(scan.scene.wire_albedo, 0.95);
+      EXPECT_EQ(ScanSettings(scan), ScanSettings(DrawScan(family, seed)));
+      EXPECT_NE(ScanSettings(scan), ScanSettings(DrawScan(family, seed + 1)));
+      sensors.insert(scan.sensor);
+      long_scans += scan.frames > 200;
+    }
+  }
+  EXPECT_EQ(sensors.size(), 6u);
+  EXPECT_GT(long_scans, 0);
+}
+
+TEST(DrawScan, RoomsHaveNoWireAndFurnishedOnesBoth) {
+  for (uint64_t seed = 1; seed <= 5; ++seed) {
+    const SimulationOptions room = DrawScan("room", seed);
+    const SimulationOptions furnished = DrawScan("furnished", seed);
+    const Scene empty = MakeScene(MakeObject(room.object, room.object_options), room.scene, seed);
+    EXPECT_TRUE(empty.object.curves.empty());
+    EXPECT_GE(room.scene.furniture, 12);
+    EXPECT_GE(furnished.scene.furniture, 12);
+    const Scene scene =
+        MakeScene(MakeObject(furnished.object, furnished.object_options), furnished.scene, seed);
+    EXPECT_FALSE(scene.object.curves.empty());
+    EXPECT_EQ(ColorContrast(empty), 0);
+    EXPECT_GT(ColorContrast(scene), 0);
+    EXPECT_LT(ColorContrast(scene), 1);
+  }
+}
+
+TEST(DrawScan, UnknownFamilyIsRefusedWithTheNearest) {
+  try {
+    DrawScan("rooms", 1);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kUsage);
+    EXPECT_NE(std::string(error.what()).find("room?"), std::string::npos);
+  }
+}
+
+std::map<std::string, std::string> Contents(const fs::path& folder) {
+  std::map<std::string, std::string> contents;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (!entry.is_regular_file()) continue;
+    std::ifstream stream(entry.path(), std::ios::binary);
+    contents[fs::relative(entry.path(), folder).string()] =
+        std::string(std::istreambuf_iterator<char>(stream), {});
+  }
+  return contents;
+}
+
+TEST(ScanSettings, SimulateTheSameScanAgain) {
+  const fs::path folder = TemporaryPath("scan_settings");
+  fs::create_directories(folder);
+  SimulationOptions scan = DrawScan("vine", 3);
+  scan.sensor = "ideal";
+  scan.frames = 2;
+  SimulateScan(scan, folder / "first", NoProgress);
+  SimulateScan(ReadScanSettings(folder / "first" / "truth" / "settings.json"), folder / "second",
+               NoProgress);
+  EXPECT_TRUE(Contents(folder / "first") == Contents(folder / "second"));
+  fs::remove_all(folder);
+}
+
+TEST(ScanSettings, RoomHasATruthWithoutCurves) {
+  const fs::path folder = TemporaryPath("scan_settings_room");
+  fs::create_directories(folder);
+  SimulationOptions scan = DrawScan("room", 3);
+  scan.sensor = "ideal";
+  scan.frames = 1;
+  SimulateScan(scan, folder / "scan", NoProgress);
+  EXPECT_TRUE(ReadTruth(folder / "scan" / "truth").empty());
+  fs::remove_all(folder);
+}
+
+TEST(ScanSettings, RefusesWhatTellsOfNoScan) {
+  const fs::path file = TemporaryPath("scan_settings.json");
+  const auto message_of = [&](const std::string& text) {
+    std::ofstream(file) << text;
+    try {
+      ReadScanSettings(file);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::kBadInput);
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  std::string text = ScanSettings(SimulationOptions());
+  EXPECT_EQ(message_of(text), "");
+  EXPECT_NE(message_of("{}").find("no simulated scan"), std::string::npos);
+  EXPECT_NE(message_of("{\"simulator\":0}").find("version 0"), std::string::npos);
+  text.replace(text.find("\"frames\":150"), 12, "\"frames\":0");
+  EXPECT_NE(message_of(text).find("frames = 0"), std::string::npos);
+  fs::remove(file);
+}
+
+}  // namespace
+}  // namespace curvefusion

@@ -1,0 +1,62 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "experiments/simulation/families/scan_draw.h"
+#include "experiments/studies/families_report.h"
+#include "experiments/studies/studies.h"
+#include "experiments/studies/study_runner.h"
+#include "kernel/error.h"
+#include "tests/temporary_path.h"
+
+namespace curvefusion {
+namespace {
+
+TEST(SummaryOf, GivesMedianMeanAndTheWorstTenth) {
+  std::vector<double> values;
+  for (int i = 1; i <= 20; ++i) values.push_back(i);
+  const auto summary = SummaryOf(values, true);
+  ASSERT_TRUE(summary);
+  EXPECT_EQ(summary->median, 10.5);
+  EXPECT_EQ(summary->mean, 10.5);
+  EXPECT_EQ(summary->worst_tenth, 1.5);
+  EXPECT_EQ(SummaryOf(values, false)->worst_tenth, 19.5);
+  EXPECT_EQ(SummaryOf({3, 1, 2}, true)->worst_tenth, 1);
+  EXPECT_FALSE(SummaryOf({}, true));
+}
+
+TEST(FamiliesStudy, HasEveryFamilyInEverySplitOnOtherSeeds) {
+  std::set<std::string> scans;
+  for (const Split split : {Split::kTrain, Split::kValidation, Split::kTest}) {
+    const auto cases = FamiliesStudy().cases(
+        {.profiles = {Profile::kBest}, .seeds = 2, .split = split, .objects = {"cage", "room"}});
+    ASSERT_EQ(cases.size(), 4u);
+    for (const StudyCase& study_case : cases) {
+      EXPECT_TRUE(
+          scans.insert(LabelOf(study_case.labels, "family") + std::to_string(study_case.seed))
+              .second);
+      EXPECT_EQ(study_case.scan->seed, study_case.seed);
+    }
+    EXPECT_EQ(LabelOf(cases.back().labels, "contrast"), "none");
+  }
+  EXPECT_THROW(FamiliesStudy().cases({.objects = {"cages"}}), Error);
+}
+
+TEST(FamiliesStudy, TakesRecordingsAlong) {
+  const std::filesystem::path data = TemporaryPath("families_study");
+  std::filesystem::create_directories(data / "sim" / "basket");
+  std::filesystem::create_directories(data / "sim" / "basket.truth");
+  std::filesystem::create_directories(data / "real" / "kitchen");
+  const auto cases = FamiliesStudy().cases(
+      {.profiles = {Profile::kBest}, .seeds = 1, .objects = {"room"}, .data = data});
+  ASSERT_EQ(cases.size(), 3u);
+  EXPECT_EQ(cases[1].recording, data / "sim" / "basket");
+  EXPECT_EQ(LabelOf(cases[2].labels, "family"), "recording kitchen");
+  EXPECT_FALSE(cases[2].scan);
+  std::filesystem::remove_all(data);
+}
+
+}  // namespace
+}  // namespace curvefusion
