@@ -75,10 +75,16 @@ Json ShapeSeedJson(const SimulationOptions& scan) {
 }
 
 Json ScanJson(const SimulationOptions& scan) {
-  return {{"simulator", kSimulatorVersion},    {"object", scan.object},
-          {"shape_seed", ShapeSeedJson(scan)}, {"sensor", scan.sensor},
-          {"pose_source", scan.pose_source},   {"seed", scan.seed},
-          {"options", OptionsJson(scan)},      {"curves", CurvesJson(scan.object_options.curves)}};
+  return {{"simulator", kSimulatorVersion},
+          {"object", scan.object},
+          {"shape_seed", ShapeSeedJson(scan)},
+          {"sensor", scan.sensor},
+          {"pose_source", scan.pose_source},
+          {"seed", scan.seed},
+          {"registration", RegistrationName(scan.color.registration)},
+          {"light", LightName(scan.scene.light)},
+          {"options", OptionsJson(scan)},
+          {"curves", CurvesJson(scan.object_options.curves)}};
 }
 
 // Throws nlohmann's exceptions for what is not there or of another type.
@@ -108,6 +114,8 @@ SimulationOptions ScanOf(const nlohmann::json& json, const std::string& source) 
   json.at("sensor").get_to(scan.sensor);
   json.at("pose_source").get_to(scan.pose_source);
   json.at("seed").get_to(scan.seed);
+  scan.color.registration = RegistrationOf(json.at("registration").get<std::string>());
+  scan.scene.light = LightOf(json.at("light").get<std::string>());
   if (!json.at("shape_seed").is_null()) {
     scan.object_options.shape_seed = json.at("shape_seed").get<uint64_t>();
   }
