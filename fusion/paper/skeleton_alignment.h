@@ -11,8 +11,9 @@ struct SkeletonAlignmentOptions {
   /// the step of the smoothing.
   double sample_step = 1 * kMillimetre;
   /// Metres, 0.0001 to 1. Not in the paper: samples farther than this from the other skeleton pair
-  /// with nothing, because a bundle sees curves that the partial skeleton does not have yet.
-  double max_distance = 30 * kMillimetre;
+  /// with nothing, because a bundle sees curves that the partial skeleton does not have yet, which
+  /// would pull it. The paper's own distance within which curves overlap.
+  double max_distance = 10 * kMillimetre;
   /// 1 to 1000. The paper gives no end; Besl and McKay stop when the motion does.
   int max_iterations = 100;
 };

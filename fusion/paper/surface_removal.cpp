@@ -14,7 +14,6 @@ namespace {
 DepthOpeningOptions Opening(const SurfaceRemovalOptions& options) {
   DepthOpeningOptions opening;
   opening.radius = options.opening_radius;
-  opening.on_surface = true;
   opening.discontinuity = options.discontinuity;
   return opening;
 }

@@ -12,7 +12,9 @@ namespace curvefusion {
 /// CurveFusion 3.1 "Removing large surfaces".
 struct SurfaceRemovalOptions {
   /// Metres, 0.001 to 0.5. "We set the distance used for both erosion and dilation to 2 cm",
-  /// measured on the surface: the top of a box is no thin part where it is seen at a grazing angle.
+  /// measured across the line of sight, as topological operators on an image do. Sides of boxes
+  /// that are seen at a grazing angle are narrow there and stay in the difference set; measured on
+  /// the surface they would go, but so would wires side by side that the volume holds as one sheet.
   double opening_radius = 20 * kMillimetre;
   /// Metres, 0.001 to 0.5. "Detect edges ... by analyzing depth discontinuity": the paper gives no
   /// value; chosen: three voxels.

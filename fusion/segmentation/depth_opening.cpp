@@ -122,75 +122,26 @@ class SurfaceLinks {
   Image<uint8_t> links_;
 };
 
-// Lengths as the image shows them, across the line of sight, in pixels.
-class ImageMetric {
- public:
-  using Value = int;
-  ImageMetric(const DepthImage&, const PinholeCamera& camera)
-      : focal_length_(static_cast<float>(std::sqrt(camera.fx * camera.fy))) {}
-  float Reach(double metres, float depth) const {
-    return focal_length_ * static_cast<float>(metres) / depth;
-  }
-  float Pixel(float) const { return 1; }
-  // Offsets only grow along a path: around an obstacle the way counts, as far as four sweeps can
-  // follow it.
-  static int Offset(int before, int step) { return before + std::abs(step); }
-  int Squared(int, int, int du, int dv) const { return du * du + dv * dv; }
-
- private:
-  float focal_length_;  // of square pixels of the same area
-};
-
-// Distances between the points that pixels show, in metres.
-class SpaceMetric {
- public:
-  using Value = float;
-  SpaceMetric(const DepthImage& depth, const PinholeCamera& camera)
-      : focal_length_(static_cast<float>(std::sqrt(camera.fx * camera.fy))),
-        points_(depth.width(), depth.height()) {
-    for (int v = 0; v < depth.height(); ++v) {
-      for (int u = 0; u < depth.width(); ++u) {
-        points_(u, v) = camera.Unproject(u, v, depth(u, v)).cast<float>();
-      }
-    }
-  }
-  float Reach(double metres, float) const { return static_cast<float>(metres); }
-  float Pixel(float depth) const { return depth / focal_length_; }
-  static int Offset(int before, int step) { return before + step; }
-  // From a pixel to the one at an offset back from it.
-  float Squared(int u, int v, int du, int dv) const {
-    return (points_(u, v) - points_(u - du, v - dv)).squaredNorm();
-  }
-
- private:
-  float focal_length_;
-  Image<Eigen::Vector3f> points_;
-};
-
-// Offset from the nearest source pixel, and its distance.
-template <class Value>
+// Absolute offset to the nearest source pixel.
 struct Nearest {
-  static constexpr Value kNone = std::numeric_limits<Value>::max();
-  Value squared = kNone;
-  Value limit = 0;  ///< squared distance up to which the source reaches
+  static constexpr int kNone = std::numeric_limits<int>::max();
+  int squared = kNone;
+  int limit = 0;  ///< squared distance up to which the source reaches
   int16_t du = 0;
   int16_t dv = 0;
 };
 
 // Distances to the nearest source pixel within the same surface (Danielsson 1980, in four sweeps),
-// as far as that source reaches.
-template <class Metric>
+// as far as that source reaches. Offsets only grow along a path: around an obstacle the way counts,
+// as far as four sweeps can follow it.
 class SurfaceDistance {
  public:
-  using Value = typename Metric::Value;
-  using Pixel = Nearest<Value>;
+  explicit SurfaceDistance(const Image<uint8_t>& links)
+      : links_(links), nearest_(links.width(), links.height(), Nearest()) {}
 
-  SurfaceDistance(const Image<uint8_t>& links, const Metric& metric)
-      : links_(links), metric_(metric), nearest_(links.width(), links.height(), Pixel()) {}
-
-  void AddSource(int u, int v, float reach) {
+  void AddSource(int u, int v, float reach_px) {
     nearest_(u, v).squared = 0;
-    nearest_(u, v).limit = static_cast<Value>(reach * reach);
+    nearest_(u, v).limit = static_cast<int>(reach_px * reach_px);
   }
 
   void Propagate() {
@@ -205,17 +156,14 @@ class SurfaceDistance {
     }
   }
 
-  /// Squared distance; Pixel::kNone where no source reaches.
-  Value Squared(int u, int v) const { return nearest_(u, v).squared; }
+  /// Squared distance in pixels; Nearest::kNone where no source reaches.
+  int Squared(int u, int v) const { return nearest_(u, v).squared; }
 
  private:
-  // Takes the source of a neighbour, which lies (-step_u, -step_v) from the pixel.
-  void Pull(int u, int v, const Pixel& neighbour, int step_u, int step_v) {
-    Pixel& pixel = nearest_(u, v);
+  void Pull(Nearest& pixel, const Nearest& neighbour, int step_u, int step_v) const {
     if (neighbour.squared >= pixel.squared) return;
-    const int du = Metric::Offset(neighbour.du, step_u);
-    const int dv = Metric::Offset(neighbour.dv, step_v);
-    const Value squared = metric_.Squared(u, v, du, dv);
+    const int du = neighbour.du + step_u, dv = neighbour.dv + step_v;
+    const int squared = du * du + dv * dv;
     if (squared >= pixel.squared || squared > neighbour.limit) return;
     pixel = {squared, neighbour.limit, static_cast<int16_t>(du), static_cast<int16_t>(dv)};
   }
@@ -223,41 +171,55 @@ class SurfaceDistance {
   void PullFromAbove(int v) {
     const int width = links_.width();
     const uint8_t* links = links_.row(v - 1);
-    const Pixel* above = nearest_.row(v - 1);
+    const Nearest* above = nearest_.row(v - 1);
+    Nearest* row = nearest_.row(v);
     for (int u = 0; u < width; ++u) {
-      if (nearest_(u, v).squared == 0) continue;
-      if (links[u] & kDown) Pull(u, v, above[u], 0, 1);
-      if (u > 0 && links[u - 1] & kDownRight) Pull(u, v, above[u - 1], 1, 1);
-      if (u + 1 < width && links[u + 1] & kDownLeft) Pull(u, v, above[u + 1], -1, 1);
+      if (row[u].squared == 0) continue;
+      if (links[u] & kDown) Pull(row[u], above[u], 0, 1);
+      if (u > 0 && links[u - 1] & kDownRight) Pull(row[u], above[u - 1], 1, 1);
+      if (u + 1 < width && links[u + 1] & kDownLeft) Pull(row[u], above[u + 1], 1, 1);
     }
   }
 
   void PullFromBelow(int v) {
     const int width = links_.width();
     const uint8_t* links = links_.row(v);
-    const Pixel* below = nearest_.row(v + 1);
+    const Nearest* below = nearest_.row(v + 1);
+    Nearest* row = nearest_.row(v);
     for (int u = 0; u < width; ++u) {
-      if (nearest_(u, v).squared == 0) continue;
-      if (links[u] & kDown) Pull(u, v, below[u], 0, -1);
-      if (links[u] & kDownRight) Pull(u, v, below[u + 1], -1, -1);
-      if (links[u] & kDownLeft) Pull(u, v, below[u - 1], 1, -1);
+      if (row[u].squared == 0) continue;
+      if (links[u] & kDown) Pull(row[u], below[u], 0, 1);
+      if (links[u] & kDownRight) Pull(row[u], below[u + 1], 1, 1);
+      if (links[u] & kDownLeft) Pull(row[u], below[u - 1], 1, 1);
     }
   }
 
   void SweepRow(int v) {
     const uint8_t* links = links_.row(v);
-    Pixel* row = nearest_.row(v);
+    Nearest* row = nearest_.row(v);
     for (int u = 1; u < links_.width(); ++u) {
-      if (links[u - 1] & kRight) Pull(u, v, row[u - 1], 1, 0);
+      if (links[u - 1] & kRight) Pull(row[u], row[u - 1], 1, 0);
     }
     for (int u = links_.width() - 2; u >= 0; --u) {
-      if (links[u] & kRight) Pull(u, v, row[u + 1], -1, 0);
+      if (links[u] & kRight) Pull(row[u], row[u + 1], 1, 0);
     }
   }
 
   const Image<uint8_t>& links_;
-  const Metric& metric_;
-  Image<Pixel> nearest_;
+  Image<Nearest> nearest_;
+};
+
+// Lengths on a surface as the image shows them.
+class MetricScale {
+ public:
+  explicit MetricScale(const PinholeCamera& camera)
+      : focal_length_(static_cast<float>(std::sqrt(camera.fx * camera.fy))) {}
+  float Pixels(double metres, float depth) const {
+    return focal_length_ * static_cast<float>(metres) / depth;
+  }
+
+ private:
+  float focal_length_;  // of square pixels of the same area
 };
 
 float LeastDepth(const DepthImage& depth) {
@@ -269,12 +231,11 @@ float LeastDepth(const DepthImage& depth) {
 }
 
 // Takes from `eroded` what lies within the radius of a source pixel of the same surface.
-template <class Metric, typename IsSource>
+template <typename IsSource>
 void ErodeFrom(const IsSource& is_source, const DepthImage& depth, const Image<uint8_t>& links,
-               const Metric& metric, double radius, MaskImage& eroded) {
-  SurfaceDistance<Metric> to_source(links, metric);
-  const float least = LeastDepth(depth);
-  const float greatest_reach = metric.Reach(radius, least) + metric.Pixel(least);
+               const MetricScale& scale, double radius, MaskImage& eroded) {
+  SurfaceDistance to_source(links);
+  const float greatest_reach = scale.Pixels(radius, LeastDepth(depth)) + 1;
   for (int v = 0; v < depth.height(); ++v) {
     for (int u = 0; u < depth.width(); ++u) {
       if (is_source(u, v)) to_source.AddSource(u, v, greatest_reach);
@@ -285,8 +246,7 @@ void ErodeFrom(const IsSource& is_source, const DepthImage& depth, const Image<u
     for (int u = 0; u < depth.width(); ++u) {
       if (!eroded(u, v)) continue;
       // An edge runs half a pixel outside of the centre of the last pixel.
-      const float z = depth(u, v);
-      const float reach = std::max(0.0f, metric.Reach(radius, z) - 0.5f * metric.Pixel(z));
+      const float reach = std::max(0.0f, scale.Pixels(radius, depth(u, v)) - 0.5f);
       eroded(u, v) = static_cast<float>(to_source.Squared(u, v)) >= reach * reach;
     }
   }
@@ -294,53 +254,40 @@ void ErodeFrom(const IsSource& is_source, const DepthImage& depth, const Image<u
 
 // 1 where a disc of the radius around the pixel keeps within its surface, and one of half the
 // radius within what nothing was seen through: lone solid places of a grille go.
-template <class Metric>
 MaskImage Erode(const DepthImage& depth, const DepthImage& solidity, const Image<uint8_t>& links,
-                const Metric& metric, const DepthOpeningOptions& options) {
+                const MetricScale& scale, const DepthOpeningOptions& options) {
   MaskImage eroded(depth.width(), depth.height(), 0);
   for (int v = 0; v < depth.height(); ++v) {
     for (int u = 0; u < depth.width(); ++u) eroded(u, v) = depth(u, v) > 0;
   }
   const auto is_edge = [&](int u, int v) { return (links(u, v) & kNearEdge) != 0; };
-  ErodeFrom(is_edge, depth, links, metric, options.radius, eroded);
+  ErodeFrom(is_edge, depth, links, scale, options.radius, eroded);
   if (solidity.size() == 0) return eroded;
   const auto is_open = [&](int u, int v) { return solidity(u, v) < options.min_solidity; };
-  ErodeFrom(is_open, depth, links, metric, options.radius / 2, eroded);
+  ErodeFrom(is_open, depth, links, scale, options.radius / 2, eroded);
   return eroded;
 }
 
-// The pixels of the rendering within the discs around what erosion left. Erosion and dilation
-// together round by up to one pixel where an edge runs obliquely.
-template <class Metric>
-DepthImage DilateBack(const DepthImage& depth, const Image<uint8_t>& links, const Metric& metric,
-                      double radius, const MaskImage& eroded) {
-  SurfaceDistance<Metric> to_eroded(links, metric);
+// The pixels of the rendering within the discs around what erosion left.
+DepthImage DilateBack(const DepthImage& depth, const Image<uint8_t>& links,
+                      const MetricScale& scale, double radius, const MaskImage& eroded) {
+  // Erosion and dilation together round by up to one pixel where an edge runs obliquely.
+  constexpr float kRounding = 1;
+  SurfaceDistance to_eroded(links);
   for (int v = 0; v < depth.height(); ++v) {
     for (int u = 0; u < depth.width(); ++u) {
       if (!eroded(u, v)) continue;
-      const float z = depth(u, v);
-      to_eroded.AddSource(u, v, metric.Reach(radius, z) + metric.Pixel(z));
+      to_eroded.AddSource(u, v, scale.Pixels(radius, depth(u, v)) + kRounding);
     }
   }
   to_eroded.Propagate();
   DepthImage opened(depth.width(), depth.height(), 0);
   for (int v = 0; v < depth.height(); ++v) {
     for (int u = 0; u < depth.width(); ++u) {
-      if (to_eroded.Squared(u, v) != SurfaceDistance<Metric>::Pixel::kNone) {
-        opened(u, v) = depth(u, v);
-      }
+      if (to_eroded.Squared(u, v) != Nearest::kNone) opened(u, v) = depth(u, v);
     }
   }
   return opened;
-}
-
-template <class Metric>
-DepthImage Open(const DepthImage& rendering, const PinholeCamera& camera,
-                const DepthImage& solidity, const DepthOpeningOptions& options) {
-  const SurfaceLinks surface(rendering, camera, options);
-  const Metric metric(rendering, camera);
-  const MaskImage eroded = Erode(rendering, solidity, surface.links(), metric, options);
-  return DilateBack(rendering, surface.links(), metric, options.radius, eroded);
 }
 
 }  // namespace
@@ -352,9 +299,11 @@ DepthImage OpenDepth(const DepthImage& rendering, const PinholeCamera& camera,
                 fmt::format("depth rendering of {} x {} pixels does not fit its camera of {} x {}",
                             rendering.width(), rendering.height(), camera.width, camera.height));
   }
+  const SurfaceLinks surface(rendering, camera, options);
+  const MetricScale scale(camera);
   assert(solidity.size() == 0 || solidity.size() == rendering.size());
-  return options.on_surface ? Open<SpaceMetric>(rendering, camera, solidity, options)
-                            : Open<ImageMetric>(rendering, camera, solidity, options);
+  const MaskImage eroded = Erode(rendering, solidity, surface.links(), scale, options);
+  return DilateBack(rendering, surface.links(), scale, options.radius, eroded);
 }
 
 }  // namespace curvefusion

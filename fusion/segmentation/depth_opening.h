@@ -11,9 +11,6 @@ struct DepthOpeningOptions {
   /// Metres, 0 to 0.5: surfaces are eroded and dilated by so much, measured across the line of
   /// sight; what is narrower than twice that goes (CurveFusion 3.1).
   double radius = 0.02;
-  /// Whether the radius is measured between points of the surface instead of across the line of
-  /// sight, where surfaces that are seen at a grazing angle look narrow.
-  bool on_surface = false;
   /// Metres, 0.001 to 0.5: a step of depth between neighbouring pixels above that is a
   /// discontinuity unless the surface is as steep beside it (the paper gives no value; three
   /// voxels).

@@ -13,10 +13,11 @@ struct Scene {
   std::vector<Vec3> edge_samples;
   PointFunnel funnel;
 
-  // A line of n points, one a voxel, along x; every verified_every-th lies on a colour edge.
+  // A line of n points 4 mm apart along x, which are in four voxels for every five; every
+  // verified_every-th lies on a colour edge.
   void AddLine(const Vec3& start, int n, int verified_every) {
     for (int i = 0; i < n; ++i) {
-      const Vec3 p = start + Vec3((i + 0.5) * kVoxel, 0.5 * kVoxel, 0.5 * kVoxel);
+      const Vec3 p = start + Vec3(0.004 * i + 0.001, 0.5 * kVoxel, 0.5 * kVoxel);
       points.Add(p, Vec3::UnitZ(), 1);
       if (verified_every > 0 && i % verified_every == 0) edge_samples.push_back(p);
     }
@@ -94,8 +95,8 @@ TEST(RemoveGhostClusters, IsolationComesBeforeColour) {
 
 TEST(RemoveGhostClusters, LessThanAFifthOfTheVoxelsOnEdgesIsAGhost) {
   Scene scene;
-  scene.AddLine({0, 0, 1}, 100, 5);     // 20 %
-  scene.AddLine({0, 0.05, 1}, 100, 6);  // 17 %
+  scene.AddLine({0, 0, 1}, 100, 5);     // 20 of 80 voxels
+  scene.AddLine({0, 0.05, 1}, 100, 7);  // 15 of 80
   EXPECT_EQ(scene.Clusters().size(), 1u);
   EXPECT_EQ(scene.funnel.unverified, 100);
 }

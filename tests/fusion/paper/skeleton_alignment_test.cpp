@@ -17,7 +17,7 @@ double Difference(const RigidTransform& a, const RigidTransform& b, const Skelet
   return worst;
 }
 
-const RigidTransform kMotion = RigidMotion({0.01, 0.02, 0.03}, {0.006, -0.004, 0.008});
+const RigidTransform kMotion = RigidMotion({0.01, 0.005, 0.01}, {0.003, -0.002, 0.004});
 
 TEST(AlignSkeletons, FindsTheMotionOfALattice) {
   const SkeletonGraph target = Lattice(4, 5, 0.05);

@@ -56,9 +56,10 @@ TEST(FuseSkeletons, TwoHalvesOfAHelixBecomeOne) {
       Fuse(OfCurve(Helix(0.06, 0.05, 2, 0, 0.6)), OfCurve(Helix(0.06, 0.05, 2, 0.4, 1)), 1);
   ASSERT_EQ(fused.edge_count(), 1);
   EXPECT_EQ(fused.node_count(), 2);
-  // Smoothing shrinks a circle of 60 mm by lambda (step / radius)^4 = 0.05 %.
-  EXPECT_NEAR(fused.TotalLength(), whole.TotalLength(), 0.002 * whole.TotalLength());
-  EXPECT_LT(MaxDistance(fused, whole), 0.0005);
+  // Pairs of points pull the halves onto each other: points up to 10 mm beyond the end of the other
+  // half pair with its end. The curve slides along itself by three times that at most.
+  EXPECT_NEAR(fused.TotalLength(), whole.TotalLength(), 0.03);
+  EXPECT_LT(MaxDistance(fused, whole), 0.001);
 }
 
 TEST(FuseSkeletons, AShiftedYIsStillOneY) {
@@ -72,18 +73,19 @@ TEST(FuseSkeletons, AShiftedYIsStillOneY) {
   ASSERT_EQ(CountDegree(fused, 3), 1);
   for (const NodeId node : fused.Nodes()) {
     if (fused.Degree(node) == 3) {
-      // The mean of both junctions.
-      EXPECT_LT((fused.position(node) - 0.5 * shift.translation()).norm(), 0.0005);
+      // The mean of both junctions, moved by smoothing by less than a vertex's distance.
+      EXPECT_LT((fused.position(node) - 0.5 * shift.translation()).norm(), 0.001);
     }
   }
 }
 
 TEST(FuseSkeletons, ACrossingOfTwoBundlesIsOneJunctionOfValenceFour) {
+  // Alignment would turn one line onto the other.
   for (const double degrees : {90.0, 60.0, 45.0}) {
     const double angle = degrees * M_PI / 180;
     const Vec3 along = 0.1 * Vec3(std::cos(angle), std::sin(angle), 0);
-    const SkeletonGraph fused = Fuse(OfCurve(StraightLine({-0.1, 0, 0}, {0.1, 0, 0})),
-                                     OfCurve(StraightLine(-along, along)), 1);
+    const SkeletonGraph fused = FuseSkeletons(OfCurve(StraightLine({-0.1, 0, 0}, {0.1, 0, 0})),
+                                              OfCurve(StraightLine(-along, along)), 1, Unaligned());
     EXPECT_EQ(fused.edge_count(), 4) << degrees;
     EXPECT_EQ(CountDegree(fused, 4), 1) << degrees;
   }
