@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "fusion/run_plan.h"
+#include "fusion/planned_stage.h"
 
 namespace curvefusion {
 

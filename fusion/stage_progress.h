@@ -5,7 +5,7 @@
 #include <string>
 #include <thread>
 
-#include "fusion/pipeline.h"
+#include "fusion/reconstruction.h"
 
 namespace curvefusion {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "fusion/pipeline.h"
+#include "fusion/reconstruction.h"
 #include "kernel/polyline.h"
 #include "kernel/quantile.h"
 

@@ -6,17 +6,6 @@
 
 namespace curvefusion {
 
-/// Merges junctions (nodes of degree 3 and more) nearer to each other than `distance`, nearest
-/// first, into their mean weighted by degree; incident edges are re-attached. Groups grow only
-/// while their means are within the distance, so a row of junctions does not collapse. Edges
-/// between merged junctions disappear up to a length of 2 `distance`. CurveFusion 3.3.
-void MergeNearbyJunctions(SkeletonGraph& graph, double distance);
-
-/// Where edges run side by side within `distance`, longer than a crossing explains: joins them at
-/// both ends of that stretch and replaces the two parts by their mean along arc length.
-/// CurveFusion 3.3, within one graph.
-void MergeOverlappingEdges(SkeletonGraph& graph, double distance);
-
 /// Shrinks edges between two different nodes to one node each, at the mean of both weighted by
 /// degree; of edges that share a node only the first.
 void ContractEdges(SkeletonGraph& graph, const std::vector<EdgeId>& edges);

@@ -253,25 +253,6 @@ SkeletonGraph WithPositions(SkeletonGraph graph, std::vector<SampledEdge> edges,
 
 }  // namespace
 
-void VisitOptions(SmoothingOptions& options, OptionVisitor& visitor) {
-  visitor.Visit({"step", "m", 1e-5, 0.1, "Distance of vertices on curves. CurveFusion 3.3."},
-                options.step);
-  visitor.Visit({"lambda", "", 0, 1e6, "Weight of smoothness against data. CurveFusion 3.3."},
-                options.lambda);
-  visitor.Visit({"hold_free_ends", "", 0, 1,
-                 "Deviation: free ends keep their place, which the paper smooths like any vertex; "
-                 "repeated smoothing would wear curved ends off."},
-                options.hold_free_ends);
-  visitor.Visit({"corner_angle", "rad", 0, M_PI,
-                 "Deviation: bends sharper than this stay sharp; pi rounds all off as the paper "
-                 "does."},
-                options.corner_angle);
-  visitor.Visit({"keep_curvature", "", 0, 1,
-                 "Deviation: smooths what smoothing took away and adds it again (Tukey's twicing), "
-                 "because bends shrink with every fusion step otherwise."},
-                options.keep_curvature);
-}
-
 SmoothingOptions PaperSmoothingOptions() {
   SmoothingOptions options;
   options.hold_free_ends = false;

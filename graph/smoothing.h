@@ -1,21 +1,23 @@
 #pragma once
 
 #include "graph/skeleton_graph.h"
-#include "kernel/options.h"
 
 namespace curvefusion {
 
 /// Curve fitting of CurveFusion 3.3, Eq. 1.
 struct SmoothingOptions {
-  double step = 1 * kMillimetre;
-  double lambda = 60;
+  double step = 1 * kMillimetre;  ///< distance of vertices on curves (CurveFusion 3.3)
+  double lambda = 60;             ///< weight of smoothness against data (CurveFusion 3.3)
+  /// Free ends keep their place, which Eq. 1 smooths like any vertex: repeated smoothing would wear
+  /// curved ends off.
   bool hold_free_ends = true;
+  /// Radians, 0 to pi: bends sharper than this stay sharp; pi rounds all off as Eq. 1 does.
   double corner_angle = 1.0;
+  /// Smooths what smoothing took away and adds it again (Tukey's twicing): bends shrink less.
   bool keep_curvature = true;
 };
-void VisitOptions(SmoothingOptions& options, OptionVisitor& visitor);
 
-/// The options as the paper has them.
+/// Eq. 1 and nothing else.
 SmoothingOptions PaperSmoothingOptions();
 
 /// Resamples every edge to `step` and minimises over all vertices at once

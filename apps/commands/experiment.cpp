@@ -187,9 +187,10 @@ void AddRequestOptions(CLI::App& command, ExperimentArguments& arguments) {
                   "families, separated by commas")
       ->delimiter(',');
   command
-      .add_option("--scans", arguments.request.scans,
-                  "Folders of good real scans for the studies check and families, separated by "
-                  "commas; families compares with SCAN/truth or SCAN.truth where it is there")
+      .add_option(
+          "--scans", arguments.request.scans,
+          "Folders of good real scans for the studies check, sensor-validation and families, "
+          "separated by commas; families compares with SCAN/truth or SCAN.truth where it is there")
       ->delimiter(',')
       ->check(CLI::ExistingDirectory);
   command

@@ -265,7 +265,7 @@ Image<float> BlockMatcher::Match(const IntensityImage& image) const {
     }
   }
   if (options_.drop_small_components) {
-    DropSmallComponents(refined, options_.min_component, options_.component_step);
+    DropSmallComponents(refined, options_.min_component, {.step = options_.component_step});
   }
   return refined;
 }

@@ -13,27 +13,17 @@ namespace curvefusion {
 
 namespace {
 
-constexpr const char* kFull = "full profile";
 constexpr const char* kNothing = "nothing";
 
 struct Variant {
-  Labels labels;  // what it is without, and what it is compared with
+  Labels labels;  // what it is without
   std::vector<std::string> assignments;
 };
 
 std::vector<Variant> Variants() {
-  const std::vector<Ablation> ablations = Ablations();
-  const auto carried = std::find_if(ablations.begin(), ablations.end(),
-                                    [](const Ablation& a) { return a.name == kCarriedPoints; });
-  std::vector<Variant> variants = {{{{"without", kNothing}, {"against", "-"}}, {}}};
-  for (const Ablation& ablation : ablations) {
-    Variant variant{{{"without", ablation.name}, {"against", kFull}}, {}};
-    if (ablation.of_fusion) {
-      variant.labels.back().second = std::string("without ") + kCarriedPoints;
-      variant.assignments = carried->off;
-    }
-    variant.assignments.insert(variant.assignments.end(), ablation.off.begin(), ablation.off.end());
-    variants.push_back(variant);
+  std::vector<Variant> variants = {{{{"without", kNothing}}, {}}};
+  for (const Ablation& ablation : Ablations()) {
+    variants.push_back({{{"without", ablation.name}}, ablation.off});
   }
   return variants;
 }
@@ -54,14 +44,6 @@ std::vector<StudyCase> Cases(const StudyRequest& request) {
   return cases;
 }
 
-const RunGroup& ReferenceOf(const RunGroup& group, const std::vector<RunGroup>& groups) {
-  const bool is_of_fusion = LabelOf(group.labels, "against") != kFull;
-  const char* name = is_of_fusion ? kCarriedPoints : kNothing;
-  return *std::find_if(groups.begin(), groups.end(), [&](const RunGroup& other) {
-    return LabelOf(other.labels, "without") == name;
-  });
-}
-
 std::string CellText(const std::optional<double>& value, int decimals, bool is_change) {
   if (!value) return "-";
   return is_change ? fmt::format("{:+.{}f}", *value, decimals)
@@ -78,13 +60,13 @@ Table PurposeTable() {
 }
 
 void Report(const StudyResults& results) {
-  const std::vector<RunGroup> groups = GroupRuns(results.runs, {"without", "against"});
+  const std::vector<RunGroup> groups = GroupRuns(results.runs, {"without"});
   std::vector<std::vector<std::optional<double>>> values;
   std::vector<ChangeRow> changes;
   for (const RunGroup& group : groups) {
     values.push_back(HeadlineValues(group));
     if (&group == &groups.front()) continue;
-    values.back() = ChangesOf(HeadlineValues(ReferenceOf(group, groups)), values.back());
+    values.back() = ChangesOf(values.front(), values.back());
     changes.push_back({LabelOf(group.labels, "without"), values.back()});
   }
   Table table = MedianTable(groups, {});

@@ -86,13 +86,7 @@ std::vector<Ablation> OfRegistration() {
            "A depth camera sees the near side of a wire, not its axis."},
           {"noise metric",
            {"registration.min_linearity=0"},
-           "Depth noise larger than the wires blurs curves along the viewing rays."},
-          {kCarriedPoints,
-           {"registration.carry_points=false"},
-           "All points contracted once, on the ridges of their density, instead of fused skeletons "
-           "of bundles.",
-           {"registration.carried_voxel_size", "ridge_projection", "curve_network", "ridge_edges",
-            "free_ends", "junction_refinement", "ridge_skeleton"}}};
+           "Depth noise larger than the wires blurs curves along the viewing rays."}};
 }
 
 // Steps from points to curves.
@@ -152,39 +146,6 @@ std::vector<Ablation> OfRidges() {
            "Details shorter than the kernel are noise."}};
 }
 
-// Fusion of skeletons, CurveFusion 3.3.
-std::vector<Ablation> OfFusion() {
-  std::vector<Ablation> ablations = {
-      {"moved bundles",
-       {"fusion.move_partial=true"},
-       "The result stays in the frame of the first bundle."},
-      {"kept neighbours",
-       {"fusion.keep_neighbours=false"},
-       "Wires nearer than the overlap distance stay apart."},
-      {"weights by sight",
-       {"fusion.weights_by_observation=false"},
-       "The paper's weights favour what was seen first."},
-      {"opened cycles",
-       {"fusion.min_cycle_length=0"},
-       "Spurs that touch a neighbouring branch make short cycles."},
-      {"fusion point to line",
-       {"fusion_alignment.point_to_line=false"},
-       "Curves seen in part slide along each other instead of sticking."},
-      {"fewer fusion pairs",
-       {"fusion_alignment.sample_step=0.001", "fusion_alignment.max_points=20000",
-        "fusion_alignment.max_iterations=100"},
-       "Time: alignment needs few points and iterations."},
-      {"held ends",
-       {"smoothing.hold_free_ends=false"},
-       "Repeated smoothing wears curved ends off."},
-      {"kept corners",
-       {"smoothing.corner_angle=3.141592653589793"},
-       "Smoothing rounds sharp bends off."},
-      {"kept curvature", {"smoothing.keep_curvature=false"}, "Bends shrink with every smoothing."}};
-  for (Ablation& ablation : ablations) ablation.of_fusion = true;
-  return ablations;
-}
-
 // What colour images tell of finished curves.
 std::vector<Ablation> OfColours() {
   return {
@@ -204,10 +165,6 @@ std::vector<Ablation> OfColours() {
        "Every image shows a wire as wire; depth shows rungs between wires side by side and loses "
        "wires along the line of sight.",
        {"silhouettes"}},
-      {"strip model",
-       {"radius.strip_model=false"},
-       "Widths between edges are biased by blur and shade.",
-       {"radius.search_px"}},
       {"vanishing colour",
        {"radius.vanishing_color=false"},
        "Of thin strips the blur leaves too little to tell the colour on which widths rest."},
@@ -230,20 +187,15 @@ std::vector<Ablation> OfColours() {
 
 std::vector<Ablation> Ablations() {
   std::vector<Ablation> all;
-  for (const auto& step :
-       {OfSegmentation(), OfRegistration(), OfRidges(), OfFusion(), OfColours()}) {
+  for (const auto& step : {OfSegmentation(), OfRegistration(), OfRidges(), OfColours()}) {
     all.insert(all.end(), step.begin(), step.end());
   }
   return all;
 }
 
 std::vector<FixedDeviation> FixedDeviations() {
-  const std::string in_how = "the deviation is in how it is done, in both profiles alike";
-  return {{"segmentation.extra_dilation", "0 in both profiles: not in use"},
-          {"l1_contraction.sample_spacing", in_how},
-          {"l1_contraction.repulsion", in_how},
-          {"radius.drop_unmeasured",
-           "on in both profiles; acts where no diameter can be measured, which no object shows"}};
+  return {
+      {"radius.drop_unmeasured", "acts where no diameter can be measured, which no object shows"}};
 }
 
 }  // namespace curvefusion

@@ -13,16 +13,10 @@ struct Ablation {
   /// Options ("radius.search_px") and whole sections ("free_ends") that are part of it, besides
   /// those it assigns.
   std::vector<std::string> parts = {};
-  /// It matters only where the skeletons of bundles are fused as in the paper: it is switched off
-  /// together with the carried points and compared with the result without those.
-  bool of_fusion = false;
 };
 
 /// All of them, in the order of the method's steps.
 std::vector<Ablation> Ablations();
-
-/// The name of the ablation that those `of_fusion` are compared with.
-inline constexpr const char* kCarriedPoints = "carried points";
 
 /// An option that is documented as a deviation but cannot be switched off, and why.
 struct FixedDeviation {

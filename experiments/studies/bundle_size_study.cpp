@@ -18,6 +18,7 @@
 #include "experiments/studies/reconstruction_run.h"
 #include "experiments/studies/result_table.h"
 #include "experiments/studies/studies.h"
+#include "fusion/volume/volume_fusion.h"
 #include "kernel/error.h"
 
 namespace curvefusion {
@@ -102,15 +103,13 @@ Sequence MiddleFrames(const Sequence& sequence, int count) {
   return middle;
 }
 
-TsdfVolume FusedVolume(const Sequence& sequence, const TsdfOptions& options, int stride,
+TsdfVolume FusedVolume(const Sequence& sequence, const Config& config, int stride,
                        const Progress& progress) {
-  TsdfVolume volume(options);
-  for (int i = 0; i < sequence.frame_count(); i += stride) {
-    volume.Integrate(LoadDepth(sequence, i), sequence.depth_camera,
-                     sequence.frames[i].T_world_camera);
-    progress("volume", i + 1, sequence.frame_count());
-  }
-  return volume;
+  int frames = 0;
+  return FuseVolume(sequence, VolumeOptions(config.pipeline), stride, [&] {
+    frames += stride;
+    progress("volume", std::min(frames, sequence.frame_count()), sequence.frame_count());
+  });
 }
 
 // Where the true object stands in every picture of it.
@@ -152,8 +151,7 @@ void AddCommonFigures(const std::string& kind, const std::string& pieces, Figure
 }
 
 RunOutcome RunVolume(const RunInput& input, const Sequence& bundle, const SkeletonGraph& truth) {
-  const TsdfVolume volume =
-      FusedVolume(bundle, input.study_case.config.pipeline.volume, 1, input.progress);
+  const TsdfVolume volume = FusedVolume(bundle, input.study_case.config, 1, input.progress);
   const TriangleMesh mesh = PartAroundTruth(volume.ExtractMesh(), truth).mesh;
   const Framing framing = FramingOf(truth);
   WritePng(input.folder / "mesh.png",
@@ -165,10 +163,10 @@ RunOutcome RunVolume(const RunInput& input, const Sequence& bundle, const Skelet
 
 RunOutcome RunSkeleton(const RunInput& input, const Sequence& scan, const Sequence& bundle,
                        const SkeletonGraph& truth) {
-  const PipelineOptions& options = input.study_case.config.pipeline;
-  const TsdfVolume room = FusedVolume(scan, options.volume, kRoomStride, input.progress);
+  const Config& config = input.study_case.config;
+  const TsdfVolume room = FusedVolume(scan, config, kRoomStride, input.progress);
   InterruptibleObserver observer(input.progress);
-  const Reconstruction result = ReconstructAgainst(room, bundle, options, observer);
+  const Reconstruction result = ReconstructAgainst(room, bundle, config.pipeline, observer);
   const Framing framing = FramingOf(truth);
   WritePng(input.folder / "points.png", Picture({}, result.points, framing));
   WritePng(input.folder / "skeleton.png", Picture(result.skeleton, {}, framing));

@@ -252,8 +252,8 @@ std::vector<SensorMeasurement> SensorMeasurements() {
     for (const double diameter_mm : SensorDiameters_mm())
       AddOnce(Wires(sensor, 0.7, diameter_mm), all);
   }
-  for (const char* source : {"orbslam2", "bundlefusion", "kinfu", "ptam"}) {
-    for (const int frames : {150, 300, 500, 900, 1500}) AddOnce(Poses(source, frames), all);
+  for (const char* source : {"orbslam2", "bundlefusion", "kinfu", "kitchen", "ptam"}) {
+    for (const int frames : {150, 300, 500, 750, 900, 1500}) AddOnce(Poses(source, frames), all);
   }
   return all;
 }

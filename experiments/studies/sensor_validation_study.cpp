@@ -6,8 +6,10 @@
 #include <cmath>
 
 #include "experiments/studies/gnuplot.h"
+#include "experiments/studies/recording_checks.h"
 #include "experiments/studies/result_table.h"
 #include "experiments/studies/sensor_checks.h"
+#include "experiments/studies/sensor_results.h"
 #include "experiments/studies/studies.h"
 
 namespace curvefusion {
@@ -16,22 +18,8 @@ namespace {
 
 using Kind = SensorMeasurement::Kind;
 
-Labels LabelsOf(const SensorMeasurement& what) {
-  const auto number = [](double value) { return value > 0 ? fmt::format("{}", value) : ""; };
-  const bool wires = what.kind == Kind::kWires;
-  return {{"target", what.kind == Kind::kWall ? "wall"
-                     : wires                  ? "wires"
-                                              : "poses"},
-          {"subject", what.subject},
-          {"distance_m", number(what.distance)},
-          {"diameter_mm", number(what.diameter_mm)},
-          {"albedo", wires ? number(what.albedo) : ""},
-          {"filter", what.filter ? "" : "off"},
-          {"frames", number(what.frames)}};
-}
-
 std::vector<StudyCase> Cases(const StudyRequest& request) {
-  std::vector<StudyCase> cases;
+  std::vector<StudyCase> cases = RecordingCases(request);
   for (const SensorMeasurement& measurement : SensorMeasurements()) {
     for (const uint64_t seed : SeedsOf(request)) {
       cases.push_back({LabelsOf(measurement), seed, std::nullopt, Config()});
@@ -42,35 +30,13 @@ std::vector<StudyCase> Cases(const StudyRequest& request) {
 
 RunOutcome Run(const RunInput& input) {
   input.progress("", 0, 0);  // ends here once the user interrupts
+  if (IsRecording(input.study_case)) return MeasureRecording(input);
   for (const SensorMeasurement& measurement : SensorMeasurements()) {
     if (LabelsOf(measurement) != input.study_case.labels) continue;
     return {true, MeasureSensor(measurement, input.study_case.seed)};
   }
   return {false, {}};
 }
-
-// What was measured, found by its place.
-class Measured {
- public:
-  explicit Measured(const StudyResults& results)
-      : groups_(GroupRuns(results.runs, {"target", "subject", "distance_m", "diameter_mm", "albedo",
-                                         "filter", "frames"})) {}
-
-  std::optional<Spread> Find(const SensorMeasurement& what, const std::string& figure) const {
-    const Labels labels = LabelsOf(what);
-    const auto group = std::find_if(groups_.begin(), groups_.end(),
-                                    [&](const RunGroup& known) { return known.labels == labels; });
-    return group == groups_.end() ? std::nullopt : SpreadOf(*group, figure);
-  }
-
-  // "median least greatest" for gnuplot.
-  std::string Data(const SensorMeasurement& what, const std::string& figure) const {
-    return SpreadData(Find(what, figure));
-  }
-
- private:
-  std::vector<RunGroup> groups_;
-};
 
 std::string PlaceOf(const SensorMeasurement& what) {
   switch (what.kind) {
@@ -92,7 +58,7 @@ std::string BandText(const SensorCheck& check) {
   return fmt::format("{:.3g} to {:.3g}", check.least, check.greatest);
 }
 
-std::vector<std::string> CheckRow(const SensorCheck& check, const Measured& measured) {
+std::vector<std::string> CheckRow(const SensorCheck& check, const MeasuredSensors& measured) {
   const std::optional<Spread> spread = measured.Find(check.measurement, check.figure);
   // Every seed must pass: bands are wide enough.
   const bool pass = spread && spread->least >= check.least && spread->greatest <= check.greatest;
@@ -114,7 +80,7 @@ SensorMeasurement KinectBeforeWires(size_t distance, size_t diameter, bool filte
   return wires;
 }
 
-double Recall(const Measured& measured, size_t distance, size_t diameter, bool filter) {
+double Recall(const MeasuredSensors& measured, size_t distance, size_t diameter, bool filter) {
   const auto spread = measured.Find(KinectBeforeWires(distance, diameter, filter), "recall");
   return spread ? spread->median : std::nan("");
 }
@@ -125,7 +91,7 @@ struct RecallOrder {
   double by_distance = 0;
 };
 
-RecallOrder OrderOf(const Measured& measured, bool filter) {
+RecallOrder OrderOf(const MeasuredSensors& measured, bool filter) {
   RecallOrder worst;
   for (size_t i = 0; i < RecallDistances().size(); ++i) {
     for (size_t k = 0; k < RecallDiameters_mm().size(); ++k) {
@@ -153,7 +119,7 @@ std::vector<std::string> OrderRow(const std::string& name, double worst) {
           worst <= kAllowed ? "pass" : "FAIL"};
 }
 
-Table CheckTable(const Measured& measured) {
+Table CheckTable(const MeasuredSensors& measured) {
   Table table{
       {"subject", "figure", "where", "basis", "source", "band", "measured", "result"}, {}, 5};
   for (const SensorCheck& check : SensorChecks()) table.rows.push_back(CheckRow(check, measured));
@@ -169,7 +135,7 @@ Table CheckTable(const Measured& measured) {
 }
 
 // With the filter of small components, without, and in brackets the prototype's, which had none.
-Table RecallTable(const Measured& measured) {
+Table RecallTable(const MeasuredSensors& measured) {
   Table table{{"distance (m)"}, {}, 1};
   for (const double diameter_mm : RecallDiameters_mm()) {
     table.headings.push_back(fmt::format("{} mm", diameter_mm));
@@ -186,10 +152,10 @@ Table RecallTable(const Measured& measured) {
 }
 
 constexpr const char* kSensors[] = {"kinect_v1", "kinect_v2", "azure_kinect", "sr300", "d400"};
-constexpr const char* kSources[] = {"orbslam2", "bundlefusion", "kinfu", "ptam"};
+constexpr const char* kSources[] = {"orbslam2", "bundlefusion", "kinfu", "kitchen", "ptam"};
 constexpr int kLengths[] = {150, 300, 500, 750, 900, 1500};
 
-Table OtherSensorsTable(const Measured& measured) {
+Table OtherSensorsTable(const MeasuredSensors& measured) {
   Table table{{"sensor"}, {}, 1};
   for (const double diameter_mm : SensorDiameters_mm()) {
     table.headings.push_back(fmt::format("{} mm", diameter_mm));
@@ -204,7 +170,7 @@ Table OtherSensorsTable(const Measured& measured) {
   return table;
 }
 
-Table PoseTable(const Measured& measured) {
+Table PoseTable(const MeasuredSensors& measured) {
   Table table{{"poses", "frames", "ATE (mm)", "RPE 1 s (mm)", "RPE 1 s (degrees)"}, {}, 1};
   for (const char* source : kSources) {
     for (const int frames : kLengths) {
@@ -218,8 +184,8 @@ Table PoseTable(const Measured& measured) {
   return table;
 }
 
-// Blocks: the wall (0), recall by distance (1 to 4), by sensor (5 to 9), ATE by source (10 to 13).
-std::string PlotData(const Measured& measured) {
+// Blocks: the wall (0), recall by distance (1 to 4), by sensor (5 to 9), ATE by source (10 to 14).
+std::string PlotData(const MeasuredSensors& measured) {
   std::string data;
   for (const SensorCheck& check : SensorChecks()) {
     const SensorMeasurement& what = check.measurement;
@@ -291,8 +257,9 @@ std::string PlotCommands(double greatest_ate_mm) {
 }
 
 void Report(const StudyResults& results) {
-  const Measured measured(results);
+  const MeasuredSensors measured(results);
   WriteTable(results.folder, results.stem, CheckTable(measured));
+  WriteTable(results.folder, results.stem + "_recordings", RecordingTable(results));
   WriteTable(results.folder, results.stem + "_recall", RecallTable(measured));
   WriteTable(results.folder, results.stem + "_sensors", OtherSensorsTable(measured));
   WriteTable(results.folder, results.stem + "_poses", PoseTable(measured));

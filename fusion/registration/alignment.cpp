@@ -4,13 +4,11 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include "kernel/parallel.h"
 #include "kernel/quantile.h"
 #include "kernel/rigid_motion.h"
-#include "kernel/spatial_search.h"
 
 namespace curvefusion {
 
@@ -28,10 +26,6 @@ constexpr double kObservable = 0.01;
 constexpr double kGateInMedians = 3 * kGaussianMad;
 // At rest: a motion of the samples by less than this, in metres.
 constexpr double kAtRest = 2e-6;
-// Curves pair where their tangents are less than 60 degrees apart.
-constexpr double kMinTangentCosine = 0.5;
-// Nearest target samples looked at for one of a similar direction.
-constexpr int kCandidates = 6;
 constexpr int64_t kGrain = 64;
 // What is searched first around a point, in metres: most find their target there.
 constexpr double kSearchRadius = 0.010;
@@ -44,11 +38,9 @@ struct Pair {
 
 class ClosestPointAligner {
  public:
-  ClosestPointAligner(const CurveSamples& source, const AlignmentTarget& target,
+  ClosestPointAligner(const std::vector<Vec3>& source, const AlignmentTarget& target,
                       const AlignmentOptions& options)
-      : source_(source), target_(target.samples()), grid_(target.grid()), options_(options) {
-    if (!source_.tangents.empty() && !target_.tangents.empty()) index_.emplace(target_.points);
-  }
+      : source_(source), target_(target.samples()), grid_(target.grid()), options_(options) {}
 
   // Starts wide and starts narrow, and takes what brings more points close. A wide start finds
   // large drifts; a narrow one is not drawn away by curves that have no counterpart.
@@ -61,9 +53,9 @@ class ClosestPointAligner {
  private:
   AlignmentResult AlignWithin(double max_distance) {
     AlignmentResult result;
-    if (source_.points.empty() || target_.points.empty()) return result;
+    if (source_.empty() || target_.points.empty()) return result;
     max_distance_ = std::min(max_distance, options_.max_distance);
-    pairs_.assign(source_.points.size(), {});
+    pairs_.assign(source_.size(), {});
     for (int i = 0; i < options_.max_iterations && !result.converged; ++i) {
       FindPairs(result.T_target_source);
       UpdateGate();
@@ -73,7 +65,7 @@ class ClosestPointAligner {
     }
     FindPairs(result.T_target_source);
     UpdateGate();
-    result.inlier_fraction = static_cast<double>(inliers_) / source_.points.size();
+    result.inlier_fraction = static_cast<double>(inliers_) / source_.size();
     result.rms = Rms();
     result.center = Center();
     result.information =
@@ -105,12 +97,6 @@ class ClosestPointAligner {
     return offset - tangent.dot(offset) * tangent;
   }
 
-  int NearestCompatible(const Vec3& p, const Vec3& direction) const {
-    for (const int j : index_->NearestK(p, kCandidates))
-      if (std::abs(direction.dot(target_.tangents[j])) >= kMinTangentCosine) return j;
-    return -1;
-  }
-
   // The target of the iteration before is near enough to spare most of the search.
   int NearestWithin(const Vec3& p, const Pair& before) const {
     double reach = max_distance_;
@@ -121,11 +107,10 @@ class ClosestPointAligner {
   }
 
   void FindPairs(const RigidTransform& T) {
-    moved_.resize(source_.points.size());
+    moved_.resize(source_.size());
     ParallelFor(0, static_cast<int64_t>(pairs_.size()), kGrain, [&](int64_t i) {
-      const Vec3 p = moved_[i] = T * source_.points[i];
-      const int j = index_ ? NearestCompatible(p, T.linear() * source_.tangents[i])
-                           : NearestWithin(p, pairs_[i]);
+      const Vec3 p = moved_[i] = T * source_[i];
+      const int j = NearestWithin(p, pairs_[i]);
       pairs_[i] = {};
       if (j < 0 || (p - target_.points[j]).norm() > max_distance_) return;
       pairs_[i] = {j, Residual(j, p - target_.points[j]).norm()};
@@ -211,11 +196,10 @@ class ClosestPointAligner {
     return std::sqrt(sum / static_cast<double>(moved_.size()));
   }
 
-  const CurveSamples& source_;
+  const std::vector<Vec3>& source_;
   const CurveSamples& target_;
   const PointGrid& grid_;
   const AlignmentOptions& options_;
-  std::optional<PointIndex> index_;  // where several nearest are looked at
   std::vector<Pair> pairs_;
   std::vector<Vec3> moved_;
   double max_distance_ = 0;
@@ -223,23 +207,13 @@ class ClosestPointAligner {
   int inliers_ = 0;
 };
 
-// At most `count` of the samples, evenly spread over their order.
-CurveSamples Thinned(const CurveSamples& samples, int count) {
-  const int64_t n = static_cast<int64_t>(samples.points.size());
-  if (n <= count) return samples;
-  CurveSamples thinned;
-  for (int64_t i = 0; i < count; ++i) {
-    const size_t j = static_cast<size_t>(i * n / count);
-    thinned.points.push_back(samples.points[j]);
-    if (!samples.tangents.empty()) thinned.tangents.push_back(samples.tangents[j]);
-  }
+// At most `count` of the points, evenly spread over their order.
+std::vector<Vec3> Thinned(const std::vector<Vec3>& points, int count) {
+  const int64_t n = static_cast<int64_t>(points.size());
+  if (n <= count) return points;
+  std::vector<Vec3> thinned;
+  for (int64_t i = 0; i < count; ++i) thinned.push_back(points[static_cast<size_t>(i * n / count)]);
   return thinned;
-}
-
-AlignmentResult Align(const CurveSamples& source, const AlignmentTarget& target,
-                      const AlignmentOptions& options) {
-  const CurveSamples thinned = Thinned(source, options.max_points);
-  return ClosestPointAligner(thinned, target, options).Align();
 }
 
 }  // namespace
@@ -252,9 +226,6 @@ void VisitOptions(AlignmentOptions& options, OptionVisitor& visitor) {
   visitor.Visit({"inlier_distance", "m", 1e-5, 0.1,
                  "The gate for pairs never gets narrower than this: the noise of a skeleton."},
                 options.inlier_distance);
-  visitor.Visit({"sample_step", "m", 1e-5, 0.1,
-                 "Distance of samples along curves; CurveFusion 3.3 says dense."},
-                options.sample_step);
   visitor.Visit({"max_points", "points", 10, 1e6, "Source points used; more are thinned evenly."},
                 options.max_points);
   visitor.Visit({"max_iterations", "", 1, 1000, "Limit on iterations."}, options.max_iterations);
@@ -265,15 +236,6 @@ void VisitOptions(AlignmentOptions& options, OptionVisitor& visitor) {
                 options.point_to_line);
 }
 
-AlignmentOptions PaperAlignmentOptions() {
-  AlignmentOptions options;
-  options.point_to_line = false;
-  options.sample_step = 1 * kMillimetre;
-  options.max_points = 20000;
-  options.max_iterations = 100;
-  return options;
-}
-
 AlignmentTarget::AlignmentTarget(CurveSamples samples)
     : samples_(std::move(samples)), grid_(samples_.points, kSearchRadius) {
   assert(samples_.tangents.empty() || samples_.tangents.size() == samples_.points.size());
@@ -281,29 +243,8 @@ AlignmentTarget::AlignmentTarget(CurveSamples samples)
 
 AlignmentResult AlignPoints(const std::vector<Vec3>& points, const AlignmentTarget& target,
                             const AlignmentOptions& options) {
-  return Align({points, {}}, target, options);
-}
-
-AlignmentResult AlignPointsToCurves(const std::vector<Vec3>& points, const SkeletonGraph& target,
-                                    const AlignmentOptions& options) {
-  return AlignPoints(points, AlignmentTarget(SampleCurves(target, options.sample_step)), options);
-}
-
-AlignmentResult AlignSkeletons(const SkeletonGraph& source, const SkeletonGraph& target,
-                               const AlignmentOptions& options) {
-  return Align(SampleCurves(source, options.sample_step),
-               AlignmentTarget(SampleCurves(target, options.sample_step)), options);
-}
-
-CurveSamples SampleCurves(const SkeletonGraph& graph, double step) {
-  CurveSamples samples;
-  for (const EdgeId id : graph.Edges()) {
-    const Polyline points = Resample(graph.edge(id).points, step);
-    const std::vector<Vec3> tangents = Tangents(points);
-    samples.points.insert(samples.points.end(), points.begin(), points.end());
-    samples.tangents.insert(samples.tangents.end(), tangents.begin(), tangents.end());
-  }
-  return samples;
+  const std::vector<Vec3> thinned = Thinned(points, options.max_points);
+  return ClosestPointAligner(thinned, target, options).Align();
 }
 
 }  // namespace curvefusion

@@ -2,26 +2,21 @@
 
 #include <vector>
 
-#include "graph/skeleton_graph.h"
 #include "kernel/geometry.h"
 #include "kernel/options.h"
 #include "kernel/point_grid.h"
 
 namespace curvefusion {
 
-/// Rigid alignment by iterative closest points (Besl and McKay 1992), CurveFusion 3.3.
+/// Rigid alignment by iterative closest points (Besl and McKay 1992).
 struct AlignmentOptions {
   double max_distance = 30 * kMillimetre;
   double inlier_distance = 4 * kMillimetre;
-  double sample_step = 2 * kMillimetre;
   int max_points = 2000;
   int max_iterations = 40;
   bool point_to_line = true;
 };
 void VisitOptions(AlignmentOptions& options, OptionVisitor& visitor);
-
-/// The options as the paper has them.
-AlignmentOptions PaperAlignmentOptions();
 
 /// Outcome of an alignment; look at `converged` and `inlier_fraction` before using it.
 struct AlignmentResult {
@@ -41,9 +36,6 @@ struct CurveSamples {
   std::vector<Vec3> points;
   std::vector<Vec3> tangents;  ///< of unit length; empty = directions are not known
 };
-
-/// Points every `step` along all curves of a graph, with their unit tangents.
-CurveSamples SampleCurves(const SkeletonGraph& graph, double step);
 
 /// What can be aligned to, many times.
 class AlignmentTarget {
@@ -65,14 +57,5 @@ class AlignmentTarget {
 /// any number of threads.
 AlignmentResult AlignPoints(const std::vector<Vec3>& points, const AlignmentTarget& target,
                             const AlignmentOptions& options);
-
-/// Aligns points to the curves of a graph, sampled every `sample_step`.
-AlignmentResult AlignPointsToCurves(const std::vector<Vec3>& points, const SkeletonGraph& target,
-                                    const AlignmentOptions& options);
-
-/// Aligns two graphs by dense uniform samples of their curves; samples pair only where the curves
-/// run in similar directions. CurveFusion 3.3 (i).
-AlignmentResult AlignSkeletons(const SkeletonGraph& source, const SkeletonGraph& target,
-                               const AlignmentOptions& options);
 
 }  // namespace curvefusion

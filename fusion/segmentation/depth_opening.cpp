@@ -19,10 +19,6 @@ void VisitOptions(DepthOpeningOptions& options, OptionVisitor& visitor) {
        "The rendering's surfaces are eroded and dilated by so much; what is narrower than "
        "twice that is no large surface. CurveFusion 3.1."},
       options.radius);
-  visitor.Visit({"extra_dilation", "m", 0, 0.2,
-                 "Deviation: dilation beyond the erosion, which would round the corners of large "
-                 "surfaces."},
-                options.extra_dilation);
   visitor.Visit({"discontinuity", "m", 0.001, 0.5,
                  "A step of the rendering's depth above that is an edge, unless the surface is as "
                  "steep beside it. CurveFusion 3.1 gives no value."},
@@ -307,8 +303,7 @@ DepthImage OpenDepth(const DepthImage& rendering, const PinholeCamera& camera,
   const MetricScale scale(camera);
   assert(solidity.size() == 0 || solidity.size() == rendering.size());
   const MaskImage eroded = Erode(rendering, solidity, surface.links(), scale, options);
-  return DilateBack(rendering, surface.links(), scale, options.radius + options.extra_dilation,
-                    eroded);
+  return DilateBack(rendering, surface.links(), scale, options.radius, eroded);
 }
 
 }  // namespace curvefusion

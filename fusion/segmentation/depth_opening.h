@@ -11,9 +11,6 @@ struct DepthOpeningOptions {
   /// Metres, 0 to 0.5: surfaces are eroded and dilated by so much, measured across the line of
   /// sight; what is narrower than twice that goes (CurveFusion 3.1).
   double radius = 0.02;
-  /// Metres, 0 to 0.2: dilation beyond the erosion. The paper has none, and rounds corners; 0.41 of
-  /// the radius keeps right angles whole, but as much of a wire where it leaves a large surface.
-  double extra_dilation = 0.0;
   /// Metres, 0.001 to 0.5: a step of depth between neighbouring pixels above that is a
   /// discontinuity unless the surface is as steep beside it (the paper gives no value; three
   /// voxels).

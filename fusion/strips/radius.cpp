@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "capture/frame_stream.h"
-#include "fusion/strips/strip_box.h"
 #include "fusion/strips/strip_samples.h"
 #include "fusion/strips/strip_widths.h"
 #include "fusion/strips/wire_chains.h"
@@ -36,21 +35,6 @@ constexpr double kErrorsApart = 4;
 template <class T>
 void Append(std::vector<T> more, std::vector<T>& all) {
   all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
-}
-
-// CurveFusion 3.3: boxes around the samples, widths in pixels times depth over focal length.
-std::vector<StripWidth> MeasureBoxes(const ColorImage& image, int frame,
-                                     const std::vector<ProjectedSample>& samples,
-                                     const PinholeCamera& camera, const RadiusOptions& options) {
-  const StripRegions regions = LabelStrips(image, options.box_size_px);
-  std::vector<StripWidth> widths;
-  for (const ProjectedSample& sample : samples) {
-    const double width_px = StripWidthInBox(regions, sample.pixel, options.box_size_px);
-    const double diameter = width_px * sample.depth / camera.fx;
-    if (diameter <= 0 || diameter > options.max_diameter) continue;
-    widths.push_back({sample.edge, sample.arc_length, frame, diameter});
-  }
-  return widths;
 }
 
 // The colour images of some frames, and the curves that are looked for in them.
@@ -209,8 +193,7 @@ void Summarize(const SkeletonGraph& skeleton, const RadiusOptions& options,
     by_wire[wires.at(strip.edge)].push_back(strip.diameter);
   }
   const std::vector<double> all = DiametersOf(estimate.strips);
-  estimate.global_radius = 0.5 * (options.strip_model ? Agree(all, options).diameter
-                                                      : MostProminent(all, options.histogram_bin));
+  estimate.global_radius = 0.5 * Agree(all, options).diameter;
   std::map<int, Agreement> agreed_by_wire;
   std::vector<MeasuredDiameter> gauges;
   if (options.per_wire) {
@@ -259,16 +242,8 @@ RadiusEstimate EstimateRadius(const SkeletonGraph& skeleton, const Sequence& seq
   RadiusEstimate estimate;
   const ColourViews views =
       LoadViews(skeleton, sequence, EvenlyThinned(frames, options.max_frames));
-  std::vector<CurveSample> samples = SampleStrips(skeleton, options.sample_step);
-  if (options.strip_model) {
-    estimate.strips = MeasureStrips(views, std::move(samples), skeleton, options);
-  } else {
-    ForEachProjection(
-        views, samples, {}, [&](const ColorImage& image, int frame, const auto& projected) {
-          Append(MeasureBoxes(image, frame, projected, sequence.color_camera, options),
-                 estimate.strips);
-        });
-  }
+  estimate.strips =
+      MeasureStrips(views, SampleStrips(skeleton, options.sample_step), skeleton, options);
   Summarize(skeleton, options, estimate);
   return estimate;
 }
@@ -320,21 +295,13 @@ void VisitOptions(RadiusOptions& options, OptionVisitor& visitor) {
   visitor.Visit({"histogram_bin", "m", 0.00001, 0.01,
                  "Bin of the histogram of diameters. CurveFusion 3.3 gives no number."},
                 options.histogram_bin);
-  visitor.Visit({"box_size_px", "px", 4, 128,
-                 "Side of the box that must hold exactly one strip. CurveFusion 3.3."},
-                options.box_size_px);
   visitor.Visit({"max_frames", "frames", 1, 1000000,
                  "Colour images used; more are thinned evenly. CurveFusion 3.3 uses all; beyond 30 "
                  "the result hardly changes."},
                 options.max_frames);
   visitor.Visit(
-      {"strip_model", "", 0, 1,
-       "Deviation: solve widths from what strips take away from the background instead of "
-       "counting pixels between edges in a box: unbiased by blur and shade."},
-      options.strip_model);
-  visitor.Visit(
       {"vanishing_color", "", 0, 1,
-       "Deviation: in the strip model, the wires' colour is also told by the backgrounds "
+       "Deviation: the wires' colour is also told by the backgrounds "
        "before which strips would vanish: of thin strips the blur leaves no other trace."},
       options.vanishing_color);
   visitor.Visit({"per_edge", "", 0, 1,

@@ -9,13 +9,11 @@
 namespace curvefusion {
 
 /// Wire radius estimation, CurveFusion 3.3 ("Wire radius estimation"). Units, ranges and sources
-/// stand in VisitOptions; the paper's way is strip_model = per_edge = per_wire = false.
+/// stand in VisitOptions.
 struct RadiusOptions {
   double sample_step = 0.010;
   double histogram_bin = 0.00025;
-  int box_size_px = 16;
   int max_frames = 30;
-  bool strip_model = true;
   bool vanishing_color = true;
   bool per_edge = true;
   bool per_wire = true;

@@ -50,11 +50,11 @@ class ConfigFile : public testing::Test {
 TEST_F(ConfigFile, WhatIsWrittenIsReadBack) {
   for (const Profile profile : {Profile::kPaper, Profile::kBest}) {
     Config config = ProfileConfig(profile);
-    config.pipeline.volume.voxel_size = 0.1 / 13;  // needs all its digits
+    // 0.1 / 13 needs all its digits.
+    std::visit([](auto& options) { options.volume.voxel_size = 0.1 / 13; }, config.pipeline);
     const std::string text = ConfigToml(config);
     EXPECT_EQ(ConfigToml(ReadConfig(Write(text))), text);
-    EXPECT_EQ(ReadConfig(Write(text)).pipeline.volume.voxel_size,
-              config.pipeline.volume.voxel_size);
+    EXPECT_EQ(VolumeOptions(ReadConfig(Write(text)).pipeline).voxel_size, 0.1 / 13);
   }
 }
 
@@ -70,8 +70,8 @@ TEST_F(ConfigFile, AnAssignmentOverridesTheFile) {
   ConfigSources sources = Write("[volume]\nvoxel_size = 0.006\ntruncation_voxels = 5\n");
   sources.assignments = {"volume.voxel_size=0.007"};
   const Config config = ReadConfig(sources);
-  EXPECT_EQ(config.pipeline.volume.voxel_size, 0.007);
-  EXPECT_EQ(config.pipeline.volume.truncation_voxels, 5);
+  EXPECT_EQ(VolumeOptions(config.pipeline).voxel_size, 0.007);
+  EXPECT_EQ(VolumeOptions(config.pipeline).truncation_voxels, 5);
 }
 
 TEST_F(ConfigFile, ErrorsNameFileAndLine) {

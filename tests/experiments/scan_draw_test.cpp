@@ -101,6 +101,18 @@ TEST(ScanSettings, RoomHasATruthWithoutCurves) {
   fs::remove_all(folder);
 }
 
+TEST(ScanSettings, RegistrationAndLightReadBack) {
+  SimulationOptions scan;
+  scan.color.registration = Registration::kRaw;
+  scan.scene.light = LightKind::kSide;
+  const fs::path file = TemporaryPath("scan_settings_color.json");
+  std::ofstream(file) << ScanSettings(scan);
+  const SimulationOptions read = ReadScanSettings(file);
+  EXPECT_EQ(read.color.registration, Registration::kRaw);
+  EXPECT_EQ(read.scene.light, LightKind::kSide);
+  fs::remove(file);
+}
+
 TEST(ScanSettings, RefusesWhatTellsOfNoScan) {
   const fs::path file = TemporaryPath("scan_settings.json");
   const auto message_of = [&](const std::string& text) {

@@ -26,21 +26,21 @@ Image<float> WallWithSpeckAndWire() {
 
 TEST(DropSmallComponents, DropsWhatIsSmallerAndKeepsWhatIsLarger) {
   Image<float> image = WallWithSpeckAndWire();
-  DropSmallComponents(image, 10, 1);
+  DropSmallComponents(image, 10, {.step = 1});
   EXPECT_EQ(image(11, 11), 0);
   EXPECT_EQ(image(30, 20), 45);
   EXPECT_EQ(Measured(image), 64 * 48 - 9);
   image = WallWithSpeckAndWire();
-  DropSmallComponents(image, 60, 1);  // the wire has exactly 60
+  DropSmallComponents(image, 60, {.step = 1});  // the wire has exactly 60
   EXPECT_EQ(image(30, 20), 45);
-  DropSmallComponents(image, 61, 1);
+  DropSmallComponents(image, 61, {.step = 1});
   EXPECT_EQ(image(30, 20), 0);
   EXPECT_EQ(Measured(image), 64 * 48 - 9 - 60);
 }
 
 TEST(DropSmallComponents, AStepWithinTheLimitJoins) {
   Image<float> image = WallWithSpeckAndWire();
-  DropSmallComponents(image, 100, 5);
+  DropSmallComponents(image, 100, {.step = 5});
   EXPECT_EQ(Measured(image), 64 * 48);
 }
 
@@ -50,15 +50,24 @@ TEST(DropSmallComponents, ARampIsOneComponent) {
   for (int v = 0; v < 4; ++v) {
     for (int u = 0; u < 60; ++u) image(u, v) = 20 + static_cast<float>(u);
   }
-  DropSmallComponents(image, 240, 1);
+  DropSmallComponents(image, 240, {.step = 1});
   EXPECT_EQ(Measured(image), 240);
 }
 
 TEST(DropSmallComponents, PixelsThatTouchAtACornerAreApart) {
   Image<float> image(8, 8, 0.0F);
   for (int k = 0; k < 8; ++k) image(k, k) = 30;
-  DropSmallComponents(image, 2, 1);
+  DropSmallComponents(image, 2, {.step = 1});
   EXPECT_EQ(Measured(image), 0);
+}
+
+TEST(ComponentSizes, EveryPixelHasItsComponentsSize) {
+  const Image<int> sizes = ComponentSizes(WallWithSpeckAndWire(), {.step = 1, .slope = 0.05});
+  EXPECT_EQ(sizes(11, 11), 9);  // 5 > 1 + .05 * 40: apart
+  EXPECT_EQ(sizes(30, 20), 60);
+  EXPECT_EQ(sizes(0, 0), 64 * 48 - 69);
+  const Image<int> joined = ComponentSizes(WallWithSpeckAndWire(), {.step = 1, .slope = 0.11});
+  EXPECT_EQ(joined(11, 11), 64 * 48);  // 5 < 1 + .11 * 40
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "experiments/metrics/assignment.h"
 #include "experiments/metrics/junction_metrics.h"
 #include "experiments/metrics/main_piece.h"
+#include "experiments/metrics/point_matching.h"
 #include "experiments/metrics/tip_metrics.h"
 #include "tests/graph/graph_fixtures.h"
 
@@ -54,6 +55,37 @@ TEST(MinimumCostAssignment, MatchesTryingAll) {
 TEST(MinimumCostAssignment, NoRowsOrNoColumns) {
   EXPECT_TRUE(MinimumCostAssignment(Eigen::MatrixXd(0, 3)).empty());
   EXPECT_EQ(MinimumCostAssignment(Eigen::MatrixXd(2, 0)), (std::vector<int>{-1, -1}));
+}
+
+// Groups of near points are paired apart; together they are as good as one assignment of all.
+TEST(MatchPoints, AsGoodAsOneAssignment) {
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> uniform(0, 0.06);
+  const auto points = [&](int count) {
+    std::vector<Vec3> drawn;
+    for (int i = 0; i < count; ++i) drawn.emplace_back(uniform(random), uniform(random), 0);
+    return drawn;
+  };
+  for (int trial = 0; trial < 20; ++trial) {
+    const std::vector<Vec3> expected = points(30);
+    const std::vector<Vec3> found = points(20 + trial);
+    Eigen::MatrixXd cost(expected.size(), found.size());
+    for (size_t i = 0; i < expected.size(); ++i) {
+      for (size_t j = 0; j < found.size(); ++j) {
+        const double distance = (expected[i] - found[j]).norm();
+        cost(i, j) = distance < 0.005 ? distance : 1e3;
+      }
+    }
+    const std::vector<int> partner = MatchPoints(expected, found, 0.005);
+    const auto unpaired = std::count(partner.begin(), partner.end(), -1);
+    // An assignment of all pairs as many points as there are in the smaller set, some of them far.
+    const auto idle =
+        static_cast<double>(expected.size() - std::min(expected.size(), found.size()));
+    EXPECT_NEAR(CostOf(cost, partner) + 1e3 * (static_cast<double>(unpaired) - idle),
+                CostOf(cost, MinimumCostAssignment(cost)), 1e-9);  // rounding
+  }
+  EXPECT_EQ(MatchPoints(points(2), {}, 0.005), (std::vector<int>{-1, -1}));
+  EXPECT_TRUE(MatchPoints({}, points(2), 0.005).empty());
 }
 
 TEST(MatchJunctions, IdentityIsPerfect) {

@@ -133,7 +133,7 @@ TEST(Pipeline, NothingThinIsAnEmptySkeleton) {
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not there";
   Sequence sequence = OpenSequence(folder);
   sequence.frames.resize(6);
-  PipelineOptions options = ProfileOptions(Profile::kBest);
+  BestOptions options = DefaultBestOptions();
   options.segmentation.difference.min_depth = 2;  // nothing is left before that distance
   PipelineObserver silent;
   EXPECT_TRUE(Reconstruct(sequence, options, silent).skeleton.empty());

@@ -24,49 +24,6 @@ SkeletonGraph HShape(double link) {
   return graph;
 }
 
-TEST(MergeNearbyJunctions, APairBecomesOneOfValenceFour) {
-  SkeletonGraph graph = HShape(0.008);
-  MergeNearbyJunctions(graph, 0.01);
-  EXPECT_EQ(graph.edge_count(), 4);
-  ASSERT_EQ(CountDegree(graph, 4), 1);
-  EXPECT_NEAR(graph.position(0).x(), 0.004, 1e-15);  // equal degrees: the middle
-  EXPECT_TRUE(Violations(graph, 0.001).empty());
-}
-
-TEST(MergeNearbyJunctions, FartherOnesStay) {
-  SkeletonGraph graph = HShape(0.012);
-  MergeNearbyJunctions(graph, 0.01);
-  EXPECT_EQ(CountDegree(graph, 3), 2);
-}
-
-TEST(MergeNearbyJunctions, ARowDoesNotCollapse) {
-  SkeletonGraph graph = Lattice(3, 20, 0.008);
-  MergeNearbyJunctions(graph, 0.01);
-  // Means of merged pairs are two spacings apart, more than the distance.
-  EXPECT_GE(graph.node_count(), 60 / 4);
-}
-
-TEST(MergeOverlappingEdges, OnlyTheCommonStretchIsMerged) {
-  SkeletonGraph graph;
-  graph.AddPolyline(StraightLine({0, 0, 0}, {0.2, 0, 0}));
-  Polyline bridge = StraightLine({0, 0.05, 0}, {0.05, 0.004, 0});
-  for (const Vec3& p : StraightLine({0.051, 0.004, 0}, {0.149, 0.004, 0})) bridge.push_back(p);
-  for (const Vec3& p : StraightLine({0.15, 0.004, 0}, {0.2, 0.05, 0})) bridge.push_back(p);
-  graph.AddPolyline(bridge);
-  MergeOverlappingEdges(graph, 0.006);
-  EXPECT_EQ(graph.CycleRank(), 0);
-  EXPECT_EQ(CountDegree(graph, 3), 2);
-  EXPECT_EQ(graph.edge_count(), 5);
-}
-
-TEST(MergeOverlappingEdges, CrossingsStay) {
-  SkeletonGraph graph;
-  graph.AddPolyline(StraightLine({-0.05, 0, 0}, {0.05, 0, 0}));
-  graph.AddPolyline(StraightLine({0, -0.05, 0.002}, {0, 0.05, 0.002}));
-  MergeOverlappingEdges(graph, 0.006);
-  EXPECT_EQ(graph.edge_count(), 2);
-}
-
 TEST(RemoveShortEdges, SpursGoLinksShrinkCurvesStayWhole) {
   SkeletonGraph graph = HShape(0.0015);
   const NodeId junction = graph.SplitEdge(graph.Edges()[1], 20);

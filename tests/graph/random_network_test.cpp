@@ -14,7 +14,6 @@
 
 #include "graph/canonical_form.h"
 #include "graph/contacts.h"
-#include "graph/cycles.h"
 #include "graph/edge_curve.h"
 #include "graph/free_ends.h"
 #include "graph/graph_io.h"
@@ -125,15 +124,9 @@ struct NamedOperation {
 
 const std::vector<NamedOperation>& Operations() {
   static const std::vector<NamedOperation> operations = {
-      {"MergeNearbyJunctions",
-       [](SkeletonGraph& graph, double t) { MergeNearbyJunctions(graph, 3 * t); }},
       {"MergeParallelEdges", [](SkeletonGraph& graph, double t) { MergeParallelEdges(graph, t); }},
-      {"MergeOverlappingEdges",
-       [](SkeletonGraph& graph, double t) { MergeOverlappingEdges(graph, t); }},
       {"RemoveShortEdges", [](SkeletonGraph& graph, double t) { RemoveShortEdges(graph, 2 * t); }},
       {"PruneSpurs", [](SkeletonGraph& graph, double t) { PruneSpurs(graph, 3 * t); }},
-      {"RemoveSmallCycles",
-       [](SkeletonGraph& graph, double t) { RemoveSmallCycles(graph, 10 * t); }},
       {"DissolveDegree2Nodes", [](SkeletonGraph& graph, double) { graph.DissolveDegree2Nodes(); }},
       {"ResampleGraph",
        [](SkeletonGraph& graph, double t) { ResampleGraph(graph, t > 0 ? t / 2 : 0.01); }},

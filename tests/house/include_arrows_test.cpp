@@ -58,6 +58,26 @@ TEST(IncludeArrows, EveryIncludeRunsDownwards) {
   }
 }
 
+// The two profiles are built from the same kit: neither sees the other, nor does the kit see them.
+TEST(IncludeArrows, ProfilesOfFusionKnowTheKitOnly) {
+  const std::regex include_pattern(R"re(^\s*#\s*include\s*"fusion/(paper|best)/[^"]*")re");
+  const fs::path fusion = fs::path(CURVEFUSION_SOURCE_DIR) / "fusion";
+  int found = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(fusion)) {
+    const fs::path& path = entry.path();
+    if (!entry.is_regular_file() || !IsSource(path) || path.stem() == "pipeline") continue;
+    const std::string room = path.parent_path().filename().string();
+    std::ifstream stream(path);
+    for (std::string line; std::getline(stream, line);) {
+      std::smatch match;
+      if (!std::regex_search(line, match, include_pattern)) continue;
+      EXPECT_EQ(match[1].str(), room) << path << ": " << line;
+      ++found;
+    }
+  }
+  EXPECT_GT(found, 10);  // includes are read at all
+}
+
 TEST(IncludeArrows, AnIncludeAgainstTheArrowsIsFound) {
   const fs::path root = curvefusion::TemporaryPath("include_arrows");
   fs::create_directories(root / "graph");

@@ -34,8 +34,8 @@ class OptionCollector : public OptionVisitor {
   std::string section_;
 };
 
-std::map<std::string, DocumentedOption> OptionsOf(Profile profile) {
-  Config config = ProfileConfig(profile);
+std::map<std::string, DocumentedOption> BestOptionsByName() {
+  Config config = ProfileConfig(Profile::kBest);
   OptionCollector collector;
   VisitOptions(config, collector);
   return collector.options;
@@ -66,20 +66,12 @@ bool IsAccountedFor(const std::string& option) {
 
 TEST(Ablations, NoDeviationIsForgotten) {
   int deviations = 0;
-  for (const auto& [option, documented] : OptionsOf(Profile::kBest)) {
+  for (const auto& [option, documented] : BestOptionsByName()) {
     if (documented.description.find("Deviation:") == std::string::npos) continue;
     ++deviations;
     EXPECT_TRUE(IsAccountedFor(option)) << option << ": " << documented.description;
   }
   EXPECT_GT(deviations, 50);  // the documentation is read at all
-}
-
-TEST(Ablations, NorAnyOtherDifferenceOfTheProfiles) {
-  const auto paper = OptionsOf(Profile::kPaper);
-  for (const auto& [option, documented] : OptionsOf(Profile::kBest)) {
-    if (documented.value == paper.at(option).value) continue;
-    EXPECT_TRUE(IsAccountedFor(option)) << option;
-  }
 }
 
 TEST(Ablations, EachSetsSomethingElseThanTheProfileHas) {
@@ -88,7 +80,7 @@ TEST(Ablations, EachSetsSomethingElseThanTheProfileHas) {
     EXPECT_NO_THROW(config = ReadConfig({Profile::kBest, {}, ablation.off})) << ablation.name;
     OptionCollector collector;
     VisitOptions(config, collector);
-    const auto full = OptionsOf(Profile::kBest);
+    const auto full = BestOptionsByName();
     for (const std::string& assignment : ablation.off) {
       const std::string option = KeyOf(assignment);
       EXPECT_NE(collector.options.at(option).value, full.at(option).value) << assignment;
@@ -97,25 +89,8 @@ TEST(Ablations, EachSetsSomethingElseThanTheProfileHas) {
   }
 }
 
-// The options of a switch are the paper's where the profiles differ in it.
-TEST(Ablations, OffIsWhatThePaperHas) {
-  const auto paper = OptionsOf(Profile::kPaper);
-  const auto best = OptionsOf(Profile::kBest);
-  for (const Ablation& ablation : Ablations()) {
-    OptionCollector collector;
-    Config config = ReadConfig({Profile::kBest, {}, ablation.off});
-    VisitOptions(config, collector);
-    for (const std::string& assignment : ablation.off) {
-      const std::string option = KeyOf(assignment);
-      if (paper.at(option).value == best.at(option).value) continue;
-      EXPECT_EQ(collector.options.at(option).value, paper.at(option).value) << assignment;
-    }
-  }
-}
-
 TEST(Ablations, PartsAndFixedOnesExist) {
-  const auto best = OptionsOf(Profile::kBest);
-  const auto paper = OptionsOf(Profile::kPaper);
+  const auto best = BestOptionsByName();
   for (const Ablation& ablation : Ablations()) {
     for (const std::string& part : ablation.parts) {
       const bool exists = std::any_of(best.begin(), best.end(), [&](const auto& option) {
@@ -126,16 +101,14 @@ TEST(Ablations, PartsAndFixedOnesExist) {
   }
   for (const FixedDeviation& fixed : FixedDeviations()) {
     ASSERT_EQ(best.count(fixed.option), 1u) << fixed.option;
-    EXPECT_EQ(best.at(fixed.option).value, paper.at(fixed.option).value) << fixed.option;
   }
 }
 
-TEST(Ablations, NamesAreUniqueAndOneHoldsTheCarriedPoints) {
+TEST(Ablations, NamesAreUnique) {
   std::set<std::string> names;
   for (const Ablation& ablation : Ablations()) {
     EXPECT_TRUE(names.insert(ablation.name).second) << ablation.name;
   }
-  EXPECT_EQ(names.count(kCarriedPoints), 1u);
 }
 
 }  // namespace

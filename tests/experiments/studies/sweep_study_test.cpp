@@ -37,10 +37,12 @@ TEST(SweepStudy, TriesAllCombinationsAndTheDefault) {
                           "bundle.min_frames=2 radius.per_edge=false"));
   EXPECT_THAT(SettingsOf(RequestFor({})), ElementsAre("default"));
   const auto cases = SweepStudy().cases(RequestFor({"bundle.min_frames=1,2"}));
-  EXPECT_EQ(cases[0].config.pipeline.segmentation.bundle.min_frames,
-            ProfileConfig(Profile::kBest).pipeline.segmentation.bundle.min_frames);
-  EXPECT_EQ(cases[1].config.pipeline.segmentation.bundle.min_frames, 1);
-  EXPECT_EQ(cases[2].config.pipeline.segmentation.bundle.min_frames, 2);
+  const auto min_frames = [&](size_t i) {
+    return std::get<BestOptions>(cases[i].config.pipeline).segmentation.bundle.min_frames;
+  };
+  EXPECT_EQ(min_frames(0), DefaultBestOptions().segmentation.bundle.min_frames);
+  EXPECT_EQ(min_frames(1), 1);
+  EXPECT_EQ(min_frames(2), 2);
 }
 
 TEST(SweepStudy, RefusesWhatCannotBe) {

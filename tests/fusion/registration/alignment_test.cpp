@@ -26,6 +26,24 @@ double Difference(const RigidTransform& a, const RigidTransform& b, const Skelet
   return worst;
 }
 
+constexpr double kStep = 2 * kMillimetre;
+
+CurveSamples SampleCurves(const SkeletonGraph& graph, double step) {
+  CurveSamples samples;
+  for (const EdgeId id : graph.Edges()) {
+    const Polyline points = Resample(graph.edge(id).points, step);
+    const std::vector<Vec3> tangents = Tangents(points);
+    samples.points.insert(samples.points.end(), points.begin(), points.end());
+    samples.tangents.insert(samples.tangents.end(), tangents.begin(), tangents.end());
+  }
+  return samples;
+}
+
+AlignmentResult AlignToCurves(const std::vector<Vec3>& points, const SkeletonGraph& target,
+                              const AlignmentOptions& options) {
+  return AlignPoints(points, AlignmentTarget(SampleCurves(target, kStep)), options);
+}
+
 std::vector<Vec3> NoisySamples(const SkeletonGraph& graph, double step, double sigma) {
   std::mt19937 random(7);
   std::normal_distribution<double> noise(0, sigma);
@@ -34,7 +52,7 @@ std::vector<Vec3> NoisySamples(const SkeletonGraph& graph, double step, double s
   return points;
 }
 
-TEST(AlignSkeletons, FindsTheMotionOfALattice) {
+TEST(AlignPoints, FindTheMotionOfALattice) {
   const SkeletonGraph target = Lattice(4, 5, 0.05);
   const RigidTransform truth = Motion(0.04, {1, 2, 3}, {0.006, -0.004, 0.008});
   const SkeletonGraph source = Transformed(target, truth.inverse());
@@ -42,25 +60,27 @@ TEST(AlignSkeletons, FindsTheMotionOfALattice) {
     AlignmentOptions options;
     options.point_to_line = point_to_line;
     options.max_iterations = 200;  // pairs of points slide slowly along lines
-    const AlignmentResult result = AlignSkeletons(source, target, options);
+    const AlignmentResult result =
+        AlignToCurves(SampleCurves(source, kStep).points, target, options);
     EXPECT_TRUE(result.converged);
     EXPECT_GT(result.inlier_fraction, 0.95);
-    // Noise-free; pairs of points stop where both samplings fit, up to the step of the samples.
-    EXPECT_LT(Difference(result.T_target_source, truth, source), point_to_line ? 2e-5 : 1e-3);
+    // Noise-free; pairs of points stop where both samplings fit, up to the step of the samples, and
+    // pairs across the corners of the lattice pull a little.
+    EXPECT_LT(Difference(result.T_target_source, truth, source), point_to_line ? 2e-4 : 1e-3);
   }
 }
 
-TEST(AlignSkeletons, APartFindsItsPlaceOnTheWhole) {
+TEST(AlignPoints, OfAPartFindTheirPlaceOnTheWhole) {
   const SkeletonGraph target = Lattice(4, 8, 0.05);
   const RigidTransform truth = Motion(0.02, {0, 1, 1}, {0.005, 0.003, -0.006});
   const SkeletonGraph source = Perturbed(Transformed(Lattice(4, 3, 0.05), truth.inverse()),
                                          RigidTransform::Identity(), 0.0005, 3);
-  const AlignmentResult result = AlignSkeletons(source, target, {});
+  const AlignmentResult result = AlignToCurves(SampleCurves(source, kStep).points, target, {});
   EXPECT_TRUE(result.converged);
   EXPECT_LT(Difference(result.T_target_source, truth, source), 3e-4);
 }
 
-TEST(AlignPointsToCurves, NoisyPointsWithOutliersFindTheCurves) {
+TEST(AlignPoints, NoisyOnesWithOutliersFindTheCurves) {
   const SkeletonGraph target = Lattice(3, 3, 0.08);
   const RigidTransform truth = Motion(0.03, {3, 1, 0}, {0.004, 0.007, 0.002});
   std::vector<Vec3> points = NoisySamples(Transformed(target, truth.inverse()), 0.001, 0.0015);
@@ -68,7 +88,7 @@ TEST(AlignPointsToCurves, NoisyPointsWithOutliersFindTheCurves) {
   std::uniform_real_distribution<double> anywhere(-0.05, 0.25);
   for (int i = 0; i < 300; ++i)
     points.emplace_back(anywhere(random), anywhere(random), anywhere(random));
-  const AlignmentResult result = AlignPointsToCurves(points, target, {});
+  const AlignmentResult result = AlignToCurves(points, target, {});
   EXPECT_TRUE(result.converged);
   // About 2000 points of 1.5 mm noise: 0.04 mm per parameter; five sigma and some leverage.
   EXPECT_LT(Difference(result.T_target_source, truth, target), 5e-4);
@@ -79,7 +99,7 @@ TEST(AlignPoints, WhatIsNotDeterminedStays) {
   SkeletonGraph line;
   line.AddPolyline({{0, 0, 0}, {0.3, 0, 0}});
   const SkeletonGraph shifted = Transformed(line, Motion(0, Vec3::UnitX(), Vec3(0.02, 0.005, 0)));
-  const AlignmentResult result = AlignSkeletons(shifted, line, {});
+  const AlignmentResult result = AlignToCurves(SampleCurves(shifted, kStep).points, line, {});
   EXPECT_TRUE(result.converged);
   const Vec3 moved = result.T_target_source * Vec3(0.1, 0.005, 0);
   EXPECT_NEAR(moved.y(), 0, 1e-6);
@@ -92,7 +112,7 @@ TEST(AlignPoints, NothingToAlignIsNoConvergence) {
   EXPECT_FALSE(AlignPoints(points, AlignmentTarget({{}, {}}), {}).converged);
   EXPECT_FALSE(
       AlignPoints(points, AlignmentTarget({points, {}}), {}).converged);  // two pairs: too few
-  const AlignmentResult far = AlignPointsToCurves(points, Lattice(3, 3, 0.05, 1), {});
+  const AlignmentResult far = AlignToCurves(points, Lattice(3, 3, 0.05, 1), {});
   EXPECT_TRUE(far.T_target_source.isApprox(RigidTransform::Identity()));
 }
 
@@ -101,7 +121,7 @@ TEST(AlignPoints, TheNumberOfThreadsDoesNotMatter) {
   const std::vector<Vec3> points = NoisySamples(target, 0.001, 0.002);
   const auto align = [&](int threads) {
     const ThreadLimit limit(threads);
-    return AlignPointsToCurves(points, target, {}).T_target_source.matrix().eval();
+    return AlignToCurves(points, target, {}).T_target_source.matrix().eval();
   };
   EXPECT_EQ(align(1), align(2));
 }

@@ -154,21 +154,6 @@ TEST_F(RadiusTest, WiresOfANarrowGridAreMeasuredBetweenTheirCrossings) {
   }
 }
 
-TEST_F(RadiusTest, ThePaperCountsPixels) {
-  RadiusOptions options;
-  options.strip_model = false;
-  options.per_edge = false;
-  SkeletonGraph skeleton = Skeleton(Vec3::Zero());
-  const RadiusEstimate estimate = EstimateRadius(skeleton, MakeSequence(), AllFrames(), options);
-  // A pixel is 1.25 mm here; the most prominent value is that of either wire.
-  const double diameter = 2 * estimate.global_radius;
-  EXPECT_LT(std::min(std::abs(diameter - 0.005), std::abs(diameter - 0.008)), 0.00125);
-  AssignRadii(estimate, options, skeleton);
-  for (const EdgeId edge : skeleton.Edges()) {
-    for (const double radius : skeleton.edge(edge).radii) EXPECT_EQ(radius, estimate.global_radius);
-  }
-}
-
 TEST_F(RadiusTest, FramesAreThinned) {
   RadiusOptions options;
   options.max_frames = 2;

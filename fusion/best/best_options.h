@@ -1,0 +1,41 @@
+#pragma once
+
+#include "fusion/adjustment/colour_adjustment.h"
+#include "fusion/registration/alignment.h"
+#include "fusion/registration/carried_points.h"
+#include "fusion/registration/frame_registration.h"
+#include "fusion/segmentation/segmentation.h"
+#include "fusion/silhouettes/silhouette_topology.h"
+#include "fusion/silhouettes/view_evidence.h"
+#include "fusion/silhouettes/wire_completion.h"
+#include "fusion/strips/radius.h"
+#include "fusion/volume/tsdf_volume.h"
+#include "graph/ridge_skeleton.h"
+#include "kernel/options.h"
+
+namespace curvefusion {
+
+/// The options of every stage of the best profile.
+struct BestOptions {
+  TsdfOptions volume;
+  int volume_stride = 1;
+  SegmentationOptions segmentation;
+  CarriedPointsOptions carried;
+  AlignmentOptions registration;
+  FrameRegistrationOptions frames;
+  double axis_depth = 0;
+  double min_linearity = 0.3;
+  double resolved_spacing = 0;
+  RidgeOptions ridge;
+  RadiusOptions radius;
+  WireCompletionOptions completion;
+  ColourAdjustmentOptions colour_adjustment;
+  SilhouetteOptions silhouettes;
+  ViewEvidenceOptions evidence;
+};
+void VisitOptions(BestOptions& options, OptionVisitor& visitor);
+
+/// What the profile starts from.
+BestOptions DefaultBestOptions();
+
+}  // namespace curvefusion

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "capture/sequence.h"
+#include "fusion/funnel.h"
+#include "fusion/planned_stage.h"
+#include "fusion/silhouettes/view_evidence.h"
+#include "fusion/stage_log.h"
+#include "fusion/strips/radius.h"
+#include "fusion/trust.h"
+#include "fusion/volume/tsdf_volume.h"
+#include "graph/skeleton_graph.h"
+#include "kernel/observed_points.h"
+
+namespace curvefusion {
+
+/// Hears of a run while it goes on; every function does nothing by default. All are called from the
+/// thread that called Reconstruct. An exception ends the run.
+class PipelineObserver {
+ public:
+  virtual ~PipelineObserver() = default;
+  /// All stages of the run in their order, before the first, and again whenever their costs are
+  /// better known.
+  virtual void OnPlan(const std::vector<PlannedStage>& /*stages*/) {}
+  /// A stage is `done` of `total` steps far; it begins with done = 0.
+  virtual void OnProgress(const std::string& /*stage*/, int64_t /*done*/, int64_t /*total*/) {}
+  /// Intermediate point sets ("bundle_003_difference_set") in the world frame.
+  virtual void OnPoints(const std::string& /*name*/, const ObservedPoints& /*points*/) {}
+  /// Intermediate graphs ("bundle_003_skeleton", "bundle_003_fused") in the world frame.
+  virtual void OnGraph(const std::string& /*name*/, const SkeletonGraph& /*graph*/) {}
+  /// The volume once all frames are integrated.
+  virtual void OnVolume(const TsdfVolume& /*volume*/) {}
+};
+
+/// The outcome of a run. An empty skeleton means: nothing thin was found, an expected outcome.
+struct Reconstruction {
+  /// Radii at every vertex where any could be measured. Observations: in the paper profile bundles,
+  /// otherwise images of `views` that saw the point.
+  SkeletonGraph skeleton;
+  ObservedPoints points;  ///< the points the skeleton was made from
+  RadiusEstimate radii;   ///< may hold edges that the skeleton no longer has
+  ViewEvidence views;     ///< of the skeleton
+  /// The sequence with its poses corrected by the registration of frames and the adjustment to
+  /// colours, which corrects the colour camera's principal point too (as given otherwise).
+  Sequence sequence;
+  std::vector<StageReport> stages;
+  Funnel funnel;                      ///< what each rule took
+  Trust trust;                        ///< how far the result may be trusted
+  std::vector<std::string> warnings;  ///< what the user should know, a sentence each
+};
+
+}  // namespace curvefusion

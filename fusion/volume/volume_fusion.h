@@ -1,0 +1,16 @@
+#pragma once
+
+#include <functional>
+
+#include "capture/sequence.h"
+#include "fusion/volume/tsdf_volume.h"
+
+namespace curvefusion {
+
+/// VolumeFusion of every `stride`-th frame of a sequence, CurveFusion 3.1: the model of the large
+/// surfaces. `on_frame` is called after each one. Throws Error(kBadInput) for an image that cannot
+/// be read.
+TsdfVolume FuseVolume(const Sequence& sequence, const TsdfOptions& options, int stride,
+                      const std::function<void()>& on_frame);
+
+}  // namespace curvefusion
