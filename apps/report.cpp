@@ -178,6 +178,11 @@ std::vector<std::string> AllWarnings(const RunRecord& record) {
   return warnings;
 }
 
+// The paper does not judge its results.
+bool IsJudged(const Trust& trust) { return trust.length > 0; }
+
+std::string TrustText(const Trust& trust) { return IsJudged(trust) ? TrustLines(trust) : ""; }
+
 constexpr const char* kNothingThinHints =
     "  Thin parts show where they are 2 to 12 mm thick, 0.5 to 0.9 m away, some centimetres in\n"
     "  front of other things, and not black to the infrared camera. `curvefusion check` tells\n"
@@ -192,22 +197,23 @@ std::string NothingThinText(const Funnel& funnel) {
 std::string ReportJson(const RunRecord& record) {
   const Reconstruction& reconstruction = record.reconstruction;
   const int frames = record.sequence.frame_count();
-  const Json report = {{"format", "curvefusion-report"},
-                       {"version", 1},
-                       {"profile", ProfileName(record.config.profile)},
-                       {"sequence", SequenceJson(record.sequence)},
-                       {"cameras", CamerasJson(record)},
-                       {"seconds", record.seconds},
-                       {"seconds_per_30_frames",
-                        frames > 0 ? Json(record.seconds * kBundle / frames) : Json(nullptr)},
-                       {"peak_memory_bytes", record.peak_memory},
-                       {"stages", StagesJson(reconstruction.stages)},
-                       {"points", reconstruction.points.size()},
-                       {"funnel", FunnelJson(reconstruction.funnel)},
-                       {"trust", TrustJson(reconstruction.trust)},
-                       {"skeleton", SkeletonJson(reconstruction)},
-                       {"mesh", record.mesh ? MeshJson(*record.mesh) : Json(nullptr)},
-                       {"warnings", AllWarnings(record)}};
+  const Json report = {
+      {"format", "curvefusion-report"},
+      {"version", 1},
+      {"profile", ProfileName(record.config.profile)},
+      {"sequence", SequenceJson(record.sequence)},
+      {"cameras", CamerasJson(record)},
+      {"seconds", record.seconds},
+      {"seconds_per_30_frames",
+       frames > 0 ? Json(record.seconds * kBundle / frames) : Json(nullptr)},
+      {"peak_memory_bytes", record.peak_memory},
+      {"stages", StagesJson(reconstruction.stages)},
+      {"points", reconstruction.points.size()},
+      {"funnel", FunnelJson(reconstruction.funnel)},
+      {"trust", IsJudged(reconstruction.trust) ? TrustJson(reconstruction.trust) : Json(nullptr)},
+      {"skeleton", SkeletonJson(reconstruction)},
+      {"mesh", record.mesh ? MeshJson(*record.mesh) : Json(nullptr)},
+      {"warnings", AllWarnings(record)}};
   // Names of files need not be UTF-8.
   return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -224,7 +230,7 @@ std::string Summary(const RunRecord& record, const std::filesystem::path& folder
   std::string text = skeleton.empty()
                          ? NothingThinText(record.reconstruction.funnel)
                          : fmt::format("Found {}\n{}", FiguresLine(MeasureGraph(skeleton)),
-                                       TrustLines(record.reconstruction.trust));
+                                       TrustText(record.reconstruction.trust));
   const auto add_file = [&](const char* what, const std::filesystem::path& file) {
     text += fmt::format("  {:<9} {}\n", what, file.string());
   };

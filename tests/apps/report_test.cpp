@@ -50,6 +50,7 @@ TEST(Report, TellsWhatARunWasAndFound) {
   YRun run;
   const auto report = nlohmann::json::parse(ReportJson(run.Record()));
   EXPECT_EQ(report["profile"], "paper");
+  EXPECT_TRUE(report["trust"].is_null());
   EXPECT_EQ(report["sequence"]["folder"], "scans/y");
   EXPECT_EQ(report["sequence"]["frames"], 60);
   EXPECT_EQ(report["sequence"]["frames_without_pose"], 2);
