@@ -194,8 +194,19 @@ std::vector<Ablation> Ablations() {
 }
 
 std::vector<FixedDeviation> FixedDeviations() {
-  return {
-      {"radius.drop_unmeasured", "acts where no diameter can be measured, which no object shows"}};
+  std::vector<FixedDeviation> fixed = {
+      {"radius.drop_unmeasured", "acts where no diameter can be measured, which no object shows"},
+      {"radius.search_px", "of the widths that are solved, which have no switch"}};
+  for (const char* option :
+       {"curve_network.max_link", "curve_network.min_loop", "registration.carried_voxel_size",
+        "ridge_projection.equalization_radius", "ridge_projection.iterations",
+        "ridge_projection.kernel_sigma", "ridge_projection.least_relative_count",
+        "ridge_projection.spacing", "ridge_skeleton.step"}) {
+    fixed.push_back({option,
+                     "of the ridges of the density of all points, which the profile has "
+                     "instead of fused L1 skeletons: it does not work without"});
+  }
+  return fixed;
 }
 
 }  // namespace curvefusion
