@@ -45,6 +45,15 @@ Polyline Smoothed(const Polyline& points, double weight, bool closed) {
   return smoothed;
 }
 
+ObservedPoints FinitePoints(const ObservedPoints& points) {
+  ObservedPoints finite;
+  finite.Reserve(points.size());
+  for (size_t i = 0; i < points.size(); ++i) {
+    if (points.positions[i].allFinite()) finite.Add(points, i);
+  }
+  return finite;
+}
+
 // Smooths details shorter than about `length` away; nodes stay, but for those of closed curves.
 void SmoothEdges(SkeletonGraph& graph, double length, double step) {
   const double weight = std::pow(length / step, 4);
@@ -88,8 +97,9 @@ SkeletonGraph ExtractRidgeSkeleton(const ObservedPoints& points, const RidgeOpti
   return ExtractRidgeSkeleton(points, ProjectToRidges(points, options.projection), options);
 }
 
-SkeletonGraph ExtractRidgeSkeleton(const ObservedPoints& points, const RidgePoints& ridge,
+SkeletonGraph ExtractRidgeSkeleton(const ObservedPoints& observed, const RidgePoints& ridge,
                                    const RidgeOptions& options) {
+  const ObservedPoints points = FinitePoints(observed);
   SkeletonGraph graph = ConnectRidgePoints(ridge, options.network);
   DropNoiseEdges(graph, points, options.edges);
   DropSmallComponents(graph, options.fragment_length);

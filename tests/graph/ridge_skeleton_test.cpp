@@ -126,6 +126,13 @@ TEST(ExtractRidgeSkeleton, DegenerateInputGivesNothing) {
   EXPECT_TRUE(ExtractRidgeSkeleton(not_finite, {}).empty());
 }
 
+TEST(ExtractRidgeSkeleton, PointsThatAreNotFiniteDoNotCount) {
+  const ObservedPoints points = NoisyWires(Spokes({{1, 0, 0}, {-0.5, 0.8, 0.3}}, 0.08));
+  ObservedPoints more = points;
+  more.Add({0, std::numeric_limits<double>::quiet_NaN(), 0}, {0, 0, 1}, 1);
+  EXPECT_TRUE(SameBits(ExtractRidgeSkeleton(more, {}), ExtractRidgeSkeleton(points, {})));
+}
+
 TEST(ExtractRidgeSkeleton, SameBitsForAnyNumberOfThreads) {
   const ObservedPoints points =
       NoisyWires(Spokes({{1, 0, 0}, {-0.5, 0.8, 0.3}, {-0.4, -0.8, 0.4}}, 0.08));
