@@ -4,13 +4,12 @@
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
-#include <map>
 #include <set>
 
 #include "experiments/metrics/truth.h"
 #include "experiments/simulation/scan_settings.h"
 #include "kernel/error.h"
+#include "tests/experiments/file_contents.h"
 #include "tests/temporary_path.h"
 
 namespace curvefusion {
@@ -66,17 +65,6 @@ TEST(DrawScan, UnknownFamilyIsRefusedWithTheNearest) {
   }
 }
 
-std::map<std::string, std::string> Contents(const fs::path& folder) {
-  std::map<std::string, std::string> contents;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (!entry.is_regular_file()) continue;
-    std::ifstream stream(entry.path(), std::ios::binary);
-    contents[fs::relative(entry.path(), folder).string()] =
-        std::string(std::istreambuf_iterator<char>(stream), {});
-  }
-  return contents;
-}
-
 TEST(ScanSettings, SimulateTheSameScanAgain) {
   const fs::path folder = TemporaryPath("scan_settings");
   fs::create_directories(folder);
@@ -86,7 +74,7 @@ TEST(ScanSettings, SimulateTheSameScanAgain) {
   SimulateScan(scan, folder / "first", NoProgress);
   SimulateScan(ReadScanSettings(folder / "first" / "truth" / "settings.json"), folder / "second",
                NoProgress);
-  EXPECT_TRUE(Contents(folder / "first") == Contents(folder / "second"));
+  EXPECT_TRUE(FileContents(folder / "first") == FileContents(folder / "second"));
   fs::remove_all(folder);
 }
 

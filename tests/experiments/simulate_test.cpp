@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <iterator>
 #include <limits>
 #include <map>
 
@@ -11,6 +10,7 @@
 #include "graph/graph_io.h"
 #include "kernel/error.h"
 #include "kernel/parallel.h"
+#include "tests/experiments/file_contents.h"
 
 namespace curvefusion {
 namespace {
@@ -29,23 +29,12 @@ class TemporaryFolder {
   fs::path path_;
 };
 
-std::map<std::string, std::string> Contents(const fs::path& folder) {
-  std::map<std::string, std::string> contents;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (!entry.is_regular_file()) continue;
-    std::ifstream stream(entry.path(), std::ios::binary);
-    contents[fs::relative(entry.path(), folder).string()] =
-        std::string(std::istreambuf_iterator<char>(stream), {});
-  }
-  return contents;
-}
-
 std::map<std::string, std::string> Simulated(const SimulationOptions& options, int threads,
                                              const std::string& name) {
   const TemporaryFolder folder("curvefusion_simulate_test_" + name);
   const ThreadLimit limit(threads);
   SimulateScan(options, folder.path(), NoProgress);
-  return Contents(folder.path());
+  return FileContents(folder.path());
 }
 
 // From a point to the nearest wire's surface.
@@ -160,7 +149,7 @@ TEST(SimulateScan, AnEarlierScanIsLeftAlone) {
   options.sensor = "ideal";
   options.frames = 1;
   EXPECT_THROW(SimulateScan(options, folder.path(), NoProgress), Error);
-  EXPECT_EQ(Contents(folder.path()).size(), 1u);
+  EXPECT_EQ(FileContents(folder.path()).size(), 1u);
 }
 
 TEST(SimulateScan, RefusesWhatCannotBe) {
