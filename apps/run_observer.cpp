@@ -4,10 +4,10 @@
 #include <utility>
 
 #include "apps/output_folder.h"
-#include "graph/graph_io.h"
+#include "graph/io/graph_io.h"
 #include "kernel/cancellation.h"
 #include "kernel/cloud_io.h"
-#include "meshing/mesh_io.h"
+#include "meshing/io/mesh_io.h"
 
 namespace curvefusion {
 

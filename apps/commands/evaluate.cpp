@@ -15,10 +15,10 @@
 #include "apps/result_folder.h"
 #include "experiments/metrics/evaluation_files.h"
 #include "experiments/metrics/truth.h"
-#include "graph/graph_io.h"
+#include "graph/io/graph_io.h"
 #include "kernel/cancellation.h"
 #include "kernel/error.h"
-#include "meshing/mesh_io.h"
+#include "meshing/io/mesh_io.h"
 
 namespace curvefusion {
 

@@ -12,10 +12,10 @@
 #include "apps/output_guard.h"
 #include "apps/set_radius.h"
 #include "apps/tube_warnings.h"
-#include "graph/graph_io.h"
+#include "graph/io/graph_io.h"
 #include "kernel/cancellation.h"
 #include "kernel/error.h"
-#include "meshing/mesh_io.h"
+#include "meshing/io/mesh_io.h"
 #include "meshing/tube_normals.h"
 #include "meshing/tubes.h"
 

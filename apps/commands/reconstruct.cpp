@@ -20,13 +20,13 @@
 #include "capture/content/geometry_check.h"
 #include "capture/trajectory.h"
 #include "experiments/pictures/png.h"
-#include "graph/graph_io.h"
+#include "graph/io/graph_io.h"
 #include "kernel/atomic_file.h"
 #include "kernel/cancellation.h"
 #include "kernel/error.h"
 #include "kernel/free_space.h"
 #include "kernel/peak_memory.h"
-#include "meshing/mesh_io.h"
+#include "meshing/io/mesh_io.h"
 
 namespace curvefusion {
 

@@ -16,7 +16,7 @@
 #include "experiments/simulation/families/scan_draw.h"
 #include "experiments/simulation/object_truth.h"
 #include "experiments/simulation/scan_settings.h"
-#include "graph/graph_io.h"
+#include "graph/io/graph_io.h"
 #include "kernel/error.h"
 #include "kernel/run_lock.h"
 

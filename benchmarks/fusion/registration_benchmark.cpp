@@ -3,7 +3,7 @@
 
 #include <chrono>
 
-#include "graph/ridge_projection.h"
+#include "graph/contraction/ridge_projection.h"
 #include "kernel/parallel.h"
 #include "tests/graph/noisy_wires.h"
 

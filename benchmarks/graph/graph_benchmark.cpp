@@ -5,7 +5,7 @@
 #include <random>
 
 #include "graph/boost_graph.h"
-#include "graph/curve_network.h"
+#include "graph/connected_parts.h"
 #include "graph/graph_smoother.h"
 #include "graph/intersections.h"
 #include "graph/parallel_edges.h"

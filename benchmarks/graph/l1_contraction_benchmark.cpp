@@ -3,7 +3,7 @@
 #include <cmath>
 #include <random>
 
-#include "graph/l1_contraction.h"
+#include "graph/contraction/l1_contraction.h"
 #include "kernel/parallel.h"
 #include "kernel/voxel_grid.h"
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <random>
 
-#include "graph/ridge_skeleton.h"
+#include "graph/contraction/ridge_skeleton.h"
 #include "kernel/parallel.h"
 #include "kernel/voxel_grid.h"
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "experiments/metrics/curve_metrics.h"
-#include "graph/curve_network.h"
+#include "graph/connected_parts.h"
 #include "kernel/point_grid.h"
 
 namespace curvefusion {

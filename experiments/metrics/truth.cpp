@@ -5,7 +5,7 @@
 #include <string>
 
 #include "experiments/simulation/object_truth.h"
-#include "graph/graph_io.h"
+#include "graph/io/graph_io.h"
 #include "kernel/error.h"
 #include "kernel/json_input.h"
 #include "kernel/text_input.h"

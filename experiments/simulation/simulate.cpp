@@ -17,7 +17,7 @@
 #include "experiments/simulation/random.h"
 #include "experiments/simulation/scan_files.h"
 #include "experiments/simulation/scan_settings.h"
-#include "graph/graph_io.h"
+#include "graph/io/graph_io.h"
 #include "kernel/atomic_file.h"
 #include "kernel/error.h"
 #include "kernel/free_space.h"

@@ -11,7 +11,7 @@
 #include "experiments/studies/families_report.h"
 #include "experiments/studies/reconstruction_run.h"
 #include "experiments/studies/studies.h"
-#include "graph/graph_io.h"
+#include "graph/io/graph_io.h"
 #include "kernel/error.h"
 #include "kernel/options.h"
 

@@ -7,7 +7,7 @@
 #include "capture/sequence.h"
 #include "experiments/metrics/evaluation_files.h"
 #include "experiments/metrics/truth.h"
-#include "graph/graph_io.h"
+#include "graph/io/graph_io.h"
 #include "kernel/atomic_file.h"
 #include "kernel/peak_memory.h"
 

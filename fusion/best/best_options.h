@@ -10,7 +10,7 @@
 #include "fusion/silhouettes/wire_completion.h"
 #include "fusion/strips/radius.h"
 #include "fusion/volume/tsdf_volume.h"
-#include "graph/ridge_skeleton.h"
+#include "graph/contraction/ridge_skeleton.h"
 #include "kernel/options.h"
 
 namespace curvefusion {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "graph/l1_contraction.h"
+#include "graph/contraction/l1_contraction.h"
 #include "graph/skeleton_graph.h"
 #include "kernel/observed_points.h"
 

@@ -6,7 +6,7 @@
 #include "fusion/paper/surface_removal.h"
 #include "fusion/paper/wire_radius.h"
 #include "fusion/volume/tsdf_volume.h"
-#include "graph/l1_contraction.h"
+#include "graph/contraction/l1_contraction.h"
 #include "kernel/options.h"
 
 namespace curvefusion {

@@ -1,6 +1,6 @@
 #include "fusion/registration/axis_correction.h"
 
-#include "graph/ridge_projection.h"
+#include "graph/contraction/ridge_projection.h"
 #include "kernel/parallel.h"
 
 namespace curvefusion {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "fusion/registration/alignment.h"
-#include "graph/ridge_skeleton.h"
+#include "graph/contraction/ridge_skeleton.h"
 #include "kernel/observed_points.h"
 #include "kernel/options.h"
 

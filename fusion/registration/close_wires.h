@@ -1,7 +1,7 @@
 #pragma once
 
 #include "fusion/registration/alignment.h"
-#include "graph/ridge_projection.h"
+#include "graph/contraction/ridge_projection.h"
 
 namespace curvefusion {
 

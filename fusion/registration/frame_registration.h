@@ -4,7 +4,7 @@
 
 #include "fusion/registration/alignment.h"
 #include "fusion/registration/drift_smoothing.h"
-#include "graph/ridge_projection.h"
+#include "graph/contraction/ridge_projection.h"
 #include "kernel/observed_points.h"
 #include "kernel/options.h"
 

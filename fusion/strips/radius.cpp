@@ -11,7 +11,7 @@
 #include "fusion/strips/strip_widths.h"
 #include "fusion/strips/wire_chains.h"
 #include "fusion/strips/wire_gauges.h"
-#include "graph/curve_network.h"
+#include "graph/connected_parts.h"
 #include "kernel/polyline.h"
 #include "kernel/quantile.h"
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "apps/graph_figures.h"
-#include "graph/graph_io.h"
+#include "graph/io/graph_io.h"
 #include "tests/apps/command_line_fixture.h"
 
 namespace curvefusion {

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <string>
 
-#include "graph/graph_io.h"
+#include "graph/io/graph_io.h"
 #include "tests/apps/command_line_fixture.h"
 
 namespace curvefusion {

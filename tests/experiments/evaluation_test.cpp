@@ -10,7 +10,7 @@
 #include "experiments/metrics/evaluation_files.h"
 #include "experiments/metrics/truth.h"
 #include "experiments/simulation/object_truth.h"
-#include "graph/graph_io.h"
+#include "graph/io/graph_io.h"
 #include "kernel/error.h"
 #include "kernel/parallel.h"
 #include "meshing/surface_mesh.h"

@@ -7,7 +7,7 @@
 #include <map>
 
 #include "capture/sequence.h"
-#include "graph/graph_io.h"
+#include "graph/io/graph_io.h"
 #include "kernel/error.h"
 #include "kernel/parallel.h"
 #include "tests/experiments/file_contents.h"

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "graph/graph_io.h"
+#include "graph/io/graph_io.h"
 #include "kernel/parallel.h"
 #include "kernel/spatial_search.h"
 #include "tests/test_data.h"

@@ -1,7 +1,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "graph/graph_io.h"
+#include "graph/io/graph_io.h"
 #include "tests/fuzz/fuzz_target.h"
 
 using namespace curvefusion;

@@ -1,4 +1,4 @@
-#include "graph/graph_io.h"
+#include "graph/io/graph_io.h"
 #include "tests/fuzz/fuzz_target.h"
 
 using namespace curvefusion;

@@ -1,4 +1,4 @@
-#include "meshing/mesh_io.h"
+#include "meshing/io/mesh_io.h"
 #include "tests/fuzz/fuzz_target.h"
 
 using namespace curvefusion;

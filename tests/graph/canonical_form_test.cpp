@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "graph/graph_io.h"
+#include "graph/io/graph_io.h"
 #include "tests/graph/graph_fixtures.h"
 #include "tests/graph/random_networks.h"
 

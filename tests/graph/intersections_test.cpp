@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "graph/graph_io.h"
+#include "graph/io/graph_io.h"
 #include "graph/validate.h"
 #include "kernel/error.h"
 #include "tests/graph/graph_fixtures.h"

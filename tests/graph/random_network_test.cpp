@@ -14,10 +14,10 @@
 
 #include "graph/canonical_form.h"
 #include "graph/contacts.h"
+#include "graph/contraction/free_ends.h"
 #include "graph/edge_curve.h"
-#include "graph/free_ends.h"
-#include "graph/graph_io.h"
 #include "graph/intersections.h"
+#include "graph/io/graph_io.h"
 #include "graph/merge.h"
 #include "graph/parallel_edges.h"
 #include "graph/smoothing.h"

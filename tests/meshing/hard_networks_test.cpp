@@ -13,7 +13,7 @@
 #include <string>
 
 #include "kernel/error.h"
-#include "meshing/mesh_io.h"
+#include "meshing/io/mesh_io.h"
 #include "meshing/surface_mesh.h"
 #include "meshing/tube_volume.h"
 #include "meshing/tubes.h"

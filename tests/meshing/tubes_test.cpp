@@ -8,7 +8,7 @@
 
 #include "kernel/error.h"
 #include "kernel/parallel.h"
-#include "meshing/mesh_io.h"
+#include "meshing/io/mesh_io.h"
 #include "meshing/surface_mesh.h"
 #include "meshing/tube_volume.h"
 #include "tests/meshing/grazing_contacts.h"

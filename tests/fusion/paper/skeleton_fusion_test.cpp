@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "graph/graph_io.h"
+#include "graph/io/graph_io.h"
 #include "graph/validate.h"
 #include "kernel/parallel.h"
 #include "tests/graph/graph_fixtures.h"

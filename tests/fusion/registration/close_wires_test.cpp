@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-#include "graph/ridge_skeleton.h"
+#include "graph/contraction/ridge_skeleton.h"
 
 namespace curvefusion {
 namespace {

@@ -1,4 +1,4 @@
-#include "graph/graph_io.h"
+#include "graph/io/graph_io.h"
 #include "graph/skeleton_graph.h"
 
 int main() {
