@@ -17,8 +17,8 @@ namespace {
 using Information = Eigen::Matrix<double, 5, 5>;
 
 // Standard deviations of a broad prior around the given camera. Chosen: a colour camera taken for
-// the depth camera has another focal length by 6 to 10 % and lies 15 to 60 mm beside it (Kinect V1,
-// PrimeSense, D400); centres are off by some pixels.
+// the depth camera has another focal length by 6 to 10 % (Kinect V1, PrimeSense; of D400 by 60 %,
+// which the points outweigh) and lies 15 to 60 mm beside it; centres are off by some pixels.
 ColourParameters PriorDeviations(const EdgeEvidence& evidence) {
   return {0.1 * evidence.given_camera.fx, 10 * evidence.scale, 10 * evidence.scale, 0.03, 0.01};
 }
@@ -88,9 +88,11 @@ void KeepBest(size_t count, std::vector<Start>& starts) {
   if (starts.size() > count) starts.resize(count);
 }
 
-// Chosen: 20 % covers the focal lengths of a sensor's two cameras, 48 px an offset of 60 mm at 0.7
-// m; the steps are those of the coarse sigma, 6 px (at the image's corner 4 % of f are 13 px).
-constexpr int kFocalSteps = 5;
+// Chosen: .8 to 1.76 covers the focal lengths of a sensor's two cameras (the colour camera of a D400
+// has 1.6 times that of its depth), 48 px an offset of 60 mm at 0.7 m; the steps are those of the
+// coarse sigma, 6 px (at the image's corner 4 % of f are 13 px).
+constexpr int kShorterSteps = 5;
+constexpr int kLongerSteps = 19;
 constexpr double kFocalStep = 0.04;
 constexpr int kRightSteps = 8;
 constexpr int kDownSteps = 4;
@@ -103,7 +105,7 @@ constexpr size_t kStarts = 5;
 // Focal lengths and shifts on a grid, the best first.
 std::vector<Start> CoarseStarts(const EdgeEvidence& evidence, const EdgeSelection& selection) {
   std::vector<Start> grid;
-  for (int f = -kFocalSteps; f <= kFocalSteps; ++f) {
+  for (int f = -kShorterSteps; f <= kLongerSteps; ++f) {
     for (int right = -kRightSteps; right <= kRightSteps; ++right) {
       for (int down = -kDownSteps; down <= kDownSteps; ++down) {
         ColourParameters x = evidence.Given();

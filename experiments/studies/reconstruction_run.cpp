@@ -4,6 +4,7 @@
 
 #include <chrono>
 
+#include "capture/content/colour_findings.h"
 #include "capture/sequence.h"
 #include "experiments/metrics/evaluation_files.h"
 #include "experiments/metrics/truth.h"
@@ -71,7 +72,8 @@ RunOutcome EvaluateAndKeep(const SkeletonGraph& skeleton, const RunInput& input)
 }
 
 RunOutcome ReconstructAndEvaluate(const RunInput& input) {
-  const Sequence sequence = OpenSequence(input.scan);
+  Sequence sequence = OpenSequence(input.scan);
+  UseFittedColourCamera(sequence);  // as the command does
   InterruptibleObserver observer(input.progress);
   Reconstruction result;
   const Cost cost =

@@ -19,8 +19,8 @@ struct ClearBranch {
 /// one for a long way, so that the branches seem to part 10 to 20 mm too far out. All curves are
 /// parabolas fitted to the clear stretches. Nothing where the three branches are no such fork (the
 /// straightest two turn by more, or the third leaves at more, than 40 degrees), or where the fits
-/// would be carried on farther than they are long, leave more than two millimetres, miss one another
-/// by more than `max_miss` or meet beyond `reach` from the junction.
+/// would be carried on farther than they are long, leave more than two millimetres, miss one
+/// another by more than `max_miss` or meet beyond `reach` from the junction.
 std::optional<Vec3> ForkPosition(const std::vector<ClearBranch>& branches, double reach,
                                  double max_miss);
 

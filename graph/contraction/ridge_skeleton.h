@@ -29,7 +29,8 @@ void VisitOptions(RidgeOptions& options, OptionVisitor& visitor);
 
 /// Points on thin structures -> their curves: ridge projection, linking, closing of gaps, junction
 /// placement, smoothing. Empty where there are no curves. Edges are resampled at `step`; they carry
-/// no radii and no observations. Points that are not finite do not count. Shift the points with ShiftAlongRays first where radii are known.
+/// no radii and no observations. Points that are not finite do not count. Shift the points with
+/// ShiftAlongRays first where radii are known.
 SkeletonGraph ExtractRidgeSkeleton(const ObservedPoints& points, const RidgeOptions& options);
 
 /// The same where the ridges of the points have been found already, with the same options.

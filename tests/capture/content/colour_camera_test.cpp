@@ -52,6 +52,15 @@ TEST_F(ColourCamera, IsFoundWhereColourLiesBesideDepth) {
   }
 }
 
+// The colour camera of a D400 sees less than half as much as its depth camera.
+TEST_F(ColourCamera, OfAMuchLongerFocalLengthIsFound) {
+  LayeredScene scene = Unregistered();
+  scene.color_camera.fx = scene.color_camera.fy = 1.6 * scene.depth_camera.fx;
+  const ColourCameraFit fit = FitColourCamera(Open(scene), {});
+  EXPECT_TRUE(fit.IsMisregistered());
+  EXPECT_NEAR(fit.color_camera.fx, scene.color_camera.fx, 0.02 * scene.color_camera.fx);
+}
+
 TEST_F(ColourCamera, IsLeftAloneWhereColourIsRegistered) {
   const ColourCameraFit fit = FitColourCamera(Open({}), {});
   EXPECT_TRUE(fit.measured);
