@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "capture/frame_stream.h"
+#include "fusion/curve_graph/candidate_curves.h"
+#include "fusion/curve_graph/colour_candidates.h"
 #include "fusion/silhouettes/colour_pruning.h"
 #include "fusion/silhouettes/weak_wires.h"
 #include "graph/parallel_edges.h"
@@ -72,6 +74,22 @@ void CorrectBySilhouettes(const ColourAdjustment& adjusted, RunContext& run,
   run.log.Count(stage, "joins", changes.joins);
   run.log.Count(stage, "weak wires", weak_wires);
   run.observer.OnGraph("corrected", result.skeleton);
+}
+
+// Deviation: wires that depth has lost, where colour images show strips that no curve explains.
+void AddWiresFromColour(const ColourAdjustment& adjusted, RunContext& run, Reconstruction& result) {
+  const char* stage = "wires from colour";
+  const StageLog::Timer timer(run.log, stage);
+  run.observer.OnProgress(stage, 0, 1);
+  const ObservedPoints candidates =
+      FindColourCandidates(result.skeleton, result.sequence, adjusted.frames, adjusted.posteriors);
+  const double added = AddCandidateCurves(candidates, run.options.ridge,
+                                          result.radii.unmeasured_radius, result.skeleton);
+  TidyRidgeSkeleton(result.skeleton, run.options.ridge);
+  run.log.Count(stage, "points", static_cast<double>(candidates.size()));
+  run.log.Count(stage, "added, m", added);
+  run.observer.OnPoints("colour_candidates", candidates);
+  run.observer.OnGraph("with_colour", result.skeleton);
 }
 
 // Deviation: curves of known radius and poses as exact as the colour images show them. Nothing
@@ -162,6 +180,7 @@ void RefineByColour(const Sequence& given, RunContext& run, Reconstruction& resu
   AddMissedWires(run, result);
   if (const auto adjusted = AdjustCurvesAndPoses(given, run, result)) {
     CorrectBySilhouettes(*adjusted, run, result);
+    AddWiresFromColour(*adjusted, run, result);
   } else {
     PruneUnadjusted(run, result);
   }

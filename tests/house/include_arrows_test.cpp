@@ -71,9 +71,11 @@ const std::map<std::string, std::map<std::string, std::set<std::string>>> kRooms
       {"segmentation", {"", "strips", "volume"}},
       {"adjustment", {"registration", "strips"}},
       {"silhouettes", {"adjustment", "segmentation", "strips"}},
+      {"curve_graph", {"strips"}},
       {"paper", {"", "segmentation", "strips", "volume"}},
       {"best",
-       {"", "adjustment", "registration", "segmentation", "silhouettes", "strips", "volume"}},
+       {"", "adjustment", "curve_graph", "registration", "segmentation", "silhouettes", "strips",
+        "volume"}},
       {"", {"best", "paper", "silhouettes", "strips", "volume"}}}},
 };
 

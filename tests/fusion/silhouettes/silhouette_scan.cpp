@@ -7,6 +7,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "fusion/curve_graph/colour_candidates.h"
+
 namespace curvefusion {
 
 namespace {
@@ -54,36 +56,55 @@ PosteriorImage Render(const std::vector<Polyline>& wires,
   return posterior;
 }
 
+void WriteColor(const PosteriorImage& posterior, const std::filesystem::path& path) {
+  cv::Mat image(posterior.height(), posterior.width(), CV_8UC3);
+  for (int v = 0; v < posterior.height(); ++v) {
+    for (int u = 0; u < posterior.width(); ++u) {
+      const uint8_t grey = posterior(u, v) > 0 ? 60 : 170;
+      image.at<cv::Vec3b>(v, u) = {grey, grey, grey};
+    }
+  }
+  cv::imwrite(path.string(), image);
+}
+
 }  // namespace
 
 SilhouetteScan::SilhouetteScan(const std::vector<Polyline>& wires,
                                const std::vector<std::vector<Vec3>>& plates, double depth,
                                double spread) {
   static int count = 0;
-  depth_path_ = std::filesystem::temp_directory_path() /
-                fmt::format("curvefusion_silhouettes_{}_{}.png", getpid(), ++count);
+  folder_ = std::filesystem::temp_directory_path() /
+            fmt::format("curvefusion_silhouettes_{}_{}", getpid(), ++count);
+  std::filesystem::create_directories(folder_);
+  const std::filesystem::path depth_path = folder_ / "depth.png";
   sequence_.depth_camera = sequence_.color_camera = {320, 240, 480, 480, 159.5, 119.5};
   sequence_.depth_scale = kDepthScale;
-  cv::imwrite(depth_path_.string(),
+  cv::imwrite(depth_path.string(),
               cv::Mat(240, 320, CV_16U, cv::Scalar(std::lround(depth * kDepthScale))));
   for (int row = 0; row < kRows; ++row) {
     for (int column = 0; column < kColumns; ++column) {
       SequenceFrame frame;
       frame.T_world_camera = Pose(row, column, spread);
-      frame.depth_path = depth_path_;
-      sequence_.frames.push_back(frame);
+      frame.depth_path = depth_path;
       posteriors_.push_back(
           Render(wires, plates, sequence_.color_camera, frame.T_world_camera.inverse()));
+      frame.color_path = folder_ / fmt::format("{}_{}.png", row, column);
+      WriteColor(posteriors_.back(), frame.color_path);
+      sequence_.frames.push_back(frame);
     }
   }
   frames_.resize(sequence_.frames.size());
   std::iota(frames_.begin(), frames_.end(), 0);
 }
 
-SilhouetteScan::~SilhouetteScan() { std::filesystem::remove(depth_path_); }
+SilhouetteScan::~SilhouetteScan() { std::filesystem::remove_all(folder_); }
 
 WireSilhouettes SilhouetteScan::Silhouettes() const {
   return {sequence_, frames_, posteriors_, static_cast<int>(frames_.size())};
+}
+
+ObservedPoints SilhouetteScan::ColourCandidates(const SkeletonGraph& skeleton) const {
+  return FindColourCandidates(skeleton, sequence_, frames_, posteriors_);
 }
 
 Polyline TestLine(const Vec3& a, const Vec3& b) { return Resample({a, b}, 0.002); }

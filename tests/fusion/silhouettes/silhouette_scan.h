@@ -5,6 +5,7 @@
 
 #include "fusion/silhouettes/wire_silhouettes.h"
 #include "graph/skeleton_graph.h"
+#include "kernel/observed_points.h"
 #include "kernel/polyline.h"
 
 namespace curvefusion {
@@ -26,8 +27,11 @@ class SilhouetteScan {
 
   WireSilhouettes Silhouettes() const;
 
+  /// The same images in colour, dark wires before something bright.
+  ObservedPoints ColourCandidates(const SkeletonGraph& skeleton) const;
+
  private:
-  std::filesystem::path depth_path_;
+  std::filesystem::path folder_;
   Sequence sequence_;
   std::vector<int> frames_;
   std::vector<PosteriorImage> posteriors_;

@@ -1,0 +1,91 @@
+#include "fusion/curve_graph/candidate_curves.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "graph/connected_parts.h"
+#include "graph/edge_parts.h"
+#include "kernel/point_grid.h"
+
+namespace curvefusion {
+
+namespace {
+
+constexpr double kBeside = 0.004;    // metres; nearer to a curve a candidate is the curve itself
+constexpr double kSame = 0.0002;     // metres; a curve is where it was
+constexpr double kMinPiece = 0.012;  // metres; the shortest spur
+
+std::vector<Vec3> PointsOf(const SkeletonGraph& skeleton) {
+  std::vector<Vec3> points;
+  for (const EdgeId id : skeleton.Edges()) {
+    const Polyline& curve = skeleton.edge(id).points;
+    points.insert(points.end(), curve.begin(), curve.end());
+  }
+  return points;
+}
+
+// Leaves what lies beside all curves of the skeleton.
+void KeepNewWires(const SkeletonGraph& skeleton, SkeletonGraph& found) {
+  const PointGrid curves(PointsOf(skeleton), kBeside);
+  for (const EdgeId id : found.Edges()) {
+    const Polyline points = found.edge(id).points;
+    std::vector<EdgePart> parts;
+    for (size_t i = 0; i < points.size(); ++i) {
+      if (curves.Nearest(points[i], kBeside) >= 0) continue;
+      if (!parts.empty() && parts.back().last + 1 == i) {
+        parts.back().last = i;
+      } else {
+        parts.push_back({i, i});
+      }
+    }
+    KeepParts(id, parts, kMinPiece, found);
+  }
+  found.RemoveIsolatedNodes();
+}
+
+void AddGraph(const SkeletonGraph& more, double radius, SkeletonGraph& skeleton) {
+  std::map<NodeId, NodeId> nodes;
+  for (const NodeId node : more.Nodes()) nodes[node] = skeleton.AddNode(more.position(node));
+  for (const EdgeId id : more.Edges()) {
+    const SkeletonEdge& edge = more.edge(id);
+    skeleton.AddEdge({{nodes.at(edge.nodes[0]), nodes.at(edge.nodes[1])},
+                      edge.points,
+                      std::vector<double>(edge.points.size(), radius),
+                      {}});
+  }
+}
+
+// Removes parts of the graph in which nothing lies on the curves given.
+void DropDetached(const std::vector<Vec3>& curves, SkeletonGraph& skeleton) {
+  const PointGrid grid(curves, kBeside);
+  const auto is_known = [&](EdgeId id) {
+    const Polyline& points = skeleton.edge(id).points;
+    return std::any_of(points.begin(), points.end(),
+                       [&](const Vec3& p) { return grid.Nearest(p, kSame) >= 0; });
+  };
+  for (const std::vector<EdgeId>& part : ConnectedEdges(skeleton)) {
+    if (std::any_of(part.begin(), part.end(), is_known)) continue;
+    for (const EdgeId id : part) skeleton.RemoveEdge(id);
+  }
+  skeleton.RemoveIsolatedNodes();
+}
+
+}  // namespace
+
+double AddCandidateCurves(const ObservedPoints& candidates, const RidgeOptions& options,
+                          double radius, SkeletonGraph& skeleton) {
+  if (candidates.empty()) return 0;
+  SkeletonGraph found = ExtractRidgeSkeleton(candidates, options);
+  KeepNewWires(skeleton, found);
+  if (found.empty()) return 0;
+  const std::vector<Vec3> before = PointsOf(skeleton);
+  const double length = skeleton.TotalLength();
+  AddGraph(found, radius, skeleton);
+  CloseFreeEnds(skeleton, options.free_ends, candidates);
+  DropDetached(before, skeleton);
+  return skeleton.TotalLength() - length;
+}
+
+}  // namespace curvefusion

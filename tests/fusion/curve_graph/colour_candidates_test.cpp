@@ -1,0 +1,75 @@
+#include "fusion/curve_graph/colour_candidates.h"
+
+#include <gtest/gtest.h>
+
+#include "fusion/curve_graph/candidate_curves.h"
+#include "graph/validate.h"
+#include "tests/fusion/silhouettes/silhouette_scan.h"
+
+namespace curvefusion {
+namespace {
+
+// A wire that depth has shown, and one that branches off and is not known yet.
+const Polyline kStem = TestLine({0, 0.08, 0}, {0, -0.02, 0});
+const Polyline kTwig = TestLine({0, -0.02, 0}, {0.05, -0.08, 0.02});
+constexpr double kBehind = 1.2;  // metres to what stands behind
+
+SkeletonGraph Known() {
+  SkeletonGraph graph;
+  AddTestEdge(graph, kStem);
+  return graph;
+}
+
+double DistanceTo(const Polyline& curve, const Vec3& p) { return Project(curve, p).distance; }
+
+TEST(ColourCandidates, LieOnTheWireThatNoCurveExplains) {
+  const SilhouetteScan scan({kStem, kTwig}, {}, kBehind);
+  const ObservedPoints candidates = scan.ColourCandidates(Known());
+  EXPECT_GT(candidates.size(), 50u);
+  for (const Vec3& p : candidates.positions) EXPECT_LT(DistanceTo(kTwig, p), 0.003);
+}
+
+TEST(ColourCandidates, NoneWhereCurvesExplainAllStrips) {
+  const SilhouetteScan scan({kStem, kTwig}, {}, kBehind);
+  SkeletonGraph graph = Known();
+  AddTestEdge(graph, kTwig);
+  EXPECT_TRUE(scan.ColourCandidates(graph).empty());
+}
+
+// What is painted on a wall at the twig's own distance is no wire.
+TEST(ColourCandidates, NoneWhereNothingIsFarBehind) {
+  const SilhouetteScan scan({kStem, kTwig}, {}, 0.605);
+  EXPECT_TRUE(scan.ColourCandidates(Known()).empty());
+}
+
+TEST(ColourCandidates, NoneWithoutCurves) {
+  const SilhouetteScan scan({kTwig}, {}, kBehind);
+  EXPECT_TRUE(scan.ColourCandidates({}).empty());
+}
+
+TEST(CandidateCurves, JoinWhatIsThere) {
+  const SilhouetteScan scan({kStem, kTwig}, {}, kBehind);
+  SkeletonGraph graph = Known();
+  const double added = AddCandidateCurves(scan.ColourCandidates(graph), {}, kTestRadius, graph);
+  EXPECT_NEAR(added, Length(kTwig), 0.01);
+  EXPECT_EQ(graph.ComponentCount(), 1);
+  EXPECT_TRUE(Faults(graph).empty());
+}
+
+TEST(CandidateCurves, ThatHangTogetherWithNothingAreLeftOut) {
+  const Polyline far = TestLine({0.09, -0.05, 0}, {0.09, 0.05, 0});
+  const SilhouetteScan scan({kStem, far}, {}, kBehind);
+  SkeletonGraph graph = Known();
+  const ObservedPoints candidates = scan.ColourCandidates(graph);
+  EXPECT_FALSE(candidates.empty());
+  EXPECT_EQ(AddCandidateCurves(candidates, {}, kTestRadius, graph), 0);
+  EXPECT_EQ(graph.edge_count(), 1);
+}
+
+TEST(CandidateCurves, NothingWithoutCandidates) {
+  SkeletonGraph graph = Known();
+  EXPECT_EQ(AddCandidateCurves({}, {}, kTestRadius, graph), 0);
+}
+
+}  // namespace
+}  // namespace curvefusion
