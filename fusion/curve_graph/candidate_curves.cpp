@@ -13,8 +13,11 @@ namespace curvefusion {
 
 namespace {
 
-constexpr double kBeside = 0.004;    // metres; nearer to a curve a candidate is the curve itself
-constexpr double kSame = 0.0002;     // metres; a curve is where it was
+constexpr double kBeside = 0.004;  // metres; nearer to a curve a candidate is the curve itself
+constexpr double kSame = 0.0002;   // metres; a curve is where it was
+// Strips are not told within some pixels of known curves, nor where wires cross in many images.
+constexpr double kMaxGap = 0.04;  // metres
+constexpr double kMaxGapPerLength = 1.2;
 constexpr double kMinPiece = 0.012;  // metres; the shortest spur
 
 std::vector<Vec3> PointsOf(const SkeletonGraph& skeleton) {
@@ -83,7 +86,10 @@ double AddCandidateCurves(const ObservedPoints& candidates, const RidgeOptions& 
   const std::vector<Vec3> before = PointsOf(skeleton);
   const double length = skeleton.TotalLength();
   AddGraph(found, radius, skeleton);
-  CloseFreeEnds(skeleton, options.free_ends, candidates);
+  FreeEndOptions reach = options.free_ends;
+  reach.max_gap = kMaxGap;
+  reach.max_gap_per_length = kMaxGapPerLength;
+  CloseFreeEnds(skeleton, reach, candidates);
   DropDetached(before, skeleton);
   return skeleton.TotalLength() - length;
 }

@@ -32,6 +32,7 @@ constexpr double kCoarsePx = 3;          // steps along a line of sight, in the 
 constexpr double kFinePx = 0.5;          // likewise
 constexpr double kCoarseReachPx = 3.5;   // from a strip's middle
 constexpr double kFineReachPx = 1.4;
+constexpr double kMiddlePx = 0.7;      // standard deviation of where strips have their middle
 constexpr double kSeen = 0.8;          // of the images that look at a wire show a strip there
 constexpr double kMinChance = 0.02;    // that a strip lies there by chance, at least
 constexpr double kCorrelation = 0.3;   // neighbouring images tell the same
@@ -134,8 +135,9 @@ float Outstanding(const Image<float>& response) {
 }
 
 // Pixels in the middle of strips that stand out from both sides: where the contrast is greatest
-// across. Of several widths, as wires are.
-MaskImage StripMiddles(const ColorImage& color, const PosteriorImage& posterior) {
+// across. Of several widths, as wires are. What curves explain is neither a strip nor beside one.
+MaskImage StripMiddles(const ColorImage& color, const PosteriorImage& posterior,
+                       const MaskImage& explained) {
   // Across strips and along them.
   constexpr std::pair<std::pair<int, int>, std::pair<int, int>> kDirections[] = {
       {{1, 0}, {0, 1}}, {{0, 1}, {1, 0}}, {{1, 1}, {-1, 1}}, {{1, -1}, {1, 1}}};
@@ -149,11 +151,14 @@ MaskImage StripMiddles(const ColorImage& color, const PosteriorImage& posterior)
           AveragedAlong(StripResponse(planes, step * du, step * dv), along.first, along.second);
       const float least = Outstanding(response);
       const std::ptrdiff_t across = static_cast<std::ptrdiff_t>(dv) * color.width() + du;
-      for (int v = 1; v + 1 < color.height(); ++v) {
+      for (int v = step; v + step < color.height(); ++v) {
         const float* r = response.row(v);
-        for (int u = 1; u + 1 < color.width(); ++u) {
+        for (int u = step; u + step < color.width(); ++u) {
           if (r[u] < least || r[u] < r[u - across] || r[u] < r[u + across]) continue;
-          middles(u, v) |= posterior(u, v) > kNotWire;
+          if (posterior(u, v) <= kNotWire || explained(u, v)) continue;
+          if (explained(u - step * du, v - step * dv) || explained(u + step * du, v + step * dv))
+            continue;
+          middles(u, v) = 1;
         }
       }
     }
@@ -217,6 +222,7 @@ struct View {
   RigidTransform T_depth_world;
   RigidTransform T_color_world;
   Vec3 center;
+  MaskImage explained;  // by curves
   DistanceImage to_crest;
   StripEvidence coarse;
   StripEvidence fine;
@@ -230,6 +236,13 @@ struct Agreement {
   int seen = 0;
   double distances = 0;  // squared, of those, pixels
   double evidence = 0;   // the logarithm of how much likelier that is for a wire
+};
+
+// A place of a line of sight where a wire may be.
+struct Peak {
+  Vec3 position;
+  Agreement agreement;
+  double first = 0, last = 0;  // of the stretch that agrees, metres along the line of sight
 };
 
 class CandidateSearch {
@@ -247,15 +260,17 @@ class CandidateSearch {
     std::vector<MaskImage> middles;
     ForEachFrame(sequence, used, {.depth = true, .color = true}, [&](const DecodedFrame& frame) {
       const auto place = std::lower_bound(frames.begin(), frames.end(), frame.index);
-      middles.push_back(StripMiddles(frame.color, posteriors[place - frames.begin()]));
       View& view = views_.emplace_back();
       view.T_depth_world = sequence.frames[frame.index].T_world_camera.inverse();
       view.T_color_world = sequence.T_color_depth * view.T_depth_world;
       view.center = view.T_color_world.inverse().translation();
       view.farthest = FarthestInCells(frame.depth);
+      view.explained = Explained(skeleton, view);
+      middles.push_back(
+          StripMiddles(frame.color, posteriors[place - frames.begin()], view.explained));
     });
     ParallelFor(0, static_cast<int64_t>(views_.size()), 1,
-                [&](int64_t i) { FindStrips(middles[i], skeleton, views_[i]); });
+                [&](int64_t i) { FindStrips(middles[i], views_[i]); });
   }
 
   ObservedPoints Find() const {
@@ -263,27 +278,27 @@ class CandidateSearch {
     for (size_t i = 0; i < views_.size(); i += kReferenceStride) {
       for (const Eigen::Vector2i& pixel : views_[i].unexplained) rays.emplace_back(i, pixel);
     }
-    std::vector<std::optional<std::pair<Vec3, int>>> places(rays.size());
+    std::vector<std::optional<Peak>> places(rays.size());
     ParallelFor(0, static_cast<int64_t>(rays.size()), 16,
                 [&](int64_t i) { places[i] = PlaceOn(views_[rays[i].first], rays[i].second); });
     ObservedPoints points;
     for (size_t i = 0; i < rays.size(); ++i) {
       if (!places[i]) continue;
-      const auto& [p, seen] = *places[i];
-      points.Add(p, (p - views_[rays[i].first].center).normalized(), static_cast<float>(seen));
+      const Vec3& p = places[i]->position;
+      points.Add(p, (p - views_[rays[i].first].center).normalized(),
+                 static_cast<float>(places[i]->agreement.seen));
     }
     return points;
   }
 
  private:
-  void FindStrips(const MaskImage& crests, const SkeletonGraph& skeleton, View& view) const {
-    view.to_crest = DistanceTo(crests);
+  static void FindStrips(const MaskImage& strips, View& view) {
+    view.to_crest = DistanceTo(strips);
     view.coarse = EvidenceWithin(view.to_crest, kCoarseReachPx);
     view.fine = EvidenceWithin(view.to_crest, kFineReachPx);
-    const MaskImage explained = Explained(skeleton, view);
-    for (int v = 0; v < crests.height(); ++v) {
-      for (int u = v % kPixelStride; u < crests.width(); u += kPixelStride) {
-        if (crests(u, v) && !explained(u, v)) view.unexplained.emplace_back(u, v);
+    for (int v = 0; v < strips.height(); ++v) {
+      for (int u = v % kPixelStride; u < strips.width(); u += kPixelStride) {
+        if (strips(u, v)) view.unexplained.emplace_back(u, v);
       }
     }
   }
@@ -335,6 +350,7 @@ class CandidateSearch {
       const Vec2 pixel = color_camera_.Project(p_color);
       if (!color_camera_.Contains(pixel)) continue;
       const Eigen::Vector2i at = PinholeCamera::Rounded(pixel);
+      if (view.explained(at.x(), at.y())) continue;
       const double distance = view.to_crest(at.x(), at.y()) / kDistanceUnits;
       const bool seen = distance <= reach_px;
       if (!seen && BehindIn(view, p) < -kHidingDistance) continue;
@@ -374,12 +390,6 @@ class CandidateSearch {
     return pixels * distance * distance / (color_camera_.fx * baseline);
   }
 
-  struct Peak {
-    Vec3 position;
-    Agreement agreement;
-    double first = 0, last = 0;  // of the stretch that agrees, metres along the line of sight
-  };
-
   // The best place within a stretch of a line of sight.
   Peak Refined(const View& view, const Vec3& ray, double baseline, double from, double to) const {
     Peak peak;
@@ -393,7 +403,7 @@ class CandidateSearch {
       peak.first = std::min(peak.first, at);
       peak.last = at;
       const double score =
-          agreement.evidence - 0.1 * agreement.distances / (kFineReachPx * kFineReachPx);
+          agreement.evidence - 0.5 * kCorrelation * agreement.distances / (kMiddlePx * kMiddlePx);
       if (score <= best) continue;
       best = score;
       peak.position = p;
@@ -403,8 +413,7 @@ class CandidateSearch {
   }
 
   // The place of the wire that a pixel shows, and how many images show it.
-  std::optional<std::pair<Vec3, int>> PlaceOn(const View& view,
-                                              const Eigen::Vector2i& pixel) const {
+  std::optional<Peak> PlaceOn(const View& view, const Eigen::Vector2i& pixel) const {
     const RigidTransform T_world_color = view.T_color_world.inverse();
     const Vec3 ray =
         (T_world_color.linear() * color_camera_.Unproject(pixel.x(), pixel.y(), 1)).normalized();
@@ -436,7 +445,7 @@ class CandidateSearch {
     if (is_ambiguous || best.last - best.first > kMaxPeak || !IsFree(best.position)) {
       return std::nullopt;
     }
-    return std::pair(best.position, best.agreement.seen);
+    return best;
   }
 
   static void AddPeak(const Peak& peak, std::vector<Peak>& peaks) {

@@ -4,6 +4,7 @@
 
 #include "fusion/curve_graph/candidate_curves.h"
 #include "graph/validate.h"
+#include "kernel/quantile.h"
 #include "tests/fusion/silhouettes/silhouette_scan.h"
 
 namespace curvefusion {
@@ -26,7 +27,10 @@ TEST(ColourCandidates, LieOnTheWireThatNoCurveExplains) {
   const SilhouetteScan scan({kStem, kTwig}, {}, kBehind);
   const ObservedPoints candidates = scan.ColourCandidates(Known());
   EXPECT_GT(candidates.size(), 50u);
-  for (const Vec3& p : candidates.positions) EXPECT_LT(DistanceTo(kTwig, p), 0.003);
+  std::vector<double> distances;
+  for (const Vec3& p : candidates.positions) distances.push_back(DistanceTo(kTwig, p));
+  EXPECT_LT(Median(distances), kTestRadius);
+  EXPECT_LT(Quantile(distances, 1), 0.006);  // along the line of sight, by a pixel in 40 degrees
 }
 
 TEST(ColourCandidates, NoneWhereCurvesExplainAllStrips) {
@@ -57,7 +61,7 @@ TEST(CandidateCurves, JoinWhatIsThere) {
 }
 
 TEST(CandidateCurves, ThatHangTogetherWithNothingAreLeftOut) {
-  const Polyline far = TestLine({0.09, -0.05, 0}, {0.09, 0.05, 0});
+  const Polyline far = TestLine({0.055, -0.05, 0}, {0.055, 0.05, 0});
   const SilhouetteScan scan({kStem, far}, {}, kBehind);
   SkeletonGraph graph = Known();
   const ObservedPoints candidates = scan.ColourCandidates(graph);
