@@ -62,10 +62,12 @@ std::string LostCurves(const CurveFunnel& curves) {
     return Loss{taken,
                 fmt::format("{:.2f} of {:.2f} m of curve {}", taken, curves.contracted, how)};
   };
-  return LargestLoss(
-             {loss(curves.thick, "were thicker than thin parts are (radius.max_mean_diameter)"),
-              loss(curves.without_strips, "showed as a strip in no colour image"),
-              loss(curves.looked_past, "were looked past by the colour images")})
+  return LargestLoss({loss(curves.unproven.surface, "were the edges of surfaces"),
+                      loss(curves.unproven.thick, "were thicker than wires are"),
+                      loss(curves.unproven.looked_past, "were looked past by the depth images"),
+                      loss(curves.unproven.unproven,
+                           "could not be told to be wires (evidence.min_probability)"),
+                      loss(curves.looked_past, "were looked past by the colour images")})
       .sentence;
 }
 
@@ -92,14 +94,17 @@ Json FunnelJson(const Funnel& funnel) {
           {"points", points.points},
           {"contracted_length", curves.contracted},
           {"dropped_length",
-           {{"thick", curves.thick},
-            {"without_strips", curves.without_strips},
+           {{"surface_edge", curves.unproven.surface},
+            {"thick", curves.unproven.thick},
+            {"looked_past_by_depth", curves.unproven.looked_past},
+            {"unproven", curves.unproven.unproven},
             {"looked_past", curves.looked_past}}},
           {"length", curves.curves}};
 }
 
 Json TrustJson(const Trust& trust) {
-  return {{"measured_diameter_share", trust.measured_share},
+  return {{"wire_share", trust.length > 0 ? trust.wire_length / trust.length : 0},
+          {"measured_diameter_share", trust.measured_share},
           {"depth_share", trust.depth_share},
           {"colour_share", trust.colour_share},
           {"adjusted_to_colour", trust.adjusted},

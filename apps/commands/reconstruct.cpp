@@ -63,10 +63,12 @@ Trajectory CorrectedTrajectory(const Sequence& sequence) {
 void WriteSkeletonAndPicture(const RunRecord& record, const fs::path& folder) {
   const Reconstruction& reconstruction = record.reconstruction;
   WriteSkeleton(folder / "skeleton.json", reconstruction.skeleton);
+  WriteSkeleton(folder / "uncertain.json", reconstruction.uncertain.graph);
   WriteTumTrajectory(folder / "trajectory.txt", CorrectedTrajectory(reconstruction.sequence));
-  WritePng(folder / "preview.png",
-           DrawPreview(reconstruction.skeleton, reconstruction.points, reconstruction.sequence,
-                       FiguresLine(MeasureGraph(reconstruction.skeleton))));
+  WritePng(
+      folder / "preview.png",
+      DrawPreview(reconstruction.skeleton, reconstruction.uncertain.graph, reconstruction.points,
+                  reconstruction.sequence, FiguresLine(MeasureGraph(reconstruction.skeleton))));
 }
 
 MeshRecord WriteTubes(const RunRecord& record, const fs::path& folder) {

@@ -29,7 +29,6 @@ BestOptions DefaultBestOptions() {
   options.completion.enabled = true;
   options.resolved_spacing = 0.014;
   options.colour_adjustment.enabled = true;
-  options.radius.max_mean_diameter = 0.016;
   return options;
 }
 

@@ -45,7 +45,7 @@ TEST(WhyNothing, FollowsTheRunFromItsBeginning) {
   funnel.points.gated_pixels = funnel.points.merged_points = funnel.points.points = 50;
   EXPECT_THAT(WhyNothing(funnel), HasSubstr("along no curve"));
   funnel.curves.contracted = 2;
-  funnel.curves.thick = 1.5;
+  funnel.curves.unproven.thick = 1.5;
   funnel.curves.looked_past = 0.5;
   EXPECT_THAT(WhyNothing(funnel), HasSubstr("1.50 of 2.00 m of curve were thicker"));
 }
@@ -56,12 +56,15 @@ TEST(RunAccount, JsonHoldsEveryRule) {
   EXPECT_EQ(funnel["dropped_points"]["colour_unverified"], 34'017);
   EXPECT_EQ(funnel["dropped_points"]["too_few_frames"], 40);
   EXPECT_EQ(funnel["dropped_length"]["thick"], 0);
+  EXPECT_EQ(funnel["dropped_length"]["surface_edge"], 0);
   Trust trust;
   trust.length = 3;
   trust.measured_share = 0.25;
+  trust.wire_length = 1.5;
   trust.pose_shift = 0.002;
   const auto json = TrustJson(trust);
   EXPECT_EQ(json["measured_diameter_share"], 0.25);
+  EXPECT_EQ(json["wire_share"], 0.5);
   EXPECT_DOUBLE_EQ(json["pose_shift_mm"], 2);
   EXPECT_TRUE(json["residual_px"].is_null());
   EXPECT_EQ(json["doubts"].size(), 1u);
