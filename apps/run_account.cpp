@@ -130,6 +130,21 @@ std::string TrustLines(const Trust& trust) {
       trust.max_pose_shift / kMillimetre, residual);
 }
 
+std::string UncertainLine(const UnprovenLengths& lengths) {
+  constexpr double kShown = 0.005;  // metres: what two decimals show
+  std::string reasons;
+  const auto add = [&](double length, const char* reason) {
+    if (length < kShown) return;
+    reasons += fmt::format("{}{:.2f} m {}", reasons.empty() ? "" : ", ", length, reason);
+  };
+  add(lengths.surface, "edges of surfaces");
+  add(lengths.thick, "too thick");
+  add(lengths.looked_past, "looked past by depth images");
+  add(lengths.unproven, "without enough evidence");
+  if (reasons.empty()) return "";
+  return fmt::format("  left out  {:.2f} m that are no proven wires: {}\n", lengths.Sum(), reasons);
+}
+
 std::string WhyNothing(const Funnel& funnel) {
   const PointFunnel& points = funnel.points;
   if (points.depth_pixels == 0) return "no depth image has a depth";

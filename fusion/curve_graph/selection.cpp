@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kMaxScore = 4;    // of one stretch: no more of it is calibrated
 constexpr double kChangeCost = 2;  // chosen: a change along an edge needs a stretch of 88 %
-constexpr double kPartCost = 3;    // chosen: a part of its own needs two such stretches
+constexpr double kPartCost = 1;    // chosen: a part of its own needs a stretch of 53 %
 
 // Stretches [first, last) of an edge.
 struct Run {

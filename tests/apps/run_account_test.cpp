@@ -50,6 +50,17 @@ TEST(WhyNothing, FollowsTheRunFromItsBeginning) {
   EXPECT_THAT(WhyNothing(funnel), HasSubstr("1.50 of 2.00 m of curve were thicker"));
 }
 
+TEST(RunAccount, TheTerminalIsToldWhatWasLeftOut) {
+  UnprovenLengths lengths;
+  EXPECT_EQ(UncertainLine(lengths), "");
+  lengths.surface = 6.04;
+  lengths.thick = 1.74;
+  lengths.unproven = 0.001;  // too little to be shown
+  EXPECT_EQ(UncertainLine(lengths),
+            "  left out  7.78 m that are no proven wires: 6.04 m edges of surfaces, 1.74 m too "
+            "thick\n");
+}
+
 TEST(RunAccount, JsonHoldsEveryRule) {
   const auto funnel = FunnelJson(GreyFunnel());
   EXPECT_EQ(funnel["candidate_points"], 34'063);
