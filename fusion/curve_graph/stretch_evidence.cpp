@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kStretch = 0.04;         // metres; chosen: some diameters of wires, and their blur
 constexpr double kPlaceStep = 0.004;      // metres along a stretch
-constexpr double kStrandStep = 0.001;     // metres: a pixel at .6 m
+constexpr double kStrandStep = 0.0005;    // metres: below a pixel from .3 m on
 constexpr double kUnknownRadius = 0.002;  // metres
 constexpr int kDirections = 36;
 constexpr double kMinLooked = 0.3;     // share of a stretch that an image must show
