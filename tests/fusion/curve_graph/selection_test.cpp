@@ -63,7 +63,7 @@ TEST(KeepProven, ALongDoubtInsideAWireIsCutOut) {
 }
 
 TEST(KeepProven, AShortPieceOfItsOwnIsNoProof) {
-  Edge edge({1});
+  Edge edge({0.5});
   edge.Keep();
   EXPECT_TRUE(edge.skeleton.empty());
   EXPECT_EQ(edge.skeleton.node_count(), 0);
