@@ -66,6 +66,14 @@ void Text(cv::Mat& canvas, const std::string& text, const cv::Rect& place, doubl
   cv::resize(large, canvas(place), place.size(), 0, 0, cv::INTER_AREA);
 }
 
+// Points so close that they look like lines.
+void AddPointsOf(const SkeletonGraph& graph, ObservedPoints& points) {
+  constexpr double kStep = 0.0005;  // metres
+  for (const EdgeId id : graph.Edges()) {
+    for (const Vec3& p : Resample(graph.edge(id).points, kStep)) points.Add(p, Vec3::Zero(), 1);
+  }
+}
+
 }  // namespace
 
 Mat3 MeanCameraAxes(const Sequence& sequence) {
@@ -88,25 +96,29 @@ Mat3 MeanCameraAxes(const Sequence& sequence) {
   return axes;
 }
 
-ColorImage DrawPreview(const SkeletonGraph& graph, const ObservedPoints& points,
-                       const Sequence& sequence, const std::string& title) {
+ColorImage DrawPreview(const SkeletonGraph& graph, const SkeletonGraph& uncertain,
+                       const ObservedPoints& points, const Sequence& sequence,
+                       const std::string& title) {
   ColorImage preview(kWidth, kHeight, kWhite);
   cv::Mat canvas = View(preview);
   const auto views = Views(MeanCameraAxes(sequence));
   const double scale = CommonScale(graph, views);
+  ObservedPoints grey = points;
+  AddPointsOf(uncertain, grey);
   const int frame = FrameSeeingMost(graph, sequence);
   constexpr int kPanels = 4;
   ParallelFor(0, frame >= 0 ? kPanels : kPanels - 1, 1, [&](int64_t i) {
     const auto panel = static_cast<size_t>(i);
     Paste(panel < views.size()
-              ? DrawOrthographicView(graph, points, views[panel], kPanelWidth, kPanelHeight, scale)
+              ? DrawOrthographicView(graph, grey, views[panel], kPanelWidth, kPanelHeight, scale)
               : DrawFrameOverlay(graph, sequence, frame, kPanelWidth, kPanelHeight),
           static_cast<int>(i), canvas);
   });
   const int text_width = kWidth - 4 * kGap;
   Text(canvas, title, {2 * kGap, 8, text_width, kTitleHeight - 16}, 0.85, kInk);
   const std::string footer = fmt::format(
-      "filled dot: junction   ring: free end   grey: measured points   lower right: frame {}",
+      "filled dot: junction   ring: free end   grey: measured points, uncertain curves   lower "
+      "right: frame {}",
       frame >= 0 ? sequence.frames[frame].name : "-");
   Text(canvas, footer, {2 * kGap, kHeight - kFooterHeight + 2, text_width, kFooterHeight - 8}, 0.5,
        kPaleInk);

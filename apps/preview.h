@@ -11,9 +11,10 @@ namespace curvefusion {
 
 /// The result at a glance: the graph over the points it was made from, seen from where the camera
 /// was, from the side and from above, and the tubes drawn into the frame that sees most of them.
-/// The graph must not be empty.
-ColorImage DrawPreview(const SkeletonGraph& graph, const ObservedPoints& points,
-                       const Sequence& sequence, const std::string& title);
+/// The graph must not be empty. Uncertain curves are drawn as the points are.
+ColorImage DrawPreview(const SkeletonGraph& graph, const SkeletonGraph& uncertain,
+                       const ObservedPoints& points, const Sequence& sequence,
+                       const std::string& title);
 
 /// The axes of the view from the mean camera: rows are right, up and towards the viewer.
 Mat3 MeanCameraAxes(const Sequence& sequence);

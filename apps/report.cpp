@@ -231,6 +231,7 @@ std::string Summary(const RunRecord& record, const std::filesystem::path& folder
                          ? NothingThinText(record.reconstruction.funnel)
                          : fmt::format("Found {}\n{}", FiguresLine(MeasureGraph(skeleton)),
                                        TrustText(record.reconstruction.trust));
+  text += UncertainLine(record.reconstruction.uncertain.lengths);
   const auto add_file = [&](const char* what, const std::filesystem::path& file) {
     text += fmt::format("  {:<9} {}\n", what, file.string());
   };
@@ -238,6 +239,9 @@ std::string Summary(const RunRecord& record, const std::filesystem::path& folder
     add_file("picture", folder / "preview.png");
     add_file("mesh", folder / "mesh.ply");
     add_file("skeleton", folder / "skeleton.json");
+    if (!record.reconstruction.uncertain.graph.empty()) {
+      add_file("uncertain", folder / "uncertain.json");
+    }
   }
   add_file("report", report);
   if (skeleton.empty() && report.filename() != "report.json") {

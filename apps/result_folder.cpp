@@ -76,9 +76,9 @@ void RequireNoneReplaced(const fs::path& folder) {
 }  // namespace
 
 const std::vector<std::string>& ResultNames() {
-  static const std::vector<std::string> names = {"skeleton.json", "trajectory.txt", "mesh.ply",
-                                                 "preview.png",   kConfig,          kNothingReport,
-                                                 kNothingConfig,  kReport};
+  static const std::vector<std::string> names = {
+      "skeleton.json", "uncertain.json", "trajectory.txt", "mesh.ply", "preview.png",
+      kConfig,         kNothingReport,   kNothingConfig,   kReport};
   return names;
 }
 

@@ -35,7 +35,8 @@ class ResultFolder {
   /// Where the report of a run that found nothing goes: an earlier result stays whole.
   std::filesystem::path NothingFoundReport() const;
 
-  /// Adds that report and the settings, both made by `write` as report.json and config.toml.
+  /// Adds that report and the settings, both made by `write` as report.json and config.toml, and
+  /// what else it makes where there is no earlier result.
   void AddNothingFound(const Writer& write) const;
 
  private:

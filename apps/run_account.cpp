@@ -62,10 +62,12 @@ std::string LostCurves(const CurveFunnel& curves) {
     return Loss{taken,
                 fmt::format("{:.2f} of {:.2f} m of curve {}", taken, curves.contracted, how)};
   };
-  return LargestLoss(
-             {loss(curves.thick, "were thicker than thin parts are (radius.max_mean_diameter)"),
-              loss(curves.without_strips, "showed as a strip in no colour image"),
-              loss(curves.looked_past, "were looked past by the colour images")})
+  return LargestLoss({loss(curves.unproven.surface, "were the edges of surfaces"),
+                      loss(curves.unproven.thick, "were thicker than wires are"),
+                      loss(curves.unproven.looked_past, "were looked past by the depth images"),
+                      loss(curves.unproven.unproven,
+                           "could not be told to be wires (evidence.min_probability)"),
+                      loss(curves.looked_past, "were looked past by the colour images")})
       .sentence;
 }
 
@@ -92,14 +94,17 @@ Json FunnelJson(const Funnel& funnel) {
           {"points", points.points},
           {"contracted_length", curves.contracted},
           {"dropped_length",
-           {{"thick", curves.thick},
-            {"without_strips", curves.without_strips},
+           {{"surface_edge", curves.unproven.surface},
+            {"thick", curves.unproven.thick},
+            {"looked_past_by_depth", curves.unproven.looked_past},
+            {"unproven", curves.unproven.unproven},
             {"looked_past", curves.looked_past}}},
           {"length", curves.curves}};
 }
 
 Json TrustJson(const Trust& trust) {
-  return {{"measured_diameter_share", trust.measured_share},
+  return {{"wire_share", trust.length > 0 ? trust.wire_length / trust.length : 0},
+          {"measured_diameter_share", trust.measured_share},
           {"depth_share", trust.depth_share},
           {"colour_share", trust.colour_share},
           {"adjusted_to_colour", trust.adjusted},
@@ -123,6 +128,21 @@ std::string TrustLines(const Trust& trust) {
       Percent(trust.measured_share), Percent(trust.depth_share), Percent(trust.colour_share),
       trust.pose_shift / kMillimetre, trust.pose_turn * 180 / std::numbers::pi,
       trust.max_pose_shift / kMillimetre, residual);
+}
+
+std::string UncertainLine(const UnprovenLengths& lengths) {
+  constexpr double kShown = 0.005;  // metres: what two decimals show
+  std::string reasons;
+  const auto add = [&](double length, const char* reason) {
+    if (length < kShown) return;
+    reasons += fmt::format("{}{:.2f} m {}", reasons.empty() ? "" : ", ", length, reason);
+  };
+  add(lengths.surface, "edges of surfaces");
+  add(lengths.thick, "too thick");
+  add(lengths.looked_past, "looked past by depth images");
+  add(lengths.unproven, "without enough evidence");
+  if (reasons.empty()) return "";
+  return fmt::format("  left out  {:.2f} m that are no proven wires: {}\n", lengths.Sum(), reasons);
 }
 
 std::string WhyNothing(const Funnel& funnel) {

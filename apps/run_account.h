@@ -15,6 +15,9 @@ nlohmann::ordered_json TrustJson(const Trust& trust);
 /// How far a result may be trusted, two lines for the terminal.
 std::string TrustLines(const Trust& trust);
 
+/// What was left out as no proven wire, a line for the terminal; empty where nothing was.
+std::string UncertainLine(const UnprovenLengths& lengths);
+
 /// Which rule took most where nothing remained, a sentence: "34,017 of 34,063 candidates fell to
 /// the colour check".
 std::string WhyNothing(const Funnel& funnel);

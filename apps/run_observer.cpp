@@ -5,6 +5,7 @@
 
 #include "apps/output_folder.h"
 #include "graph/io/graph_io.h"
+#include "kernel/atomic_file.h"
 #include "kernel/cancellation.h"
 #include "kernel/cloud_io.h"
 #include "meshing/io/mesh_io.h"
@@ -37,6 +38,13 @@ void RunObserver::OnPoints(const std::string& name, const ObservedPoints& points
 
 void RunObserver::OnGraph(const std::string& name, const SkeletonGraph& graph) {
   if (!outputs_.folder.empty()) ExportSkeleton(outputs_.folder / (name + ".ply"), graph);
+}
+
+void RunObserver::OnEvidence(const std::string& name, const SkeletonGraph& candidates,
+                             const std::vector<StretchEvidence>& evidence) {
+  if (outputs_.folder.empty()) return;
+  WriteStreamAtomically(outputs_.folder / (name + ".csv"),
+                        [&](std::ostream& stream) { stream << EvidenceCsv(candidates, evidence); });
 }
 
 void RunObserver::OnVolume(const TsdfVolume& volume) {

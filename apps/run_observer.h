@@ -30,6 +30,8 @@ class RunObserver : public PipelineObserver {
   void OnProgress(const std::string& stage, int64_t done, int64_t total) override;
   void OnPoints(const std::string& name, const ObservedPoints& points) override;
   void OnGraph(const std::string& name, const SkeletonGraph& graph) override;
+  void OnEvidence(const std::string& name, const SkeletonGraph& candidates,
+                  const std::vector<StretchEvidence>& evidence) override;
   void OnVolume(const TsdfVolume& volume) override;
 
  private:

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+#include "fusion/curve_graph/selection.h"
+
 namespace curvefusion {
 
 /// How many points each rule of the segmentation took, CurveFusion 3.1: pixels of all frames that
@@ -24,11 +26,10 @@ struct PointFunnel {
 
 /// How many metres of curve each rule took, after the segmentation.
 struct CurveFunnel {
-  double contracted = 0;      ///< first found in the points
-  double thick = 0;           ///< dropped: parts too thick on average for thin structures
-  double without_strips = 0;  ///< dropped: no colour image shows any part of the object as a strip
-  double looked_past = 0;     ///< dropped: colour images look past them
-  double curves = 0;          ///< that remain
+  double contracted = 0;     ///< first found in the points
+  UnprovenLengths unproven;  ///< moved to the uncertain curves
+  double looked_past = 0;    ///< dropped: colour images look past them
+  double curves = 0;         ///< that remain
 };
 
 struct Funnel {

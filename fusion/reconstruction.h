@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "capture/sequence.h"
+#include "fusion/curve_graph/selection.h"
+#include "fusion/curve_graph/stretch_evidence.h"
 #include "fusion/funnel.h"
 #include "fusion/planned_stage.h"
 #include "fusion/silhouettes/view_evidence.h"
@@ -31,6 +33,9 @@ class PipelineObserver {
   virtual void OnPoints(const std::string& /*name*/, const ObservedPoints& /*points*/) {}
   /// Intermediate graphs ("bundle_003_skeleton", "bundle_003_fused") in the world frame.
   virtual void OnGraph(const std::string& /*name*/, const SkeletonGraph& /*graph*/) {}
+  /// What is known of every stretch of the candidate curves, before any is dropped for it.
+  virtual void OnEvidence(const std::string& /*name*/, const SkeletonGraph& /*candidates*/,
+                          const std::vector<StretchEvidence>& /*evidence*/) {}
   /// The volume once all frames are integrated.
   virtual void OnVolume(const TsdfVolume& /*volume*/) {}
 };
@@ -40,6 +45,8 @@ struct Reconstruction {
   /// Radii at every vertex where any could be measured. Observations: in the paper profile bundles,
   /// otherwise images of `views` that saw the point.
   SkeletonGraph skeleton;
+  /// What may be thin but is no proven wire, world frame; the best profile only.
+  UncertainCurves uncertain;
   ObservedPoints points;  ///< the points the skeleton was made from
   RadiusEstimate radii;   ///< may hold edges that the skeleton no longer has
   ViewEvidence views;     ///< of the skeleton

@@ -11,6 +11,7 @@ struct Reconstruction;
 /// How far a result may be trusted. Shares are of the length of its curves.
 struct Trust {
   double length = 0;          ///< metres
+  double wire_length = 0;     ///< metres that are wire, by the probabilities of all curves
   double measured_share = 0;  ///< on edges with a measured diameter
   double depth_share = 0;     ///< seen in most of the depth images that looked there
   double colour_share = 0;    ///< near a strip that colour images show

@@ -60,13 +60,20 @@ Trajectory CorrectedTrajectory(const Sequence& sequence) {
   return trajectory;
 }
 
+void WriteUncertain(const Reconstruction& reconstruction, const fs::path& folder) {
+  if (reconstruction.uncertain.graph.empty()) return;
+  WriteSkeleton(folder / "uncertain.json", reconstruction.uncertain.graph);
+}
+
 void WriteSkeletonAndPicture(const RunRecord& record, const fs::path& folder) {
   const Reconstruction& reconstruction = record.reconstruction;
   WriteSkeleton(folder / "skeleton.json", reconstruction.skeleton);
+  WriteUncertain(reconstruction, folder);
   WriteTumTrajectory(folder / "trajectory.txt", CorrectedTrajectory(reconstruction.sequence));
-  WritePng(folder / "preview.png",
-           DrawPreview(reconstruction.skeleton, reconstruction.points, reconstruction.sequence,
-                       FiguresLine(MeasureGraph(reconstruction.skeleton))));
+  WritePng(
+      folder / "preview.png",
+      DrawPreview(reconstruction.skeleton, reconstruction.uncertain.graph, reconstruction.points,
+                  reconstruction.sequence, FiguresLine(MeasureGraph(reconstruction.skeleton))));
 }
 
 MeshRecord WriteTubes(const RunRecord& record, const fs::path& folder) {
@@ -147,7 +154,10 @@ int RunReconstruct(const ReconstructArguments& arguments) {
   if (found) {
     WriteResult(record, start, output);
   } else {
-    output.AddNothingFound([&](const fs::path& folder) { WriteReport(record, start, folder); });
+    output.AddNothingFound([&](const fs::path& folder) {
+      WriteUncertain(reconstruction, folder);
+      WriteReport(record, start, folder);
+    });
   }
   printer.Finish();
   if (!arguments.run.quiet) fmt::print("{}", Summary(record, output.path(), report));

@@ -168,9 +168,9 @@ std::vector<Ablation> OfColours() {
       {"vanishing colour",
        {"radius.vanishing_color=false"},
        "Of thin strips the blur leaves too little to tell the colour on which widths rest."},
-      {"thick parts",
-       {"radius.max_mean_diameter=0"},
-       "Strips of large surfaces that only some views show are no wires."},
+      {"thin by proof",
+       {"evidence.min_probability=0"},
+       "Edges of surfaces, slats and what only some views show as thin are no wires."},
       {"radius per edge", {"radius.per_edge=false"}, "Objects have wires of several widths."},
       {"radius per wire",
        {"radius.per_wire=false"},
@@ -195,7 +195,6 @@ std::vector<Ablation> Ablations() {
 
 std::vector<FixedDeviation> FixedDeviations() {
   std::vector<FixedDeviation> fixed = {
-      {"radius.drop_unmeasured", "acts where no diameter can be measured, which no object shows"},
       {"radius.search_px", "of the widths that are solved, which have no switch"}};
   for (const char* option :
        {"curve_network.max_link", "curve_network.min_loop", "registration.carried_voxel_size",

@@ -1,12 +1,15 @@
 #include "fusion/best/colour_stages.h"
 
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "capture/frame_stream.h"
 #include "fusion/curve_graph/candidate_curves.h"
 #include "fusion/curve_graph/colour_candidates.h"
+#include "fusion/curve_graph/selection.h"
+#include "fusion/curve_graph/wire_proof.h"
 #include "fusion/silhouettes/colour_pruning.h"
 #include "fusion/silhouettes/weak_wires.h"
 #include "graph/parallel_edges.h"
@@ -17,19 +20,31 @@ namespace {
 
 constexpr const char* kImagesDoNotTell =
     "skipped: the images do not show the curves as wire throughout";
+// Chosen: before poses and curves are adjusted to colours more is given the benefit of the doubt.
+constexpr double kHardlyAWire = 0.4;  // times evidence.min_probability
 
 void AssignMeasuredRadii(RunContext& run, Reconstruction& result) {
   result.radii = MeasureRadii(result.skeleton, result.sequence, run);
   AssignRadii(result.radii, run.options.radius, result.skeleton);
 }
 
-void DropThick(RunContext& run, Reconstruction& result) {
-  const DroppedParts dropped = DropThickParts(run.options.radius, result.skeleton);
-  CurveFunnel& funnel = run.funnel.curves;
-  funnel.thick += dropped.thick;
-  funnel.without_strips += dropped.without_radii;
-  run.log.Count("radius", "dropped as thick, m", funnel.thick);
-  run.log.Count("radius", "dropped without strips, m", funnel.without_strips);
+// Thin by proof: what is a wire with less than `min_probability` leaves the result. Radii come
+// before and are measured again where edges were cut.
+void KeepProvenWires(const std::string& name, double min_probability, RunContext& run,
+                     Reconstruction& result) {
+  const double uncertain = result.uncertain.lengths.Sum();
+  {
+    const StageLog::Timer timer(run.log, "evidence");
+    run.observer.OnProgress("evidence", 0, 1);
+    const std::vector<StretchEvidence> evidence = CollectEvidence(
+        result.skeleton, result.radii, result.sequence, run.options.evidence.max_frames);
+    run.observer.OnEvidence(name, result.skeleton, evidence);
+    result.trust.wire_length = KeepProven(evidence, ProveWires(result.skeleton, evidence),
+                                          min_probability, result.skeleton, result.uncertain);
+  }
+  run.funnel.curves.unproven = result.uncertain.lengths;
+  run.log.Count("evidence", "uncertain, m", result.uncertain.lengths.Sum());
+  if (result.uncertain.lengths.Sum() > uncertain) AssignMeasuredRadii(run, result);
 }
 
 void ReportAdjustment(const ColourAdjustment& adjusted, StageLog& log) {
@@ -176,7 +191,9 @@ RadiusEstimate MeasureRadii(const SkeletonGraph& skeleton, const Sequence& seque
 
 void RefineByColour(const Sequence& given, RunContext& run, Reconstruction& result) {
   AssignMeasuredRadii(run, result);
-  DropThick(run, result);  // nothing is to be added to them
+  // Nothing is to be added to what is hardly a wire.
+  KeepProvenWires("evidence_before_colour", kHardlyAWire * run.options.evidence.min_probability,
+                  run, result);
   AddMissedWires(run, result);
   if (const auto adjusted = AdjustCurvesAndPoses(given, run, result)) {
     CorrectBySilhouettes(*adjusted, run, result);
@@ -185,7 +202,7 @@ void RefineByColour(const Sequence& given, RunContext& run, Reconstruction& resu
     PruneUnadjusted(run, result);
   }
   AssignMeasuredRadii(run, result);
-  DropThick(run, result);
+  KeepProvenWires("evidence", run.options.evidence.min_probability, run, result);
   LookForEvidence(run, result);
 }
 

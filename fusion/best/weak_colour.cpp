@@ -24,7 +24,6 @@ std::string SwitchOffUselessColour(const Sequence& sequence, BestOptions& option
   const ColourSurvey survey = SurveyColour(sequence, kSurveyFrames);
   if (survey.IsFeatureless()) {
     SwitchOffColour(options);
-    options.radius.drop_unmeasured = false;
     return "the colour images show nothing; depth alone was used: no diameters, and more false "
            "curves than with colour";
   }
@@ -32,9 +31,7 @@ std::string SwitchOffUselessColour(const Sequence& sequence, BestOptions& option
   // the silhouettes, which a grey wire before grey things does not have, and .94 without.
   if (survey.IsGrey()) {
     options.silhouettes.max_frames = 0;
-    options.radius.drop_unmeasured = false;
-    return "the colour images are grey; curves were kept also where they show no wire and no "
-           "diameter could be measured";
+    return "the colour images are grey; curves were kept also where they show no wire";
   }
   return {};
 }

@@ -99,6 +99,10 @@ void VisitOptions(ViewEvidenceOptions& options, OptionVisitor& visitor) {
                  "A depth this near to the wire is one of it: drift and noise of far wires "
                  "together."},
                 options.tolerance);
+  visitor.Visit({"min_probability", "", 0, 0.99,
+                 "Curves that are wires with less than this probability, by all that depth and "
+                 "colour images show of them, go to uncertain.json; 0 = none do."},
+                options.min_probability);
 }
 
 }  // namespace curvefusion

@@ -12,6 +12,7 @@ namespace curvefusion {
 struct ViewEvidenceOptions {
   int max_frames = 60;
   double tolerance = 0.02;
+  double min_probability = 0.3;
 };
 void VisitOptions(ViewEvidenceOptions& options, OptionVisitor& visitor);
 

@@ -11,7 +11,6 @@
 #include "fusion/strips/strip_widths.h"
 #include "fusion/strips/wire_chains.h"
 #include "fusion/strips/wire_gauges.h"
-#include "graph/connected_parts.h"
 #include "kernel/polyline.h"
 #include "kernel/quantile.h"
 
@@ -262,30 +261,6 @@ void AssignRadii(const RadiusEstimate& estimate, const RadiusOptions& options,
   }
 }
 
-DroppedParts DropThickParts(const RadiusOptions& options, SkeletonGraph& skeleton) {
-  DroppedParts dropped;
-  if (options.max_mean_diameter == 0) return dropped;
-  for (const std::vector<EdgeId>& part : ConnectedEdges(skeleton)) {
-    double length = 0;
-    double diameters = 0;  // times length
-    for (const EdgeId id : part) {
-      const SkeletonEdge& edge = skeleton.edge(id);
-      if (edge.radii.empty()) continue;
-      const double edge_length = Length(edge.points);
-      length += edge_length;
-      diameters += 2 * Median(edge.radii) * edge_length;
-    }
-    if (length > 0 && diameters <= options.max_mean_diameter * length) continue;
-    if (length == 0 && !options.drop_unmeasured) continue;
-    for (const EdgeId id : part) {
-      (length > 0 ? dropped.thick : dropped.without_radii) += Length(skeleton.edge(id).points);
-      skeleton.RemoveEdge(id);
-    }
-  }
-  skeleton.RemoveIsolatedNodes();
-  return dropped;
-}
-
 void VisitOptions(RadiusOptions& options, OptionVisitor& visitor) {
   visitor.Visit(
       {"sample_step", "m", 0.0005, 0.1,
@@ -325,14 +300,6 @@ void VisitOptions(RadiusOptions& options, OptionVisitor& visitor) {
   visitor.Visit({"max_diameter", "m", 0.001, 0.2,
                  "Wider strips are no wires. CurveFusion 4 shows wires up to 12 mm."},
                 options.max_diameter);
-  visitor.Visit({"max_mean_diameter", "m", 0, 0.2,
-                 "Deviation: parts of the result that are thicker on average are no thin structure "
-                 "and are dropped; 0 = kept. CurveFusion 4 shows wires up to 12 mm."},
-                options.max_mean_diameter);
-  visitor.Visit({"drop_unmeasured", "", 0, 1,
-                 "Deviation: parts of which no diameter can be measured are dropped, too; off "
-                 "where colour images are found to be grey or to show nothing."},
-                options.drop_unmeasured);
   visitor.Visit(
       {"luma_blur_px", "px", 0.1, 5,
        "Blur of luma in the strip model, standard deviation. Measured on simulated scans."},

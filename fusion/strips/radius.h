@@ -21,8 +21,6 @@ struct RadiusOptions {
   double gauge_strips = 100;
   double search_px = 10;
   double max_diameter = 0.025;
-  double max_mean_diameter = 0;
-  bool drop_unmeasured = true;
   double luma_blur_px = 0.95;
   double chroma_blur_px = 1.4;
   double min_contrast = 15;
@@ -84,15 +82,5 @@ RadiusEstimate EstimateRadius(const SkeletonGraph& skeleton, const Sequence& seq
 /// Does nothing where nothing was measured at all (estimate.global_radius == 0).
 void AssignRadii(const RadiusEstimate& estimate, const RadiusOptions& options,
                  SkeletonGraph& skeleton);
-
-/// Removes connected parts that are on average thicker than options.max_mean_diameter: no thin
-/// structures but strips of larger surfaces that only some views show. With
-/// options.drop_unmeasured parts without radii are removed too: where the images show no strip at
-/// all there is no wire. AssignRadii comes before. Returns what was removed.
-struct DroppedParts {
-  double thick = 0;          ///< metres
-  double without_radii = 0;  ///< metres
-};
-DroppedParts DropThickParts(const RadiusOptions& options, SkeletonGraph& skeleton);
 
 }  // namespace curvefusion

@@ -45,20 +45,20 @@ class Preview : public testing::Test {
 };
 
 TEST_F(Preview, ShowsTheCurveInItsColour) {
-  const ColorImage preview = DrawPreview(Upright(), {}, sequence_, "one curve");
+  const ColorImage preview = DrawPreview(Upright(), {}, {}, sequence_, "one curve");
   // Front and side show 200 mm of it over hundreds of pixels, each line several pixels wide.
   EXPECT_GT(CountOf(preview, EdgeColor(0)), 500);
   EXPECT_GT(CountOf(preview, kWhite), static_cast<int>(preview.size() / 3));
 }
 
 TEST_F(Preview, IsTheSameEveryTime) {
-  const ColorImage a = DrawPreview(Upright(), {}, sequence_, "one curve");
-  const ColorImage b = DrawPreview(Upright(), {}, sequence_, "one curve");
+  const ColorImage a = DrawPreview(Upright(), {}, {}, sequence_, "one curve");
+  const ColorImage b = DrawPreview(Upright(), {}, {}, sequence_, "one curve");
   EXPECT_TRUE(std::equal(a.data(), a.data() + a.size(), b.data()));
 }
 
 TEST_F(Preview, IsWrittenAsAPicture) {
-  WritePng(Folder() / "preview.png", DrawPreview(Upright(), {}, sequence_, "one curve"));
+  WritePng(Folder() / "preview.png", DrawPreview(Upright(), {}, {}, sequence_, "one curve"));
   EXPECT_GT(fs::file_size(Folder() / "preview.png"), 1000u);
 }
 

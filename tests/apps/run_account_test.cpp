@@ -45,9 +45,20 @@ TEST(WhyNothing, FollowsTheRunFromItsBeginning) {
   funnel.points.gated_pixels = funnel.points.merged_points = funnel.points.points = 50;
   EXPECT_THAT(WhyNothing(funnel), HasSubstr("along no curve"));
   funnel.curves.contracted = 2;
-  funnel.curves.thick = 1.5;
+  funnel.curves.unproven.thick = 1.5;
   funnel.curves.looked_past = 0.5;
   EXPECT_THAT(WhyNothing(funnel), HasSubstr("1.50 of 2.00 m of curve were thicker"));
+}
+
+TEST(RunAccount, TheTerminalIsToldWhatWasLeftOut) {
+  UnprovenLengths lengths;
+  EXPECT_EQ(UncertainLine(lengths), "");
+  lengths.surface = 6.04;
+  lengths.thick = 1.74;
+  lengths.unproven = 0.001;  // too little to be shown
+  EXPECT_EQ(UncertainLine(lengths),
+            "  left out  7.78 m that are no proven wires: 6.04 m edges of surfaces, 1.74 m too "
+            "thick\n");
 }
 
 TEST(RunAccount, JsonHoldsEveryRule) {
@@ -56,12 +67,15 @@ TEST(RunAccount, JsonHoldsEveryRule) {
   EXPECT_EQ(funnel["dropped_points"]["colour_unverified"], 34'017);
   EXPECT_EQ(funnel["dropped_points"]["too_few_frames"], 40);
   EXPECT_EQ(funnel["dropped_length"]["thick"], 0);
+  EXPECT_EQ(funnel["dropped_length"]["surface_edge"], 0);
   Trust trust;
   trust.length = 3;
   trust.measured_share = 0.25;
+  trust.wire_length = 1.5;
   trust.pose_shift = 0.002;
   const auto json = TrustJson(trust);
   EXPECT_EQ(json["measured_diameter_share"], 0.25);
+  EXPECT_EQ(json["wire_share"], 0.5);
   EXPECT_DOUBLE_EQ(json["pose_shift_mm"], 2);
   EXPECT_TRUE(json["residual_px"].is_null());
   EXPECT_EQ(json["doubts"].size(), 1u);

@@ -61,13 +61,13 @@ TEST(Trust, TellsHowFarPosesWereMoved) {
   EXPECT_NEAR(trust.pose_turn, 0.01, 1e-9);
 }
 
-TEST(Trust, IsDoubtedWhereHardlyAnyDiameterWasMeasured) {
+TEST(Trust, IsDoubtedWhereMuchIsHardlyAWire) {
   TwoEdges two;
   Trust trust = two.Measure();
-  trust.measured_share = 0.17;
+  trust.wire_length = 0.1;  // of 0.2 m
   ASSERT_EQ(Doubts(trust).size(), 1u);
-  EXPECT_NE(Doubts(trust)[0].find("17 %"), std::string::npos);
-  trust.measured_share = 0.9;
+  EXPECT_NE(Doubts(trust)[0].find("about 50 %"), std::string::npos);
+  trust.wire_length = 0.18;
   EXPECT_TRUE(Doubts(trust).empty());
   EXPECT_TRUE(Doubts(Trust()).empty());  // no result: nothing to doubt
 }

@@ -49,14 +49,14 @@ TEST_F(WeakColour, OfColouredImagesIsNone) {
       Images([](int u, int) { return cv::Vec3b(Stripes(u), 100, Stripes(u)); });
   EXPECT_EQ(SwitchOffUselessColour(sequence, options_), "");
   EXPECT_TRUE(options_.colour_adjustment.enabled);
-  EXPECT_TRUE(options_.radius.drop_unmeasured);
+  EXPECT_GT(options_.silhouettes.max_frames, 0);
 }
 
 TEST_F(WeakColour, OfGreyImagesStillHasEdges) {
   const Sequence sequence =
       Images([](int u, int) { return cv::Vec3b(Stripes(u), Stripes(u), Stripes(u)); });
   EXPECT_THAT(SwitchOffUselessColour(sequence, options_), HasSubstr("grey"));
-  EXPECT_FALSE(options_.radius.drop_unmeasured);
+  EXPECT_EQ(options_.silhouettes.max_frames, 0);
   EXPECT_GT(options_.segmentation.ghosts.verified_share, 0);
 }
 

@@ -255,44 +255,5 @@ TEST(RadiusSharedData, Cubeframe) {
   }
 }
 
-TEST(DropThickParts, DropsWhatNoStripWasFoundOf) {
-  RadiusOptions options;
-  options.max_mean_diameter = 0.016;
-  SkeletonGraph skeleton;
-  skeleton.AddPolyline({{0, 0, 0}, {0.1, 0, 0}});
-  options.drop_unmeasured = false;  // the images cannot tell
-  DropThickParts(options, skeleton);
-  EXPECT_EQ(skeleton.edge_count(), 1);
-  options.drop_unmeasured = true;
-  const DroppedParts dropped = DropThickParts(options, skeleton);
-  EXPECT_TRUE(skeleton.empty());
-  EXPECT_DOUBLE_EQ(dropped.without_radii, 0.1);
-  EXPECT_EQ(dropped.thick, 0);
-}
-
-TEST(DropThickParts, KeepsThickWiresOfThinObjects) {
-  SkeletonGraph skeleton;
-  std::vector<NodeId> nodes;
-  for (const Vec3& p :
-       {Vec3(0, 0, 0), Vec3(0.1, 0, 0), Vec3(0.4, 0, 0), Vec3(0, 1, 0), Vec3(0.1, 1, 0)}) {
-    nodes.push_back(skeleton.AddNode(p));
-  }
-  const auto add = [&](int from, int to, double radius) {
-    const std::array<NodeId, 2> ends = {nodes[from], nodes[to]};
-    return skeleton.AddEdge(
-        {ends, {skeleton.position(ends[0]), skeleton.position(ends[1])}, {radius, radius}, {}});
-  };
-  const EdgeId thick = add(0, 1, 0.01);
-  const EdgeId thin = add(1, 2, 0.002);
-  add(3, 4, 0.01);
-  RadiusOptions options;
-  DropThickParts(options, skeleton);
-  EXPECT_EQ(skeleton.edge_count(), 3);  // 0: any thickness
-  options.max_mean_diameter = 0.016;
-  const DroppedParts dropped = DropThickParts(options, skeleton);
-  EXPECT_EQ(skeleton.Edges(), (std::vector<EdgeId>{thick, thin}));  // 8 mm on average
-  EXPECT_NEAR(dropped.thick, 0.1, 1e-15);                           // the third, rounded
-}
-
 }  // namespace
 }  // namespace curvefusion

@@ -1,0 +1,174 @@
+#!/usr/bin/env python3
+"""Fits the coefficients of fusion/curve_graph/wire_proof.cpp and prints how reliable they are.
+
+fit_wire_proof.py STAGES:TRUTH ... [--validation STAGES:TRUTH ...]
+
+STAGES is a folder of `reconstruct --save-stages` (evidence.csv in it), TRUTH the curves.json of the scan, or
+`none` where the scan shows no wire, or `all` where every curve is one. Needs numpy and scipy.
+"""
+import csv
+import json
+import os
+import sys
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+NEAR = 0.008       # metres: a stretch is true where it lies so near to a true curve
+UNCLEAR = (0.006, 0.012)  # metres: stretches so far away teach nothing
+NEIGHBOURHOOD = 0.25      # metres, as in wire_proof.cpp
+LEAST = 0.03
+
+
+def true_points(path):
+    points = [np.zeros((0, 3))]
+    for curve in json.load(open(path)):
+        p = np.array(curve["points"], float)
+        if curve.get("closed"):
+            p = np.vstack([p, p[:1]])
+        for a, b in zip(p[:-1], p[1:]):
+            count = max(1, int(np.linalg.norm(b - a) / 0.001))
+            points.append(a + (b - a) * ((np.arange(count) + 0.5) / count)[:, None])
+    return np.concatenate(points)
+
+
+def aligned(points, truth):
+    """Points after a rigid motion to the truth: trimmed iterative closest points."""
+    R, t, tree = np.eye(3), np.zeros(3), cKDTree(truth)
+    for threshold in np.repeat([0.03, 0.02, 0.012, 0.008], 6):
+        distance, index = tree.query(points @ R.T + t)
+        near = distance < threshold
+        if near.sum() < 6:
+            break
+        a, b = points[near], truth[index[near]]
+        U, _, V = np.linalg.svd((a - a.mean(0)).T @ (b - b.mean(0)))
+        R = V.T @ np.diag([1, 1, np.sign(np.linalg.det(V.T @ U.T))]) @ U.T
+        t = b.mean(0) - R @ a.mean(0)
+    return points @ R.T + t
+
+
+def parts(table):
+    """A number for every stretch: edges that meet in a point have the same."""
+    parent, node, first, last = {}, {}, {}, {}
+
+    def root(e):
+        while parent[e] != e:
+            e = parent[e]
+        return e
+
+    for i, e in enumerate(table["edge"]):
+        parent.setdefault(e, e)
+        first.setdefault(e, i)
+        last[e] = i
+    for e in parent:
+        for end, i in (("0", first[e]), ("2", last[e])):
+            place = tuple(table[axis + end][i] for axis in "xyz")
+            if place in node:
+                parent[root(e)] = root(node[place])
+            node[place] = e
+    return np.array([root(e) for e in table["edge"]])
+
+
+def read(argument):
+    stages, truth = argument.rsplit(":", 1)
+    rows = list(csv.DictReader(open(os.path.join(stages, "evidence.csv"))))
+    if not rows:
+        return None
+    table = {key: np.array([float(row[key]) for row in rows]) for key in rows[0]}
+    places = np.stack([np.stack([table[a + i] for a in "xyz"], 1) for i in "012"], 1)
+    distance = np.full((len(rows), 3), np.inf)
+    if truth == "all":
+        distance[:] = 0
+    elif truth != "none":
+        points = true_points(truth)
+        distance = cKDTree(points).query(aligned(places.reshape(-1, 3), points))[0].reshape(-1, 3)
+    table["distance"] = np.median(distance, 1)
+    table["true"] = (table["distance"] < NEAR).astype(float)
+    table["part"] = parts(table)
+    return table
+
+
+def terms(t):
+    """As OwnTerms in wire_proof.cpp."""
+    w = t["images"] / (t["images"] + 5)
+    return np.column_stack([
+        w * np.log((t["same"] + LEAST) / LEAST), w * t["open"],
+        w * np.clip((t["width"] - 0.012) / 0.010, 0, 1.5), w * t["past"],
+        w * np.clip((t["past"] - 0.6) / 0.4, 0, 1), t["coverage"],
+        np.clip((t["diameter"] - 0.012) / 0.006, 0, 1.5)])
+
+
+TERMS = ["kSame", "kOpen", "kWide", "kPast", "kMostlyPast", "kCovered", "kThick"]
+
+
+def around(own, table):
+    middles = np.column_stack([table[axis + "1"] for axis in "xyz"])
+    length, clipped, result = table["length"], np.clip(own, -4, 4), np.zeros(len(own))
+    for i, near in enumerate(cKDTree(middles).query_ball_point(middles, NEIGHBOURHOOD)):
+        near = [j for j in near if j != i and table["part"][j] == table["part"][i]]
+        result[i] = (clipped[near] * length[near]).sum() / (length[near].sum() + 0.04)
+    return result
+
+
+def weights(tables):
+    """Of every scan at most 2 m of true and of false curve count; both kinds weigh the same."""
+    result = []
+    for table in tables:
+        w = table["length"].copy()
+        for label in (0, 1):
+            of = table["true"] == label
+            w[of] *= min(1, 2 / max(1e-9, table["length"][of].sum()))
+        w[(table["distance"] > UNCLEAR[0]) & (table["distance"] < UNCLEAR[1])] = 0
+        result.append(w)
+    w, y = np.concatenate(result), np.concatenate([t["true"] for t in tables])
+    for label in (0, 1):
+        w[y == label] /= max(1e-9, w[y == label].sum())
+    return w * 4 * len(tables)
+
+
+def logistic(X, y, w, ridge=0.3):
+    X = np.column_stack([np.ones(len(X)), X])
+    b, penalty = np.zeros(X.shape[1]), ridge * np.r_[0, np.ones(X.shape[1] - 1)]
+    for _ in range(50):
+        p = 1 / (1 + np.exp(-np.clip(X @ b, -30, 30)))
+        H = (X * (w * p * (1 - p))[:, None]).T @ X + np.diag(penalty + 1e-9)
+        b -= np.linalg.solve(H, X.T @ (w * (p - y)) + penalty * b)
+    return b
+
+
+def print_reliability(p, y, w):
+    print("said        metres  mean said  true")
+    for low, high in ((0, .05), (.05, .15), (.15, .3), (.3, .5), (.5, .7), (.7, .85), (.85, .95), (.95, 1.01)):
+        of = (p >= low) & (p < high) & (w > 0)
+        if of.any():
+            print(f"{low:.2f}-{min(high, 1):.2f}  {w[of].sum():7.2f}  {np.average(p[of], weights=w[of]):9.3f}"
+                  f"  {np.average(y[of], weights=w[of]):.3f}")
+
+
+def probability(tables, b, c):
+    result = []
+    for table in tables:
+        own = b[0] + terms(table) @ b[1:]
+        result.append(c[0] + c[1] * own + c[2] * around(own, table))
+    return 1 / (1 + np.exp(-np.concatenate(result)))
+
+
+def main(arguments):
+    split = arguments.index("--validation") if "--validation" in arguments else len(arguments)
+    train = [t for t in map(read, arguments[:split]) if t is not None]
+    held_out = [t for t in map(read, arguments[split + 1:]) if t is not None]
+    w, y = weights(train), np.concatenate([t["true"] for t in train])
+    b = logistic(np.concatenate([terms(t) for t in train]), y, w)
+    own = [b[0] + terms(t) @ b[1:] for t in train]
+    c = logistic(np.column_stack([np.concatenate(own),
+                                  np.concatenate([around(o, t) for o, t in zip(own, train)])]), y, w)
+    print("kBias", round(b[0], 2), *(f"{n} {v:.2f}" for n, v in zip(TERMS, b[1:])))
+    print(f"kAroundBias {c[0]:.2f} kOwn {c[1]:.2f} kAround {c[2]:.2f}")
+    for name, tables in (("training", train), ("validation", held_out)):
+        if tables:
+            print(name)
+            print_reliability(probability(tables, b, c), np.concatenate([t["true"] for t in tables]), weights(tables))
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

@@ -1,0 +1,201 @@
+#include "fusion/curve_graph/selection.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "graph/connected_parts.h"
+#include "graph/edge_parts.h"
+
+namespace curvefusion {
+
+namespace {
+
+constexpr double kMaxScore = 4;    // of one stretch: no more of it is calibrated
+constexpr double kChangeCost = 2;  // chosen: a change along an edge needs a stretch of 88 %
+constexpr double kPartCost = 1;    // chosen: a part of its own needs a stretch of 53 %
+
+// Stretches [first, last) of an edge.
+struct Run {
+  size_t first = 0, last = 0;
+  bool is_kept = false;
+};
+
+// The labels of most score less changes (Viterbi).
+std::vector<bool> BestLabels(const std::vector<double>& scores) {
+  std::vector<std::array<int, 2>> from;
+  std::array<double, 2> best = {0, 0};  // score of no wire, wire
+  for (const double score : scores) {
+    std::array<double, 2> next;
+    std::array<int, 2> came;
+    for (int label = 0; label < 2; ++label) {
+      const bool changes = best[1 - label] - kChangeCost > best[label];
+      came[label] = changes ? 1 - label : label;
+      next[label] = best[came[label]] - (changes ? kChangeCost : 0) + (label == 1 ? score : 0);
+    }
+    best = next;
+    from.push_back(came);
+  }
+  int label = best[1] >= best[0] ? 1 : 0;
+  std::vector<bool> labels(scores.size());
+  for (size_t i = scores.size(); i-- > 0; label = from[i][label]) labels[i] = label == 1;
+  return labels;
+}
+
+std::vector<Run> RunsOf(const std::vector<bool>& labels) {
+  std::vector<Run> runs;
+  for (size_t i = 0; i < labels.size(); ++i) {
+    if (runs.empty() || runs.back().is_kept != labels[i]) runs.push_back({i, i, labels[i]});
+    runs.back().last = i + 1;
+  }
+  return runs;
+}
+
+void AddLength(const StretchEvidence& stretch, Doubt doubt, UnprovenLengths& lengths) {
+  switch (doubt) {
+    case Doubt::kSurface:
+      lengths.surface += stretch.length;
+      break;
+    case Doubt::kThick:
+      lengths.thick += stretch.length;
+      break;
+    case Doubt::kLookedPast:
+      lengths.looked_past += stretch.length;
+      break;
+    case Doubt::kUnproven:
+      lengths.unproven += stretch.length;
+      break;
+  }
+}
+
+class Selector {
+ public:
+  Selector(const std::vector<StretchEvidence>& evidence, const std::vector<WireProof>& proofs,
+           double min_probability)
+      : evidence_(evidence), proofs_(proofs), kept_(evidence.size(), true) {
+    threshold_ = std::log(min_probability / (1 - min_probability));
+    for (size_t i = 0; i < evidence.size(); ++i) stretches_of_[evidence[i].edge].push_back(i);
+  }
+
+  void DecideAlongEdges() {
+    for (const auto& [edge, stretches] : stretches_of_) {
+      std::vector<double> scores;
+      for (const size_t i : stretches) scores.push_back(Score(i));
+      const std::vector<bool> labels = BestLabels(scores);
+      for (size_t k = 0; k < stretches.size(); ++k) kept_[stretches[k]] = labels[k];
+    }
+  }
+
+  // Cuts the edges; what is kept is known by the edges it lies on then.
+  void Cut(SkeletonGraph& skeleton, UncertainCurves& uncertain) {
+    std::map<EdgeId, std::vector<size_t>> stretches_after_cut;
+    for (const auto& [id, stretches] : stretches_of_) {
+      std::vector<bool> labels;
+      for (const size_t i : stretches) labels.push_back(kept_[i]);
+      const std::vector<Run> runs = RunsOf(labels);
+      if (runs.size() == 1 && runs[0].is_kept) {
+        stretches_after_cut[id] = stretches;
+      } else {
+        CutEdge(id, stretches, runs, skeleton, uncertain, stretches_after_cut);
+      }
+    }
+    stretches_of_ = std::move(stretches_after_cut);
+    skeleton.RemoveIsolatedNodes();
+  }
+
+  // Metres of what is left that are wire, as far as the proofs can be believed.
+  double ExpectedWire() const {
+    double length = 0;
+    for (const auto& [edge, stretches] : stretches_of_) {
+      for (const size_t i : stretches) {
+        length += Probability(proofs_[i].log_odds) * evidence_[i].length;
+      }
+    }
+    return length;
+  }
+
+  // Parts that are too little to be told.
+  void DropSmallParts(SkeletonGraph& skeleton, UncertainCurves& uncertain) {
+    for (const std::vector<EdgeId>& part : ConnectedEdges(skeleton)) {
+      double score = 0;
+      for (const EdgeId id : part) {
+        for (const size_t i : stretches_of_.at(id)) score += Score(i);
+      }
+      if (score >= kPartCost) continue;
+      for (const EdgeId id : part) {
+        MoveOut(skeleton.TakeEdge(id), stretches_of_.at(id), uncertain);
+        stretches_of_.erase(id);
+      }
+    }
+    skeleton.RemoveIsolatedNodes();
+  }
+
+ private:
+  double Score(size_t i) const {
+    return std::clamp(proofs_[i].log_odds - threshold_, -kMaxScore, kMaxScore);
+  }
+
+  void MoveOut(SkeletonEdge edge, const std::vector<size_t>& stretches,
+               UncertainCurves& uncertain) const {
+    for (const size_t i : stretches) {
+      AddLength(evidence_[i], proofs_[i].doubt, uncertain.lengths);
+    }
+    const bool is_closed = edge.points.front() == edge.points.back();
+    edge.nodes[0] = uncertain.graph.AddNode(edge.points.front());
+    edge.nodes[1] = is_closed ? edge.nodes[0] : uncertain.graph.AddNode(edge.points.back());
+    uncertain.graph.AddEdge(std::move(edge));
+  }
+
+  void CutEdge(EdgeId id, const std::vector<size_t>& stretches, const std::vector<Run>& runs,
+               SkeletonGraph& skeleton, UncertainCurves& uncertain,
+               std::map<EdgeId, std::vector<size_t>>& stretches_after_cut) {
+    const SkeletonEdge edge = skeleton.TakeEdge(id);
+    for (const Run& run : runs) {
+      const std::vector<size_t> of_run(stretches.begin() + static_cast<std::ptrdiff_t>(run.first),
+                                       stretches.begin() + static_cast<std::ptrdiff_t>(run.last));
+      const size_t first = evidence_[of_run.front()].part.first;
+      const size_t last = evidence_[of_run.back()].part.last;
+      if (!run.is_kept) {
+        MoveOut(PartOf(edge, first, last, {}), of_run, uncertain);
+        continue;
+      }
+      const NodeId front = first == 0 ? edge.nodes[0] : skeleton.AddNode(edge.points[first]);
+      const NodeId back =
+          last + 1 == edge.points.size() ? edge.nodes[1] : skeleton.AddNode(edge.points[last]);
+      const EdgeId kept = skeleton.AddEdge(PartOf(edge, first, last, {front, back}));
+      stretches_after_cut[kept] = of_run;
+    }
+  }
+
+  const std::vector<StretchEvidence>& evidence_;
+  const std::vector<WireProof>& proofs_;
+  double threshold_ = 0;
+  std::vector<bool> kept_;
+  std::map<EdgeId, std::vector<size_t>> stretches_of_;  // of the edges that are left
+};
+
+}  // namespace
+
+void UnprovenLengths::Add(const UnprovenLengths& other) {
+  surface += other.surface;
+  thick += other.thick;
+  looked_past += other.looked_past;
+  unproven += other.unproven;
+}
+
+double KeepProven(const std::vector<StretchEvidence>& evidence,
+                  const std::vector<WireProof>& proofs, double min_probability,
+                  SkeletonGraph& skeleton, UncertainCurves& uncertain) {
+  Selector selector(evidence, proofs, min_probability);
+  if (min_probability > 0) {
+    selector.DecideAlongEdges();
+    selector.Cut(skeleton, uncertain);
+    selector.DropSmallParts(skeleton, uncertain);
+    skeleton.DissolveDegree2Nodes();
+  }
+  return selector.ExpectedWire();
+}
+
+}  // namespace curvefusion

@@ -1,0 +1,105 @@
+#include "fusion/curve_graph/wire_proof.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "graph/connected_parts.h"
+#include "kernel/spatial_search.h"
+
+namespace curvefusion {
+
+namespace {
+
+// Measured: logistic regression over the stretches of training scans and real rooms
+// (docs/proof.md#coefficients). First a stretch by itself,
+constexpr double kBias = 0.59;
+constexpr double kSame = -1.71;
+constexpr double kOpen = 1.68;
+constexpr double kWide = -2.44;
+constexpr double kPast = -1.97;
+constexpr double kMostlyPast = -2.98;
+constexpr double kCovered = 3.29;
+constexpr double kThick = -3.0;
+// then with those around it.
+constexpr double kAroundBias = -1.17;
+constexpr double kOwn = 0.34;
+constexpr double kAround = 1.8;
+
+constexpr double kFewImages = 5;       // chosen: so many images count as much as knowing nothing
+constexpr double kSameFloor = 0.03;    // chosen: so much of a wire's surroundings goes on by chance
+constexpr double kWidestWire = 0.012;  // metres, CurveFusion 4
+constexpr double kNeighbourhood = 0.25;  // metres
+constexpr double kMaxLogOdds = 4;        // of one stretch for those around it
+constexpr double kOwnWeight = 0.04;      // metres: of the neighbours' mean, drawn to zero
+
+// The terms of a stretch's own log-odds.
+struct Terms {
+  double surface = 0, thick = 0, past = 0, rest = 0;
+  double Sum() const { return surface + thick + past + rest; }
+};
+
+Terms OwnTerms(const StretchEvidence& e) {
+  const double w = e.images / (e.images + kFewImages);
+  const double wide = std::clamp((e.width - kWidestWire) / 0.010, 0.0, 1.5);
+  const double thick = std::clamp((e.diameter - kWidestWire) / 0.006, 0.0, 1.5);
+  Terms terms;
+  terms.surface = w * kSame * std::log((e.same + kSameFloor) / kSameFloor);
+  terms.thick = w * kWide * wide + kThick * thick;
+  terms.past = w * (kPast * e.past + kMostlyPast * std::clamp((e.past - 0.6) / 0.4, 0.0, 1.0));
+  terms.rest = kBias + w * kOpen * e.open + kCovered * e.coverage;
+  return terms;
+}
+
+Doubt LargestDoubt(const Terms& terms) {
+  constexpr double kClear = -1;  // less may be a wire's
+  const double least = std::min({terms.surface, terms.thick, terms.past});
+  if (least > kClear) return Doubt::kUnproven;
+  if (least == terms.surface) return Doubt::kSurface;
+  return least == terms.thick ? Doubt::kThick : Doubt::kLookedPast;
+}
+
+std::map<EdgeId, int> PartOfEdges(const SkeletonGraph& skeleton) {
+  std::map<EdgeId, int> part_of;
+  int part = 0;
+  for (const std::vector<EdgeId>& edges : ConnectedEdges(skeleton)) {
+    for (const EdgeId id : edges) part_of[id] = part;
+    ++part;
+  }
+  return part_of;
+}
+
+}  // namespace
+
+double Probability(double log_odds) { return 1 / (1 + std::exp(-log_odds)); }
+
+std::vector<WireProof> ProveWires(const SkeletonGraph& skeleton,
+                                  const std::vector<StretchEvidence>& evidence) {
+  std::vector<WireProof> proofs;
+  std::vector<double> own;
+  std::vector<Vec3> middles;
+  for (const StretchEvidence& stretch : evidence) {
+    const Terms terms = OwnTerms(stretch);
+    proofs.push_back({0, LargestDoubt(terms)});
+    own.push_back(terms.Sum());
+    middles.push_back(stretch.middle);
+  }
+  const std::map<EdgeId, int> part_of = PartOfEdges(skeleton);
+  const PointIndex index(middles);
+  std::vector<int> near;
+  for (size_t i = 0; i < evidence.size(); ++i) {
+    index.WithinRadius(middles[i], kNeighbourhood, near);
+    double sum = 0, length = kOwnWeight;
+    for (const int j : near) {
+      const bool is_other = static_cast<size_t>(j) != i;
+      if (!is_other || part_of.at(evidence[j].edge) != part_of.at(evidence[i].edge)) continue;
+      sum += evidence[j].length * std::clamp(own[j], -kMaxLogOdds, kMaxLogOdds);
+      length += evidence[j].length;
+    }
+    proofs[i].log_odds = kAroundBias + kOwn * own[i] + kAround * sum / length;
+  }
+  return proofs;
+}
+
+}  // namespace curvefusion

@@ -1,0 +1,97 @@
+#include "fusion/curve_graph/selection.h"
+
+#include <gtest/gtest.h>
+
+#include "kernel/polyline.h"
+
+namespace curvefusion {
+namespace {
+
+constexpr double kStep = 0.04;
+
+// An edge along x of as many stretches as log-odds, and what is known of them.
+struct Edge {
+  SkeletonGraph skeleton;
+  std::vector<StretchEvidence> evidence;
+  std::vector<WireProof> proofs;
+  UncertainCurves uncertain;
+
+  explicit Edge(const std::vector<double>& log_odds, Doubt doubt = Doubt::kSurface) {
+    Polyline points = {Vec3::Zero()};
+    for (size_t i = 0; i < log_odds.size(); ++i) {
+      points.emplace_back(kStep * static_cast<double>(i + 1), 0, 0);
+    }
+    const EdgeId id = skeleton.AddPolyline(points);
+    for (size_t i = 0; i < log_odds.size(); ++i) {
+      StretchEvidence stretch;
+      stretch.edge = id;
+      stretch.part = {i, i + 1};
+      stretch.length = kStep;
+      evidence.push_back(stretch);
+      proofs.push_back({log_odds[i], doubt});
+    }
+  }
+  double Keep(double min_probability = 0.5) {
+    return KeepProven(evidence, proofs, min_probability, skeleton, uncertain);
+  }
+};
+
+TEST(KeepProven, CutsOffAnEndThatIsNoWire) {
+  Edge edge({3, 3, 3, 3, -3, -3});
+  const double wire = edge.Keep();
+  EXPECT_NEAR(wire, 4 * kStep * Probability(3), 1e-12);
+  EXPECT_NEAR(edge.skeleton.TotalLength(), 4 * kStep, 1e-12);
+  EXPECT_NEAR(edge.uncertain.graph.TotalLength(), 2 * kStep, 1e-12);
+  EXPECT_NEAR(edge.uncertain.lengths.surface, 2 * kStep, 1e-12);
+  EXPECT_EQ(edge.skeleton.edge_count(), 1);
+  EXPECT_EQ(edge.skeleton.node_count(), 2);
+}
+
+TEST(KeepProven, AShortDoubtInsideAWireStays) {
+  Edge edge({3, 3, -1.5, 3, 3});
+  edge.Keep();
+  EXPECT_NEAR(edge.skeleton.TotalLength(), 5 * kStep, 1e-12);
+  EXPECT_TRUE(edge.uncertain.graph.empty());
+}
+
+TEST(KeepProven, ALongDoubtInsideAWireIsCutOut) {
+  Edge edge({3, 3, -3, -3, -3, 3, 3});
+  edge.Keep();
+  EXPECT_EQ(edge.skeleton.edge_count(), 2);
+  EXPECT_NEAR(edge.skeleton.TotalLength(), 4 * kStep, 1e-12);
+  EXPECT_NEAR(edge.uncertain.graph.TotalLength(), 3 * kStep, 1e-12);
+}
+
+TEST(KeepProven, AShortPieceOfItsOwnIsNoProof) {
+  Edge edge({0.5});
+  edge.Keep();
+  EXPECT_TRUE(edge.skeleton.empty());
+  EXPECT_EQ(edge.skeleton.node_count(), 0);
+  EXPECT_NEAR(edge.uncertain.graph.TotalLength(), kStep, 1e-12);
+}
+
+TEST(KeepProven, CountsByWhatSpeaksAgainstIt) {
+  Edge thick({-3}, Doubt::kThick), past({-3}, Doubt::kLookedPast), unknown({-3}, Doubt::kUnproven);
+  thick.Keep();
+  past.Keep();
+  unknown.Keep();
+  EXPECT_NEAR(thick.uncertain.lengths.thick, kStep, 1e-12);
+  EXPECT_NEAR(past.uncertain.lengths.looked_past, kStep, 1e-12);
+  EXPECT_NEAR(unknown.uncertain.lengths.unproven, kStep, 1e-12);
+  EXPECT_NEAR(unknown.uncertain.lengths.Sum(), kStep, 1e-12);
+}
+
+TEST(KeepProven, ZeroKeepsAll) {
+  Edge edge({-3, -3});
+  EXPECT_NEAR(edge.Keep(0), 2 * kStep * Probability(-3), 1e-12);
+  EXPECT_NEAR(edge.skeleton.TotalLength(), 2 * kStep, 1e-12);
+}
+
+TEST(KeepProven, OfNothingIsNothing) {
+  SkeletonGraph skeleton;
+  UncertainCurves uncertain;
+  EXPECT_EQ(KeepProven({}, {}, 0.5, skeleton, uncertain), 0);
+}
+
+}  // namespace
+}  // namespace curvefusion
