@@ -5,8 +5,8 @@
 #include "capture/sequence.h"
 #include "fusion/adjustment/curve_pose_solver.h"
 #include "fusion/adjustment/curve_vertices.h"
+#include "fusion/appearance/wire_posterior.h"
 #include "fusion/strips/strip_tracking.h"
-#include "fusion/strips/wire_posterior.h"
 
 namespace curvefusion {
 

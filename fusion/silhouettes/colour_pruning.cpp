@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "capture/frame_stream.h"
+#include "fusion/appearance/wire_posterior.h"
 #include "fusion/silhouettes/silhouette_pruning.h"
 #include "fusion/silhouettes/wire_silhouettes.h"
-#include "fusion/strips/wire_posterior.h"
 
 namespace curvefusion {
 
