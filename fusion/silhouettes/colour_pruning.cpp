@@ -22,7 +22,7 @@ std::optional<double> PruneByColour(const Sequence& sequence, const WireColours&
   shifted.color_camera.cy += colours.shift_px.y();
   const WireSilhouettes silhouettes(shifted, frames, posteriors, options.max_frames);
   if (!TellWires(silhouettes, skeleton)) return std::nullopt;
-  return DropRefutedParts(silhouettes, options.min_share, skeleton);
+  return DropRefutedParts(silhouettes, options.min_share, {}, skeleton);
 }
 
 }  // namespace curvefusion
