@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "capture/sequence.h"
-#include "fusion/strips/wire_posterior.h"
+#include "fusion/appearance/wire_posterior.h"
 #include "graph/skeleton_graph.h"
 #include "kernel/options.h"
 

@@ -89,6 +89,13 @@ int BinAt(const ColourBins& bins, const Vec2& pixel) {
   return bins.Contains(u, v) ? bins(u, v) : -1;
 }
 
+// What is expected where the curve is.
+TrackedStrip StripAtPlace(const ProjectedSample& sample, double radius) {
+  TrackedStrip strip;
+  strip.width_px = sample.WidthPx(radius);
+  return strip;
+}
+
 void LearnFromStrip(const ColourBins& bins, const ProjectedSample& sample,
                     const TrackedStrip& strip, WireColourModel& model) {
   const Vec2 centre = sample.pixel + strip.offset_px * sample.normal;
@@ -125,9 +132,8 @@ std::vector<FrameStrips> ExpectStrips(const CurveVertices& curves, const CurvePo
   const auto expect = [&](int64_t f, const std::vector<ProjectedSample>& projected) {
     for (const ProjectedSample& sample : projected) {
       const int vertex = all.vertices[sample.index];
-      TrackedStrip strip;
-      strip.width_px = sample.WidthPx(curves.radii[vertex]);
-      strip.accepted = sample.clearance_px > 2 * strip.width_px + kSidePx;
+      const TrackedStrip strip = StripAtPlace(sample, curves.radii[vertex]);
+      if (sample.clearance_px <= 2 * strip.width_px + kSidePx) continue;
       seen[f].push_back({vertex, sample, strip});
     }
   };
@@ -186,11 +192,15 @@ std::vector<FrameStrips> TrackEdges(const CurveVertices& curves, const CurvePose
   return found;
 }
 
-void LearnColours(const std::vector<FrameStrips>& strips, ColourFrames& frames) {
+void LearnColours(const std::vector<FrameStrips>& strips, const CurveVertices& curves,
+                  ColourFrames& frames) {
   WireColourModel model;
   for (size_t f = 0; f < frames.size(); ++f) {
     for (const SeenStrip& seen : strips[f]) {
-      if (seen.strip.accepted) LearnFromStrip(frames.bins[f], seen.sample, seen.strip, model);
+      const TrackedStrip strip =
+          seen.strip.accepted ? seen.strip : StripAtPlace(seen.sample, curves.radii[seen.vertex]);
+      if (!IsClear(seen.sample.clearance_px, strip.width_px)) continue;
+      LearnFromStrip(frames.bins[f], seen.sample, strip, model);
     }
   }
   const std::vector<uint8_t> posterior = model.Posterior();

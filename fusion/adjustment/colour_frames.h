@@ -5,8 +5,8 @@
 #include "capture/sequence.h"
 #include "fusion/adjustment/curve_pose_solver.h"
 #include "fusion/adjustment/curve_vertices.h"
+#include "fusion/appearance/wire_posterior.h"
 #include "fusion/strips/strip_tracking.h"
-#include "fusion/strips/wire_posterior.h"
 
 namespace curvefusion {
 
@@ -32,8 +32,8 @@ struct SeenStrip {
 /// What one frame shows of the curves.
 using FrameStrips = std::vector<SeenStrip>;
 
-/// The places where the curves project to in each frame, with offset 0 and the expected width: what
-/// the colour model is first learned from.
+/// The places where the curves project to in each frame, with offset 0 and the expected width,
+/// clear of other curves and of background beside them; none is accepted.
 std::vector<FrameStrips> ExpectStrips(const CurveVertices& curves, const CurvePoseProblem& problem,
                                       const CurvePoseState& state);
 
@@ -49,8 +49,10 @@ std::vector<FrameStrips> TrackEdges(const CurveVertices& curves, const CurvePose
                                     const CurvePoseState& state, const ColourFrames& frames,
                                     double search_px, const std::vector<FrameStrips>& strips);
 
-/// Learns the colours of wire and background around the accepted strips of all frames and looks
-/// them up in every image.
-void LearnColours(const std::vector<FrameStrips>& strips, ColourFrames& frames);
+/// Learns the colours of wire and background around the strips of all frames and looks them up in
+/// every image. Where none was accepted, and no other curve is near, what lies at the curve's own
+/// place is learned: a wire in the shade, of which no strip stands out, must not become background.
+void LearnColours(const std::vector<FrameStrips>& strips, const CurveVertices& curves,
+                  ColourFrames& frames);
 
 }  // namespace curvefusion

@@ -20,6 +20,8 @@ using Row3 = Eigen::RowVector3d;
 constexpr double kDegree = M_PI / 180;
 constexpr double kStripSigmaPx = 0.5;
 constexpr double kEdgeSigmaPx = 1.5;
+// chosen (training scans): so far depth may be off on one side of a wire in many frames.
+constexpr double kDepthCentreSigmaPx = 2;
 constexpr double kBendSigma = 0.3 * kMillimetre;  // of a second difference, steps of 3 mm
 constexpr double kVertexSigma = 12 * kMillimetre;
 constexpr double kMinDepth = 0.05;
@@ -167,18 +169,36 @@ class NormalEquations {
   Eigen::MatrixXd coupling_;
 };
 
-void AddStrips(const CurvePoseProblem& problem, const CurvePoseState& state,
+// A camera that sees strips; poses are the depth camera's.
+struct StripCamera {
+  const PinholeCamera& camera;
+  RigidTransform T_camera_depth;
+};
+
+StripCamera ColorCamera(const CurvePoseProblem& problem) {
+  return {problem.color_camera, problem.T_color_depth};
+}
+
+// See StripResidual.
+double ResidualIn(const StripCamera& by, const CurvePoseState& state,
+                  const StripObservation& strip) {
+  const Vec3 p =
+      by.T_camera_depth * (state.T_camera_world[strip.frame] * state.positions[strip.vertex]);
+  if (p.z() < kMinDepth) return std::numeric_limits<double>::quiet_NaN();
+  return strip.normal.dot(strip.pixel - by.camera.Project(p));
+}
+
+void AddStrips(const StripCamera& by, const CurvePoseState& state,
                const std::vector<StripObservation>& strips, double sigma_px, double huber_px,
                NormalEquations& equations) {
   for (const StripObservation& strip : strips) {
-    const double residual = StripResidual(problem, state, strip);
+    const double residual = ResidualIn(by, state, strip);
     if (std::isnan(residual)) continue;
     const RigidTransform& T_camera_world = state.T_camera_world[strip.frame];
     const Vec3 p_camera = T_camera_world * state.positions[strip.vertex];
-    const Row3 by_point =
-        -strip.normal.transpose() *
-        ProjectionJacobian(problem.color_camera, problem.T_color_depth * p_camera) *
-        problem.T_color_depth.linear();
+    const Row3 by_point = -strip.normal.transpose() *
+                          ProjectionJacobian(by.camera, by.T_camera_depth * p_camera) *
+                          by.T_camera_depth.linear();
     Row6 by_pose;
     by_pose << by_point, -by_point * CrossMatrix(p_camera);
     const double robust = std::min(1.0, huber_px / std::max(1e-12, std::abs(residual)));
@@ -235,10 +255,7 @@ void AddPosePriors(const CurvePoseProblem& problem, const CurvePoseState& state,
 
 double StripResidual(const CurvePoseProblem& problem, const CurvePoseState& state,
                      const StripObservation& strip) {
-  const Vec3 p_color =
-      problem.T_color_depth * (state.T_camera_world[strip.frame] * state.positions[strip.vertex]);
-  if (p_color.z() < kMinDepth) return std::numeric_limits<double>::quiet_NaN();
-  return strip.normal.dot(strip.pixel - problem.color_camera.Project(p_color));
+  return ResidualIn(ColorCamera(problem), state, strip);
 }
 
 CurvePoseState ImproveCurvesAndPoses(const CurvePoseProblem& problem, const CurvePoseState& state,
@@ -246,8 +263,10 @@ CurvePoseState ImproveCurvesAndPoses(const CurvePoseProblem& problem, const Curv
   assert(problem.gaps.empty() || problem.gaps.size() + 1 == state.T_camera_world.size());
   NormalEquations equations(static_cast<int>(state.positions.size()),
                             static_cast<int>(state.T_camera_world.size()));
-  AddStrips(problem, state, problem.strips, kStripSigmaPx, huber_px, equations);
-  AddStrips(problem, state, problem.edges, kEdgeSigmaPx, huber_px, equations);
+  AddStrips(ColorCamera(problem), state, problem.strips, kStripSigmaPx, huber_px, equations);
+  AddStrips(ColorCamera(problem), state, problem.edges, kEdgeSigmaPx, huber_px, equations);
+  AddStrips({problem.depth_camera, RigidTransform::Identity()}, state, problem.depth_centres,
+            kDepthCentreSigmaPx, kDepthCentreSigmaPx, equations);
   AddDepths(problem, state, equations);
   AddCurvePriors(problem, state, equations);
   AddPosePriors(problem, state, equations);

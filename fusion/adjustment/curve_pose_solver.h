@@ -43,6 +43,9 @@ struct CurvePoseProblem {
   std::vector<StripObservation> strips;
   std::vector<StripObservation> edges;  ///< strips found by their edges, less precisely
   std::vector<AxisDepthObservation> depths;
+  PinholeCamera depth_camera;
+  /// The middles of what depth images show of wires: pixels of the depth camera.
+  std::vector<StripObservation> depth_centres;
 };
 
 /// Distance of a strip's centre from the projected curve along the strip's normal, pixels; NaN
@@ -51,11 +54,12 @@ double StripResidual(const CurvePoseProblem& problem, const CurvePoseState& stat
                      const StripObservation& strip);
 
 /// One Gauss-Newton step from `state` for the sum of squares of strips (sigma .5 px, by their edges
-/// 1.5 px, Huber beyond `huber_px`), depths, second differences of vertices in a row (.3 mm),
-/// distances from the start (vertices 12 mm; poses 5 mm and .3 degrees) and, in a video, changes of
-/// a pose's correction from frame to frame (.8 mm and .04 degrees times the square root of the
-/// gap), whose first frame is held. Vertices are eliminated by a sparse factorisation; the dense
-/// Schur complement of the 6 unknowns of each frame remains. Cost: vertices times frames squared.
+/// 1.5 px, Huber beyond `huber_px`), depths and their middles (2 px), second differences of
+/// vertices in a row (.3 mm), distances from the start (vertices 12 mm; poses 5 mm and .3 degrees)
+/// and, in a video, changes of a pose's correction from frame to frame (.8 mm and .04 degrees times
+/// the square root of the gap), whose first frame is held. Vertices are eliminated by a sparse
+/// factorisation; the dense Schur complement of the 6 unknowns of each frame remains. Cost:
+/// vertices times frames squared.
 CurvePoseState ImproveCurvesAndPoses(const CurvePoseProblem& problem, const CurvePoseState& state,
                                      double huber_px);
 

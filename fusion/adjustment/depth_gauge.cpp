@@ -24,18 +24,26 @@ constexpr double kSigmaFactor = 1.5;
 struct AxisSighting {
   AxisDepthObservation axis;
   double error = 0;  // of the axis as the curves have it
+  bool is_strip = true;
+  Vec2 pixel;  // of the strip, or of the curve without one
   Vec2 normal;
   std::array<std::optional<double>, 2> beyond_px;  // the strip's edges, where it ends in depth
 };
 
-StripPlace PlaceInDepthImage(const SeenStrip& seen, const Vec3& p_camera,
+bool EndsOnBothSides(const std::array<std::optional<double>, 2>& edges_px) {
+  return edges_px[0] && edges_px[1];
+}
+
+StripPlace PlaceInDepthImage(const SeenStrip& seen, double radius, const Vec3& p_camera,
                              const Sequence& sequence) {
   const double scale = sequence.depth_camera.fx / sequence.color_camera.fx;
+  const bool is_strip = seen.strip.accepted;
   StripPlace place;
   place.normal = seen.sample.normal;
-  place.pixel =
-      sequence.depth_camera.Project(p_camera) + scale * seen.strip.offset_px * seen.sample.normal;
-  place.half_width_px = 0.5 * scale * seen.strip.width_px;
+  place.pixel = sequence.depth_camera.Project(p_camera);
+  if (is_strip) place.pixel += scale * seen.strip.offset_px * seen.sample.normal;
+  const double width_px = is_strip ? seen.strip.width_px : seen.sample.WidthPx(radius);
+  place.half_width_px = 0.5 * scale * width_px;
   place.depth = p_camera.z();
   return place;
 }
@@ -45,17 +53,20 @@ std::vector<AxisSighting> MeasureFrame(const DepthImage& depth, int frame, const
                                        const FrameStrips& strips, double axis_depth, double reach) {
   std::vector<AxisSighting> sightings;
   for (const SeenStrip& seen : strips) {
-    if (!seen.strip.accepted) continue;
     const Vec3 p_camera = state.T_camera_world[frame] * state.positions[seen.vertex];
     if (p_camera.z() <= 0) continue;
-    const StripPlace place = PlaceInDepthImage(seen, p_camera, sequence);
+    const StripPlace place = PlaceInDepthImage(seen, curves.radii[seen.vertex], p_camera, sequence);
     const StripDepth found = MeasureStripDepth(depth, place, reach);
-    if (!found.measured) continue;
+    if (!found.measured || (!seen.strip.accepted && !EndsOnBothSides(found.edges_px))) continue;
     const double before_axis =
         axis_depth * curves.radii[seen.vertex] * p_camera.z() / p_camera.norm();
     const double axis = found.depth + before_axis;
-    AxisSighting sighting{
-        {frame, seen.vertex, axis, 0}, axis - p_camera.z(), place.normal, found.edges_px};
+    AxisSighting sighting{{frame, seen.vertex, axis, 0},
+                          axis - p_camera.z(),
+                          seen.strip.accepted,
+                          place.pixel,
+                          place.normal,
+                          found.edges_px};
     for (std::optional<double>& px : sighting.beyond_px) {
       if (px) *px -= place.half_width_px;
     }
@@ -64,10 +75,16 @@ std::vector<AxisSighting> MeasureFrame(const DepthImage& depth, int frame, const
   return sightings;
 }
 
+StripObservation CentreOf(const AxisSighting& sighting) {
+  const double offset_px = 0.5 * (*sighting.beyond_px[1] - *sighting.beyond_px[0]);
+  return {sighting.axis.frame, sighting.axis.vertex, sighting.pixel + offset_px * sighting.normal,
+          sighting.normal};
+}
+
 double SigmaOf(const std::vector<AxisSighting>& sightings, double reach) {
   std::vector<double> errors;
   for (const AxisSighting& sighting : sightings) {
-    if (std::abs(sighting.error) <= reach) errors.push_back(sighting.error);
+    if (sighting.is_strip && std::abs(sighting.error) <= reach) errors.push_back(sighting.error);
   }
   return RobustDeviation(std::move(errors));
 }
@@ -76,6 +93,7 @@ ColorShift ShiftOfColors(const std::vector<AxisSighting>& sightings, const Seque
                          int frame_count) {
   std::vector<StripEdge> edges;
   for (const AxisSighting& sighting : sightings) {
+    if (!sighting.is_strip) continue;
     for (const int side : {-1, 1}) {
       const std::optional<double>& beyond_px = sighting.beyond_px[side > 0];
       if (beyond_px) edges.push_back({sighting.axis.frame, side * sighting.normal, *beyond_px});
@@ -110,7 +128,8 @@ DepthGauge MeasureDepthGauge(const Sequence& sequence, const std::vector<int>& i
   gauge.sigma = SigmaOf(sightings, reach);
   for (AxisSighting& sighting : sightings) {
     sighting.axis.sigma = std::max(kMinSigma, kSigmaFactor * gauge.sigma);
-    gauge.depths.push_back(sighting.axis);
+    if (sighting.is_strip) gauge.depths.push_back(sighting.axis);
+    if (EndsOnBothSides(sighting.beyond_px)) gauge.centres.push_back(CentreOf(sighting));
   }
   gauge.color_shift = ShiftOfColors(sightings, sequence, static_cast<int>(indices.size()));
   return gauge;

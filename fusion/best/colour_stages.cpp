@@ -75,8 +75,10 @@ void CorrectBySilhouettes(const ColourAdjustment& adjusted, RunContext& run,
   }
   // Two strands of noise that the adjustment has led into one wire.
   MergeParallelEdges(result.skeleton, 2 * result.radii.global_radius);
+  const std::vector<Vec3> shown_by_depth = PlacesShownByDepth(
+      CountViews(result.skeleton, result.sequence, run.options.evidence), result.skeleton);
   const SilhouetteChanges changes =
-      CorrectTopology(silhouettes, run.options.silhouettes, result.skeleton);
+      CorrectTopology(silhouettes, run.options.silhouettes, shown_by_depth, result.skeleton);
   const int weak_wires =
       AddWeakWires(silhouettes, run.options.silhouettes.bridges, result.points, result.skeleton);
   TidyRidgeSkeleton(result.skeleton, run.options.ridge);

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "fusion/appearance/wire_posterior.h"
 #include "fusion/segmentation/colour_lookup.h"
 #include "fusion/segmentation/stripe_field.h"
-#include "fusion/strips/wire_posterior.h"
 #include "kernel/parallel.h"
 
 namespace curvefusion {

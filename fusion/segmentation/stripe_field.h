@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fusion/strips/wire_posterior.h"
+#include "fusion/appearance/wire_posterior.h"
 #include "kernel/geometry.h"
 #include "kernel/image.h"
 

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "capture/frame_stream.h"
+#include "fusion/appearance/wire_posterior.h"
 #include "fusion/silhouettes/silhouette_pruning.h"
 #include "fusion/silhouettes/wire_silhouettes.h"
-#include "fusion/strips/wire_posterior.h"
 
 namespace curvefusion {
 
@@ -22,7 +22,7 @@ std::optional<double> PruneByColour(const Sequence& sequence, const WireColours&
   shifted.color_camera.cy += colours.shift_px.y();
   const WireSilhouettes silhouettes(shifted, frames, posteriors, options.max_frames);
   if (!TellWires(silhouettes, skeleton)) return std::nullopt;
-  return DropRefutedParts(silhouettes, options.min_share, skeleton);
+  return DropRefutedParts(silhouettes, options.min_share, {}, skeleton);
 }
 
 }  // namespace curvefusion

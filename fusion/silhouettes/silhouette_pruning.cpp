@@ -7,12 +7,14 @@
 
 #include "fusion/silhouettes/silhouette_path.h"
 #include "graph/edge_parts.h"
+#include "kernel/point_grid.h"
 #include "kernel/quantile.h"
 
 namespace curvefusion {
 
 namespace {
 
+constexpr double kShownReach = 0.003;  // metres; places of curves are as far apart
 constexpr double kMinRefuted = 0.002;  // metres; shorter runs are corners of curves
 constexpr double kLongRun = 0.008;     // metres; wires are no farther beside their place
 constexpr double kClearlyFalse = 0.5;  // share of images
@@ -58,13 +60,24 @@ std::vector<EdgePart> LowRuns(const std::vector<double>& shares, double min_shar
   return runs;
 }
 
+// Whether depth shows at least half of a run, which images then overlook.
+bool IsShownByDepth(const Polyline& points, const EdgePart& run, const PointGrid& shown_by_depth) {
+  size_t shown = 0;
+  for (size_t i = run.first; i <= run.last; ++i) {
+    shown += shown_by_depth.Nearest(points[i], kShownReach) >= 0 ? 1 : 0;
+  }
+  return 2 * shown >= run.last - run.first + 1;
+}
+
 // What is left of all points without the false runs.
 std::vector<EdgePart> RunsKept(const SkeletonGraph& skeleton, const SkeletonEdge& edge,
-                               const std::vector<double>& shares, double min_share) {
+                               const std::vector<double>& shares, double min_share,
+                               const PointGrid& shown_by_depth) {
   std::vector<EdgePart> kept;
   size_t first = 0;
   for (const EdgePart& run : LowRuns(shares, min_share)) {
     if (!IsFalse(skeleton, edge, shares, run)) continue;
+    if (IsShownByDepth(edge.points, run, shown_by_depth)) continue;
     if (run.first > first) kept.push_back({first, run.first - 1});
     first = run.last + 1;
   }
@@ -105,12 +118,13 @@ void MoveJunctionsIntoWires(const WireSilhouettes& silhouettes, double min_share
 }
 
 double DropRefutedParts(const WireSilhouettes& silhouettes, double min_share,
-                        SkeletonGraph& skeleton) {
+                        const std::vector<Vec3>& shown_by_depth, SkeletonGraph& skeleton) {
+  const PointGrid shown(shown_by_depth, kShownReach);
   const double before = skeleton.TotalLength();
   for (const EdgeId id : skeleton.Edges()) {
     const Polyline& points = skeleton.edge(id).points;
     const std::vector<EdgePart> runs =
-        RunsKept(skeleton, skeleton.edge(id), silhouettes.SharesAlong(points), min_share);
+        RunsKept(skeleton, skeleton.edge(id), silhouettes.SharesAlong(points), min_share, shown);
     if (runs.size() == 1 && runs[0].first == 0 && runs[0].last + 1 == points.size()) continue;
     KeepParts(id, runs, kMinPiece, skeleton);
   }

@@ -47,11 +47,13 @@ bool TellWires(const WireSilhouettes& silhouettes, const SkeletonGraph& skeleton
 }
 
 SilhouetteChanges CorrectTopology(const WireSilhouettes& silhouettes,
-                                  const SilhouetteOptions& options, SkeletonGraph& skeleton) {
+                                  const SilhouetteOptions& options,
+                                  const std::vector<Vec3>& shown_by_depth,
+                                  SkeletonGraph& skeleton) {
   SilhouetteChanges changes;
   MoveJunctionsIntoWires(silhouettes, options.bridges.min_share, skeleton);
   RerouteCurves(silhouettes, options.bridges.min_share, skeleton);
-  changes.removed = DropRefutedParts(silhouettes, options.min_share, skeleton);
+  changes.removed = DropRefutedParts(silhouettes, options.min_share, shown_by_depth, skeleton);
   changes.rungs = DropRungsInSheets(silhouettes, options.bridges.min_share, skeleton);
   changes.continued = ContinueWires(silhouettes, options.bridges.min_share, skeleton);
   SplitAtCorners(skeleton, kCorner);

@@ -31,9 +31,11 @@ bool TellWires(const WireSilhouettes& silhouettes, const SkeletonGraph& skeleton
 
 /// Makes the curves agree with the images: what the images look past is dropped, what lies beside
 /// its wire led back to it, and ends are continued and joined where images show wire ahead of them.
-/// Needs radii. Deviation: CurveFusion uses colour for ghosts and radii only, but depth shows wires
-/// side by side as one, and none at all that run along the line of sight.
+/// What is `shown_by_depth` is never dropped. Needs radii. Deviation: CurveFusion uses colour for
+/// ghosts and radii only, but depth shows wires side by side as one, and none at all that run along
+/// the line of sight.
 SilhouetteChanges CorrectTopology(const WireSilhouettes& silhouettes,
-                                  const SilhouetteOptions& options, SkeletonGraph& skeleton);
+                                  const SilhouetteOptions& options,
+                                  const std::vector<Vec3>& shown_by_depth, SkeletonGraph& skeleton);
 
 }  // namespace curvefusion

@@ -46,6 +46,10 @@ ViewEvidence CountViews(const SkeletonGraph& skeleton, const Sequence& sequence,
 /// The medians of both counts; zeros for no points.
 ViewCount TypicalViews(const std::vector<ViewCount>& points);
 
+/// The places that depth alone shows: seen in at least 8 images and a quarter of those that look
+/// there, with no other curve within 10 mm, beside which depth runs together.
+std::vector<Vec3> PlacesShownByDepth(const ViewEvidence& evidence, const SkeletonGraph& skeleton);
+
 /// Gives every point of the skeleton the number of images that saw it as its observation count.
 void AssignObservations(const ViewEvidence& evidence, SkeletonGraph& skeleton);
 

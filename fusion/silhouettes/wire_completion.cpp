@@ -86,8 +86,8 @@ class WireImages {
     for (const int i : frames_.indices) {
       state.T_camera_world.push_back(sequence.frames[i].T_world_camera.inverse());
     }
-    LearnColours(ExpectStrips(curves, problem_, state), frames_);
-    LearnColours(TrackCurves(curves, problem_, state, frames_, options.search_px), frames_);
+    LearnColours(ExpectStrips(curves, problem_, state), curves, frames_);
+    LearnColours(TrackCurves(curves, problem_, state, frames_, options.search_px), curves, frames_);
   }
 
   // How often the places of each way were seen in all images. `skeleton` holds samples of all known

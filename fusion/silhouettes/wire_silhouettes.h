@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "capture/sequence.h"
+#include "fusion/appearance/wire_posterior.h"
 #include "fusion/silhouettes/view_evidence.h"
-#include "fusion/strips/wire_posterior.h"
 #include "kernel/polyline.h"
 
 namespace curvefusion {

@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
+#include "fusion/appearance/wire_posterior.h"
 #include "fusion/strips/strip_samples.h"
-#include "fusion/strips/wire_posterior.h"
 
 namespace curvefusion {
 

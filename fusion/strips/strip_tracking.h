@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "fusion/appearance/wire_posterior.h"
 #include "fusion/strips/strip_samples.h"
-#include "fusion/strips/wire_posterior.h"
 
 namespace curvefusion {
 

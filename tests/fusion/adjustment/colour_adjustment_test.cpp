@@ -185,6 +185,44 @@ TEST_F(ColourAdjustmentTest, ColourImagesBesideTheirDepthImages) {
   }
 }
 
+// A video whose colour images show every wire 2 mm beside where depth images show it, each on
+// another side: what colour says of the curves is refused by the frames that were not used.
+TEST_F(ColourAdjustmentTest, WhatDepthOfOtherFramesContradictsIsRefused) {
+  constexpr int kVideoFrames = 24;
+  std::vector<RenderedWire> moved = Wires({60, 160, 70});
+  const Vec3 aside[] = {{0, 0.002, 0}, {0, -0.002, 0}, {0.002, 0, 0}, {-0.002, 0, 0}};
+  for (size_t i = 0; i < moved.size(); ++i) {
+    moved[i].front += aside[i];
+    moved[i].back += aside[i];
+  }
+  Sequence sequence = DriftedSequence("green");
+  const SequenceFrame any = sequence.frames[0];
+  sequence.frames.assign(kVideoFrames, any);
+  for (int i = 0; i < kVideoFrames; ++i) {
+    SequenceFrame& frame = sequence.frames[i];
+    frame.timestamp = i;
+    frame.T_world_camera = TruePose(kFrames / 2 + 0.1 * i);
+    frame.color_path = folder_ / fmt::format("beside{}.jpg", i);
+    frame.depth_path = folder_ / fmt::format("beside{}.png", i);
+    WriteImage(frame.color_path, RenderWires(moved, Camera(), frame.T_world_camera, 0.8));
+    WriteDepth(frame.depth_path, RenderWireDepth(Wires({}), Camera(), frame.T_world_camera, 2));
+  }
+  SkeletonGraph skeleton;
+  for (const RenderedWire& wire : Wires({})) {
+    const Polyline points = {wire.front, wire.back};
+    skeleton.SetCurve(skeleton.AddPolyline(points), points,
+                      std::vector<double>(2, 0.5 * wire.diameter));
+  }
+  const ColourAdjustment adjusted =
+      AdjustToColours(skeleton, sequence, Given(sequence), {.frame_stride = 3, .axis_depth = 0});
+  EXPECT_NE(adjusted.skipped.find("depth images that were not used"), std::string::npos)
+      << adjusted.skipped << adjusted.start_residual_px << " " << adjusted.residual_px;
+  EXPECT_TRUE(adjusted.color_shift_px.isZero());
+  for (int i = 0; i < kVideoFrames; ++i) {
+    EXPECT_EQ(adjusted.T_world_camera[i].matrix(), sequence.frames[i].T_world_camera.matrix());
+  }
+}
+
 TEST_F(ColourAdjustmentTest, WithoutContrastNothingChanges) {
   const Sequence sequence = DriftedSequence("grey");
   const ColourAdjustment adjusted =

@@ -130,6 +130,32 @@ class CurvePoseSolverTest : public testing::Test {
   CurvePoseState truth_;
 };
 
+// A curve of which colour images show no strip, 3 mm beside its place.
+TEST_F(CurvePoseSolverTest, DepthHoldsWhatNoStripShows) {
+  const int first = static_cast<int>(TrueCurves()[0].size());
+  const int last = first + static_cast<int>(TrueCurves()[1].size());
+  const auto is_unseen = [&](int vertex) { return vertex >= first && vertex < last; };
+  problem_.start = truth_;
+  for (int v = first; v < last; ++v) problem_.start.positions[v].x() += 0.003;
+  problem_.depth_camera = problem_.color_camera;
+  for (const StripObservation& strip : problem_.strips) {
+    if (!is_unseen(strip.vertex)) continue;
+    const Vec3 p_depth = truth_.T_camera_world[strip.frame] * truth_.positions[strip.vertex];
+    const Vec2 pixel = problem_.depth_camera.Project(p_depth);
+    problem_.depth_centres.push_back({strip.frame, strip.vertex, pixel, strip.normal});
+  }
+  std::erase_if(problem_.strips, [&](const auto& strip) { return is_unseen(strip.vertex); });
+  const auto error = [&] {
+    const CurvePoseState state = Solve(6);
+    double sum = 0;
+    for (int v = first; v < last; ++v) sum += state.positions[v].x() - truth_.positions[v].x();
+    return std::abs(sum) / (last - first);
+  };
+  EXPECT_LT(error(), 0.0005);
+  problem_.depth_centres.clear();
+  EXPECT_GT(error(), 0.002);
+}
+
 TEST_F(CurvePoseSolverTest, RecoversCurvesAndPoses) {
   ASSERT_GT(RmsResidual(problem_.start), 1);
   const CurvePoseState state = Solve(5);

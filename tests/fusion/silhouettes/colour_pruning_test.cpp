@@ -9,7 +9,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <optional>
 
-#include "fusion/strips/wire_posterior.h"
+#include "fusion/appearance/wire_posterior.h"
 #include "tests/fusion/wire_images.h"
 
 namespace curvefusion {

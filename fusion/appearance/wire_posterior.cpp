@@ -1,4 +1,4 @@
-#include "fusion/strips/wire_posterior.h"
+#include "fusion/appearance/wire_posterior.h"
 
 #include <cmath>
 #include <numeric>
