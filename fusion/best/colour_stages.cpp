@@ -94,7 +94,8 @@ void CorrectBySilhouettes(const ColourAdjustment& adjusted, RunContext& run,
 }
 
 // Deviation: wires that depth has lost, where colour images show strips that no curve explains.
-void AddWiresFromColour(const ColourAdjustment& adjusted, RunContext& run, Reconstruction& result) {
+// Whether there are any.
+bool AddWiresFromColour(const ColourAdjustment& adjusted, RunContext& run, Reconstruction& result) {
   const char* stage = "wires from colour";
   const StageLog::Timer timer(run.log, stage);
   run.observer.OnProgress(stage, 0, 1);
@@ -102,11 +103,14 @@ void AddWiresFromColour(const ColourAdjustment& adjusted, RunContext& run, Recon
       FindColourCandidates(result.skeleton, result.sequence, adjusted.frames, adjusted.posteriors);
   const double added = AddCandidateCurves(candidates, run.options.ridge,
                                           result.radii.unmeasured_radius, result.skeleton);
-  TidyRidgeSkeleton(result.skeleton, run.options.ridge);
   run.log.Count(stage, "points", static_cast<double>(candidates.size()));
   run.log.Count(stage, "added, m", added);
   run.observer.OnPoints("colour_candidates", candidates);
+  if (added == 0) return false;
+  TidyRidgeSkeleton(result.skeleton, run.options.ridge);
+  result.trust.wire_length += added;
   run.observer.OnGraph("with_colour", result.skeleton);
+  return true;
 }
 
 // Deviation: curves of known radius and poses as exact as the colour images show them. Nothing
@@ -197,14 +201,16 @@ void RefineByColour(const Sequence& given, RunContext& run, Reconstruction& resu
   KeepProvenWires("evidence_before_colour", kHardlyAWire * run.options.evidence.min_probability,
                   run, result);
   AddMissedWires(run, result);
-  if (const auto adjusted = AdjustCurvesAndPoses(given, run, result)) {
+  const std::optional<ColourAdjustment> adjusted = AdjustCurvesAndPoses(given, run, result);
+  if (adjusted) {
     CorrectBySilhouettes(*adjusted, run, result);
-    AddWiresFromColour(*adjusted, run, result);
   } else {
     PruneUnadjusted(run, result);
   }
   AssignMeasuredRadii(run, result);
   KeepProvenWires("evidence", run.options.evidence.min_probability, run, result);
+  // Depth looks past most of these: they have their proof from the images that show them.
+  if (adjusted && AddWiresFromColour(*adjusted, run, result)) AssignMeasuredRadii(run, result);
   LookForEvidence(run, result);
 }
 
