@@ -49,9 +49,14 @@ std::vector<FrameStrips> TrackEdges(const CurveVertices& curves, const CurvePose
                                     const CurvePoseState& state, const ColourFrames& frames,
                                     double search_px, const std::vector<FrameStrips>& strips);
 
+/// For each vertex whether so many of the images that look at it show a strip that colour alone
+/// holds it.
+std::vector<char> ToldByColour(const std::vector<FrameStrips>& strips, size_t vertices);
+
 /// Learns the colours of wire and background around the strips of all frames and looks them up in
-/// every image. Where none was accepted, and no other curve is near, what lies at the curve's own
-/// place is learned: a wire in the shade, of which no strip stands out, must not become background.
+/// every image. Around vertices that colour does not tell (ToldByColour), where no other curve is
+/// near, what lies at the curve's own place is learned as well: a wire in the shade, of which no
+/// strip stands out, must not become background.
 void LearnColours(const std::vector<FrameStrips>& strips, const CurveVertices& curves,
                   ColourFrames& frames);
 
