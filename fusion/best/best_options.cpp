@@ -29,9 +29,6 @@ BestOptions DefaultBestOptions() {
   options.completion.enabled = true;
   options.resolved_spacing = 0.014;
   options.colour_adjustment.enabled = true;
-  // Chosen on training scans and validation cage 201: a wire lost is worse than a false curve left
-  // (docs/proof.md#selection).
-  options.evidence.min_probability = 0.12;
   return options;
 }
 

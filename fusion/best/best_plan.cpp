@@ -65,6 +65,8 @@ std::vector<PlannedStage> BestStages(const Amounts& a) {
           {"colour adjustment", a.adjusted * (0.005 * a.size + 0.006 * a.seen)},
           {"silhouettes", 0.0015 * a.size * a.adjusted * a.length},
           {"radius", radius},
+          {"wires from colour", 0.06 * a.size * std::min(a.adjusted, 40.0)},
+          {"radius", radius},
           {"evidence", a.looked * (0.0025 * a.size + 0.0004 * a.seen)}};
 }
 

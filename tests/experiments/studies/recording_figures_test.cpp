@@ -7,6 +7,7 @@
 
 #include "experiments/simulation/scan_files.h"
 #include "experiments/studies/recording_checks.h"
+#include "tests/temporary_path.h"
 
 namespace curvefusion {
 namespace {
@@ -42,7 +43,7 @@ class Recording {
   Sequence sequence;
 
  private:
-  fs::path folder_ = fs::temp_directory_path() / "curvefusion_recording_figures_test";
+  fs::path folder_ = TemporaryPath("recording_figures");
 };
 
 void Fill(DepthImage& image, int u, int v, int width, int height, float value) {
