@@ -29,9 +29,9 @@ std::vector<Vec3> PointsOf(const SkeletonGraph& skeleton) {
   return points;
 }
 
-// Leaves what lies beside all curves of the skeleton.
-void KeepNewWires(const SkeletonGraph& skeleton, SkeletonGraph& found) {
-  const PointGrid curves(PointsOf(skeleton), kBeside);
+// Leaves what lies beside the points of known curves.
+void KeepNewWires(const std::vector<Vec3>& known, SkeletonGraph& found) {
+  const PointGrid curves(known, kBeside);
   for (const EdgeId id : found.Edges()) {
     const Polyline points = found.edge(id).points;
     std::vector<EdgePart> parts;
@@ -81,16 +81,16 @@ double AddCandidateCurves(const ObservedPoints& candidates, const RidgeOptions& 
                           double radius, SkeletonGraph& skeleton) {
   if (candidates.empty()) return 0;
   SkeletonGraph found = ExtractRidgeSkeleton(candidates, options);
-  KeepNewWires(skeleton, found);
+  const std::vector<Vec3> known = PointsOf(skeleton);
+  KeepNewWires(known, found);
   if (found.empty()) return 0;
-  const std::vector<Vec3> before = PointsOf(skeleton);
   const double length = skeleton.TotalLength();
   AddGraph(found, radius, skeleton);
   FreeEndOptions reach = options.free_ends;
   reach.max_gap = kMaxGap;
   reach.max_gap_per_length = kMaxGapPerLength;
   CloseFreeEnds(skeleton, reach, candidates);
-  DropDetached(before, skeleton);
+  DropDetached(known, skeleton);
   return skeleton.TotalLength() - length;
 }
 

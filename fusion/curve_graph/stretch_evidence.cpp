@@ -143,10 +143,9 @@ void LookAtStretch(const DecodedFrame& frame, const PinholeCamera& camera,
   ++stretch.images;
 }
 
-StretchEvidence SummaryOf(const Stretch& stretch, const SkeletonGraph& skeleton) {
+StretchEvidence SummaryOf(const Stretch& stretch) {
   StretchEvidence evidence{stretch.edge, stretch.part, stretch.end - stretch.begin,
                            stretch.places[stretch.places.size() / 2].position, stretch.images};
-  (void)skeleton;
   double weight = 0, profile_weight = 0;
   for (const DirectionCounts& counts : stretch.directions) {
     if (counts.images == 0) continue;
@@ -231,7 +230,7 @@ std::vector<StretchEvidence> CollectEvidence(const SkeletonGraph& skeleton,
   }
   std::vector<StretchEvidence> all;
   for (const Stretch& stretch : stretches) {
-    all.push_back(SummaryOf(stretch, skeleton));
+    all.push_back(SummaryOf(stretch));
     AddStrips(stretch, radius_of[stretch.edge], strips_of[stretch.edge], all.back());
   }
   return all;

@@ -1,0 +1,129 @@
+#include "fusion/curve_graph/strip_middles.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <utility>
+#include <vector>
+
+#include "kernel/quantile.h"
+
+namespace curvefusion {
+
+namespace {
+
+// Chosen like those of colour_candidates.cpp.
+constexpr uint8_t kNotWire = 110;   // of 255: pixels less likely to show wire surely do not
+constexpr double kMinContrast = 7;  // grey levels, to both sides of a strip
+constexpr double kBlurPx = 0.8;
+constexpr double kOutstanding = 3;  // standard deviations of what images show anyway
+constexpr int kAlongPx = 5;
+constexpr int kReachesPx[] = {3, 5, 8};  // from the middle of a strip to what is beside it
+
+// The three channels of an image, smoothed, one after the other.
+using Planes = std::array<Image<float>, 3>;
+
+Planes SmoothPlanes(const ColorImage& color) {
+  const cv::Mat pixels(color.height(), color.width(), CV_8UC3, const_cast<Rgb*>(color.data()));
+  cv::Mat smooth;
+  cv::GaussianBlur(pixels, smooth, cv::Size(5, 5), kBlurPx);
+  Planes planes;
+  std::array<cv::Mat, 3> targets;
+  for (int c = 0; c < 3; ++c) {
+    planes[c] = Image<float>(color.width(), color.height());
+    cv::Mat channel;
+    cv::extractChannel(smooth, channel, c);
+    targets[c] = cv::Mat(color.height(), color.width(), CV_32F, planes[c].data());
+    channel.convertTo(targets[c], CV_32F);
+  }
+  return planes;
+}
+
+// How much a pixel differs from both sides alike, at so many pixels in one direction: grey levels.
+Image<float> StripResponse(const Planes& planes, int du, int dv) {
+  const int width = planes[0].width(), height = planes[0].height();
+  const int margin = std::max(std::abs(du), std::abs(dv));
+  Image<float> response(width, height, 0);
+  const std::ptrdiff_t offset = static_cast<std::ptrdiff_t>(dv) * width + du;
+  for (int v = margin; v < height - margin; ++v) {
+    float* out = response.row(v);
+    for (const Image<float>& plane : planes) {
+      const float* in = plane.row(v);
+      for (int u = margin; u < width - margin; ++u)
+        out[u] += (in[u] - in[u - offset]) * (in[u] - in[u + offset]);
+    }
+  }
+  return response;
+}
+
+// The mean over some pixels to both sides in one direction (dv is 1, or du is): along strips noise
+// averages out. Each sum follows from the one before it.
+Image<float> AveragedAlong(const Image<float>& image, int du, int dv) {
+  const int width = image.width(), height = image.height();
+  constexpr int kLength = 2 * kAlongPx + 1;
+  const std::ptrdiff_t step = static_cast<std::ptrdiff_t>(dv) * width + du;
+  Image<float> mean(width, height, 0);
+  const int margin = kAlongPx + 1;
+  const auto is_inside = [&](int u, int v) {
+    return u >= margin && u < width - margin && v >= margin && v < height - margin;
+  };
+  for (int v = margin; v < height - margin; ++v) {
+    float* out = mean.row(v);
+    const float* in = image.row(v);
+    for (int u = margin; u < width - margin; ++u) {
+      const float* at = in + u;
+      if (is_inside(u - du, v - dv)) {
+        out[u] = out[u - step] + (at[kAlongPx * step] - at[-(kAlongPx + 1) * step]) / kLength;
+        continue;
+      }
+      for (int k = -kAlongPx; k <= kAlongPx; ++k) out[u] += at[k * step] / kLength;
+    }
+  }
+  return mean;
+}
+
+// What stands out among the values of an image: noise alone makes responses, its own square.
+float Outstanding(const Image<float>& response) {
+  constexpr size_t kEvery = 17;
+  std::vector<double> values;
+  for (size_t i = 0; i < response.size(); i += kEvery) values.push_back(response.data()[i]);
+  const double usual = Median(values);
+  for (double& value : values) value -= usual;
+  const double spread = RobustDeviation(std::move(values));
+  return static_cast<float>(usual + std::max(kMinContrast * kMinContrast, kOutstanding * spread));
+}
+
+}  // namespace
+
+MaskImage StripMiddles(const ColorImage& color, const PosteriorImage& posterior,
+                       const MaskImage& explained) {
+  // Across strips and along them.
+  constexpr std::pair<std::pair<int, int>, std::pair<int, int>> kDirections[] = {
+      {{1, 0}, {0, 1}}, {{0, 1}, {1, 0}}, {{1, 1}, {-1, 1}}, {{1, -1}, {1, 1}}};
+  const Planes planes = SmoothPlanes(color);
+  MaskImage middles(color.width(), color.height(), 0);
+  for (const int reach : kReachesPx) {
+    for (const auto& [across_strip, along] : kDirections) {
+      const auto [du, dv] = across_strip;
+      const int step = du != 0 && dv != 0 ? static_cast<int>(std::lround(0.7 * reach)) : reach;
+      const Image<float> response =
+          AveragedAlong(StripResponse(planes, step * du, step * dv), along.first, along.second);
+      const float least = Outstanding(response);
+      const std::ptrdiff_t across = static_cast<std::ptrdiff_t>(dv) * color.width() + du;
+      for (int v = step; v + step < color.height(); ++v) {
+        const float* r = response.row(v);
+        for (int u = step; u + step < color.width(); ++u) {
+          if (r[u] < least || r[u] < r[u - across] || r[u] < r[u + across]) continue;
+          if (posterior(u, v) <= kNotWire || explained(u, v)) continue;
+          if (explained(u - step * du, v - step * dv) || explained(u + step * du, v + step * dv))
+            continue;
+          middles(u, v) = 1;
+        }
+      }
+    }
+  }
+  return middles;
+}
+
+}  // namespace curvefusion
