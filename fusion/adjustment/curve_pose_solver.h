@@ -54,7 +54,7 @@ double StripResidual(const CurvePoseProblem& problem, const CurvePoseState& stat
                      const StripObservation& strip);
 
 /// One Gauss-Newton step from `state` for the sum of squares of strips (sigma .5 px, by their edges
-/// 1.5 px, Huber beyond `huber_px`), depths and their middles (2 px), second differences of
+/// 1.5 px, Huber beyond `huber_px`), depths and their middles (8 px), second differences of
 /// vertices in a row (.3 mm), distances from the start (vertices 12 mm; poses 5 mm and .3 degrees)
 /// and, in a video, changes of a pose's correction from frame to frame (.8 mm and .04 degrees times
 /// the square root of the gap), whose first frame is held. Vertices are eliminated by a sparse
