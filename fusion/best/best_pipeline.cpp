@@ -9,13 +9,13 @@
 
 #include "fusion/best/best_plan.h"
 #include "fusion/best/colour_stages.h"
-#include "fusion/best/run_context.h"
 #include "fusion/best/weak_colour.h"
 #include "fusion/registration/axis_correction.h"
 #include "fusion/registration/close_wires.h"
 #include "fusion/registration/frame_points.h"
 #include "fusion/registration/ray_noise.h"
 #include "fusion/stage_progress.h"
+#include "fusion/stage_reporter.h"
 #include "fusion/volume/volume_fusion.h"
 #include "kernel/parallel.h"
 
@@ -31,17 +31,18 @@ constexpr double kBundleSpacing = 1.5;
 constexpr size_t kMaxFramePoints = 2'000'000;
 
 // "Removing large surfaces" needs a model of them: all frames in one volume.
-TsdfVolume FuseVolumeOfRun(const Sequence& sequence, RunContext& run) {
-  const StageLog::Timer timer(run.log, "volume");
-  const int stride = run.options.volume_stride;
+TsdfVolume FuseVolumeOfRun(const Sequence& sequence, const BestOptions& options,
+                           const StageReporter& reporter) {
+  const StageLog::Timer timer(reporter.log, "volume");
+  const int stride = options.volume_stride;
   const int64_t frames = (sequence.frame_count() + stride - 1) / stride;
-  StageProgress progress(run.observer, "volume", frames);
+  StageProgress progress(reporter.observer, "volume", frames);
   TsdfVolume volume =
-      FuseVolume(sequence, run.options.volume, stride, [&progress] { progress.Advance(); });
-  run.observer.OnVolume(volume);
-  run.log.Count("volume", "frames", static_cast<double>(frames));
-  run.log.Count("volume", "blocks", static_cast<double>(volume.block_count()));
-  run.log.Count("volume", "bytes", static_cast<double>(volume.memory_bytes()));
+      FuseVolume(sequence, options.volume, stride, [&progress] { progress.Advance(); });
+  reporter.observer.OnVolume(volume);
+  reporter.log.Count("volume", "frames", static_cast<double>(frames));
+  reporter.log.Count("volume", "blocks", static_cast<double>(volume.block_count()));
+  reporter.log.Count("volume", "bytes", static_cast<double>(volume.memory_bytes()));
   return volume;
 }
 
@@ -50,6 +51,8 @@ struct SegmentedScan {
   std::vector<ObservedPoints> bundles;
   FramePoints frames{kMaxFramePoints};  // what each frame saw of its bundle's points
   std::vector<int> bundle_of_frame;
+  double points = 0;  // of all bundles
+  PointFunnel funnel;
 };
 
 void AddBundle(const SegmentedBundle& bundle, SegmentedScan& scan, PipelineObserver& observer) {
@@ -60,76 +63,96 @@ void AddBundle(const SegmentedBundle& bundle, SegmentedScan& scan, PipelineObser
     scan.frames.Add(Transformed(frame, bundle.T_world_bundle));
     scan.bundle_of_frame.push_back(static_cast<int>(scan.bundles.size()));
   }
+  scan.points += static_cast<double>(bundle.points.size());
+  scan.funnel.Add(bundle.funnel);
   scan.bundles.push_back(Transformed(bundle.points, bundle.T_world_bundle));
   observer.OnPoints(name + "_points", scan.bundles.back());
 }
 
-SegmentedScan SegmentBundles(const Sequence& sequence, const TsdfVolume& volume, RunContext& run) {
-  const StageLog::Timer timer(run.log, "segmentation");
-  SegmentedScan scan;
-  run.observer.OnProgress("surfaces and colours", 0, 1);
-  const SegmentationModel model = LearnSegmentation(sequence, volume, run.options.segmentation);
-  run.row_spacing = model.row_spacing;
-  run.row_diameter = model.row_diameter;
-  run.colours = model.colours;
-  run.magnification = Magnification(model.row_spacing, run.options.resolved_spacing);
-  run.log.Count("segmentation", "row spacing, mm", model.row_spacing / kMillimetre);
-  run.log.Count("segmentation", "frame stride", model.frame_stride);
-  const auto ranges =
-      SplitIntoBundles(sequence.frame_count(), run.options.segmentation.bundle.frames);
+SegmentationModel LearnSegmentationOfRun(const Sequence& sequence, const TsdfVolume& volume,
+                                         const SegmentationOptions& options,
+                                         const StageReporter& reporter) {
+  const StageLog::Timer timer(reporter.log, "segmentation");
+  reporter.observer.OnProgress("surfaces and colours", 0, 1);
+  SegmentationModel model = LearnSegmentation(sequence, volume, options);
+  reporter.log.Count("segmentation", "row spacing, mm", model.row_spacing / kMillimetre);
+  reporter.log.Count("segmentation", "frame stride", model.frame_stride);
+  return model;
+}
+
+using FrameRanges = std::vector<std::pair<int, int>>;
+
+int64_t FramesToSegment(const FrameRanges& ranges, int frame_stride) {
   int64_t frames = 0;
-  for (const auto& [first, last] : ranges) {
-    frames += (last - first + model.frame_stride - 1) / model.frame_stride;
-  }
-  StageProgress progress(run.observer, "segmentation", frames);
+  for (const auto& [first, last] : ranges)
+    frames += (last - first + frame_stride - 1) / frame_stride;
+  return frames;
+}
+
+SegmentedScan SegmentBundles(const Sequence& sequence, const TsdfVolume& volume,
+                             const SegmentationModel& model, const BestOptions& options,
+                             const StageReporter& reporter) {
+  const StageLog::Timer timer(reporter.log, "segmentation");
+  const FrameRanges ranges =
+      SplitIntoBundles(sequence.frame_count(), options.segmentation.bundle.frames);
+  StageProgress progress(reporter.observer, "segmentation",
+                         FramesToSegment(ranges, model.frame_stride));
+  SegmentedScan scan;
   // About as many each time, so that no bundle is left to itself in the end.
   const size_t times = (ranges.size() + kBundlesAtOnce - 1) / kBundlesAtOnce;
-  size_t candidates = 0, points = 0, begin = 0;
+  size_t candidates = 0, begin = 0;
   for (size_t left = times; left > 0; --left) {
     std::vector<SegmentedBundle> bundles((ranges.size() - begin + left - 1) / left);
     ParallelFor(0, static_cast<int64_t>(bundles.size()), 1, [&](int64_t i) {
       const auto& [first, last] = ranges[begin + static_cast<size_t>(i)];
-      bundles[i] = SegmentBundle(sequence, first, last, volume, model, run.options.segmentation,
+      bundles[i] = SegmentBundle(sequence, first, last, volume, model, options.segmentation,
                                  [&progress] { progress.Advance(); });
     });
     for (const SegmentedBundle& bundle : bundles) {
       candidates += bundle.difference_set.size();
-      points += bundle.points.size();
-      run.funnel.points.Add(bundle.funnel);
-      AddBundle(bundle, scan, run.observer);
+      AddBundle(bundle, scan, reporter.observer);
     }
     begin += bundles.size();
     // As if the rest held as many.
-    run.size.points =
-        static_cast<double>(points) * sequence.frame_count() / ranges[begin - 1].second;
-    run.observer.OnPlan(PlanBest(sequence, run.options, run.size));
+    const double points = scan.points * sequence.frame_count() / ranges[begin - 1].second;
+    reporter.observer.OnPlan(PlanBest(sequence, options, {.points = points}));
   }
-  run.log.Count("segmentation", "bundles", static_cast<double>(scan.bundles.size()));
-  run.log.Count("segmentation", "candidates", static_cast<double>(candidates));
-  run.log.Count("segmentation", "points", static_cast<double>(points));
-  run.log.Count("segmentation", "frame point stride", static_cast<double>(scan.frames.stride()));
+  reporter.log.Count("segmentation", "bundles", static_cast<double>(scan.bundles.size()));
+  reporter.log.Count("segmentation", "candidates", static_cast<double>(candidates));
+  reporter.log.Count("segmentation", "points", scan.points);
+  reporter.log.Count("segmentation", "frame point stride",
+                     static_cast<double>(scan.frames.stride()));
   return scan;
 }
 
+// The space in which points are contracted.
+struct ContractionSpace {
+  double magnification = 1;    // of rows of close wires
+  double ray_noise_ratio = 1;  // of noise along the viewing rays to that across them
+
+  bool IsWorld() const { return ray_noise_ratio <= 1 && magnification <= 1; }
+  AffineTransform T_space_world(const ObservedPoints& points) const {
+    return ray_noise_ratio > 1 ? NoiseMetric(points, ray_noise_ratio)
+                               : AffineTransform(Eigen::Scaling(magnification));
+  }
+};
+
 // `ridge` holds the ridges of the points where they are known already.
 SkeletonGraph Contract(const ObservedPoints& points, const std::optional<RidgePoints>& ridge,
-                       const std::string& name, RunContext& run) {
-  const StageLog::Timer timer(run.log, "contraction");
-  run.observer.OnProgress("contraction", 0, 1);
-  const double ratio = run.ray_noise_ratio;
-  const AffineTransform T_space_world =
-      ratio > 1 ? NoiseMetric(points, ratio) : AffineTransform(Eigen::Scaling(run.magnification));
+                       const std::string& name, const ContractionSpace& space,
+                       const RidgeOptions& options, const StageReporter& reporter) {
+  const StageLog::Timer timer = reporter.Begin("contraction");
   SkeletonGraph skeleton;
-  if (ratio > 1 || run.magnification > 1) {
-    skeleton = ExtractRidgeSkeleton(points, run.options.ridge, T_space_world);
+  if (!space.IsWorld()) {
+    skeleton = ExtractRidgeSkeleton(points, options, space.T_space_world(points));
   } else if (ridge) {
-    skeleton = ExtractRidgeSkeleton(points, *ridge, run.options.ridge);
+    skeleton = ExtractRidgeSkeleton(points, *ridge, options);
   } else {
-    skeleton = ExtractRidgeSkeleton(points, run.options.ridge);
+    skeleton = ExtractRidgeSkeleton(points, options);
   }
-  run.log.Count("contraction", "ray noise ratio", ratio);
-  run.observer.OnPoints(name + "_points", points);
-  run.observer.OnGraph(name + "_skeleton", skeleton);
+  reporter.log.Count("contraction", "ray noise ratio", space.ray_noise_ratio);
+  reporter.observer.OnPoints(name + "_points", points);
+  reporter.observer.OnGraph(name + "_skeleton", skeleton);
   return skeleton;
 }
 
@@ -140,13 +163,13 @@ struct RegisteredBundles {
 };
 
 // Registers every bundle to the curves of those before it.
-RegisteredBundles RegisterBundles(const SegmentedScan& scan, RunContext& run) {
-  const StageLog::Timer timer(run.log, "registration");
-  StageProgress progress(run.observer, "bundle registration",
+RegisteredBundles RegisterBundles(const SegmentedScan& scan, double row_spacing,
+                                  const RidgeProjectionOptions& ridges, const BestOptions& options,
+                                  const StageReporter& reporter) {
+  const StageLog::Timer timer(reporter.log, "registration");
+  StageProgress progress(reporter.observer, "bundle registration",
                          static_cast<int64_t>(scan.bundles.size()));
-  CarriedPoints carried(run.options.carried);
-  const RidgeProjectionOptions ridges =
-      ForCloseWires(run.options.ridge.projection, run.magnification);
+  CarriedPoints carried(options.carried);
   RidgeProjectionOptions coarse = ridges;
   coarse.spacing *= kBundleSpacing;
   // Side by side, as much of a projection is done one step after the other.
@@ -157,8 +180,7 @@ RegisteredBundles RegisterBundles(const SegmentedScan& scan, RunContext& run) {
   for (size_t i = 0; i < scan.bundles.size(); ++i) {
     T_registered_bundle.push_back(carried
                                       .AddBundle(scan.bundles[i], ridge_of_bundle[i],
-                                                 ridges.spacing, run.options.registration,
-                                                 run.row_spacing)
+                                                 ridges.spacing, options.registration, row_spacing)
                                       .T_target_source);
     progress.Advance();
   }
@@ -174,20 +196,21 @@ RegisteredBundles RegisterBundles(const SegmentedScan& scan, RunContext& run) {
 RegisteredFrames RegisterFramesToCurves(std::vector<ObservedPoints> frames,
                                         const RegisteredBundles& bundles,
                                         const std::vector<Vec3>& cameras,
-                                        const SkeletonGraph& first, RunContext& run) {
-  const StageLog::Timer timer(run.log, "registration");
-  run.observer.OnProgress("frame registration", 0, 1);
-  const AxisCorrection correction(first, run.options.axis_depth);
+                                        const SkeletonGraph& first,
+                                        const RidgeProjectionOptions& ridges,
+                                        const BestOptions& options, const StageReporter& reporter) {
+  const StageLog::Timer timer(reporter.log, "registration");
+  reporter.observer.OnProgress("frame registration", 0, 1);
+  const AxisCorrection correction(first, options.axis_depth);
   ParallelFor(0, static_cast<int64_t>(frames.size()), 1, [&](int64_t i) {
     const RigidTransform& T = bundles.T_registered_frame[i];
     frames[i] = Transformed(correction.Apply(Transformed(frames[i], T)), T.inverse());
   });
   RegisteredFrames registered =
-      RegisterFrames(frames, bundles.T_registered_frame, cameras, bundles.ridge,
-                     ForCloseWires(run.options.ridge.projection, run.magnification),
-                     run.options.registration, run.options.frames);
-  run.log.Count("registration", "registered frames", registered.registered);
-  run.log.Count("registration", "points", static_cast<double>(registered.points.size()));
+      RegisterFrames(frames, bundles.T_registered_frame, cameras, bundles.ridge, ridges,
+                     options.registration, options.frames);
+  reporter.log.Count("registration", "registered frames", registered.registered);
+  reporter.log.Count("registration", "points", static_cast<double>(registered.points.size()));
   return registered;
 }
 
@@ -217,41 +240,53 @@ ObservedPoints LargestBundle(const SegmentedScan& scan) {
 // Bundles, then single frames, are registered to the curves they see; their points
 // are carried along and contracted once. Where noise blurs the curves, single frames would be
 // registered to noise: they keep the poses of their bundles.
-void ContractCarriedPoints(SegmentedScan scan, RunContext& run, Reconstruction& result) {
-  run.ray_noise_ratio = RayNoiseRatio(LargestBundle(scan), run.options.min_linearity);
-  const RegisteredBundles bundles = RegisterBundles(scan, run);
+void ContractCarriedPoints(SegmentedScan scan, const SegmentationModel& model,
+                           const BestOptions& options, const StageReporter& reporter,
+                           Reconstruction& result) {
+  const ContractionSpace space = {Magnification(model.row_spacing, options.resolved_spacing),
+                                  RayNoiseRatio(LargestBundle(scan), options.min_linearity)};
+  const RidgeProjectionOptions ridges =
+      ForCloseWires(options.ridge.projection, space.magnification);
+  const RegisteredBundles bundles =
+      RegisterBundles(scan, model.row_spacing, ridges, options, reporter);
   scan.bundles.clear();
-  SkeletonGraph first = Contract(bundles.points, bundles.ridge, "registered_bundles", run);
-  run.size.length = first.TotalLength();
-  run.observer.OnPlan(PlanBest(result.sequence, run.options, run.size));
-  AssignRadii(MeasureRadii(first, result.sequence, run), run.options.radius, first);
-  if (run.ray_noise_ratio > 1) {
+  SkeletonGraph first =
+      Contract(bundles.points, bundles.ridge, "registered_bundles", space, options.ridge, reporter);
+  reporter.observer.OnPlan(
+      PlanBest(result.sequence, options, {.points = scan.points, .length = first.TotalLength()}));
+  AssignRadii(MeasureRadii(first, result.sequence, model.row_diameter, options.radius, reporter),
+              first);
+  if (space.ray_noise_ratio > 1) {
     CorrectPoses(bundles.T_registered_frame, result.sequence);
-    result.points = AxisCorrection(first, run.options.axis_depth).Apply(bundles.points);
+    result.points = AxisCorrection(first, options.axis_depth).Apply(bundles.points);
   } else {
-    RegisteredFrames registered = RegisterFramesToCurves(
-        std::move(scan.frames).Release(), bundles, CameraCenters(result.sequence), first, run);
+    RegisteredFrames registered =
+        RegisterFramesToCurves(std::move(scan.frames).Release(), bundles,
+                               CameraCenters(result.sequence), first, ridges, options, reporter);
     CorrectPoses(registered.T_registered_world, result.sequence);
     result.points = std::move(registered.points);
   }
   // Whatever shows only now that all points are in place is to be found, too.
-  result.skeleton = Contract(result.points, std::nullopt, "registered_frames", run);
+  result.skeleton =
+      Contract(result.points, std::nullopt, "registered_frames", space, options.ridge, reporter);
 }
 
 // Everything after the volume.
 Reconstruction ReconstructThinParts(const TsdfVolume& volume, const Sequence& sequence,
-                                    RunContext& run) {
+                                    const BestOptions& options, const StageReporter& reporter) {
   Reconstruction result;
   result.sequence = sequence;
   result.warnings = sequence.warnings;
-  SegmentedScan scan = SegmentBundles(sequence, volume, run);
-  ContractCarriedPoints(std::move(scan), run, result);
-  run.funnel.curves.contracted = result.skeleton.TotalLength();
-  RefineByColour(sequence, run, result);
-  run.funnel.curves.curves = result.skeleton.TotalLength();
-  result.funnel = run.funnel;
+  const SegmentationModel model =
+      LearnSegmentationOfRun(sequence, volume, options.segmentation, reporter);
+  SegmentedScan scan = SegmentBundles(sequence, volume, model, options, reporter);
+  result.funnel.points = scan.funnel;
+  ContractCarriedPoints(std::move(scan), model, options, reporter, result);
+  result.funnel.curves.contracted = result.skeleton.TotalLength();
+  RefineByColour(sequence, model, options, reporter, result);
+  result.funnel.curves.curves = result.skeleton.TotalLength();
   result.trust = MeasureTrust(sequence, result);
-  result.stages = run.log.stages();
+  result.stages = reporter.log.stages();
   return result;
 }
 
@@ -261,19 +296,20 @@ Reconstruction ReconstructBest(const Sequence& sequence, const BestOptions& give
                                PipelineObserver& observer) {
   BestOptions options = given;
   const std::string useless_colour = SwitchOffUselessColour(sequence, options);
-  RunContext run{options, observer, {}};
-  observer.OnPlan(PlanBest(sequence, options, run.size));
-  const TsdfVolume volume = FuseVolumeOfRun(sequence, run);
-  Reconstruction result = ReconstructThinParts(volume, sequence, run);
+  observer.OnPlan(PlanBest(sequence, options, {}));
+  StageLog log;
+  const StageReporter reporter{observer, log};
+  const TsdfVolume volume = FuseVolumeOfRun(sequence, options, reporter);
+  Reconstruction result = ReconstructThinParts(volume, sequence, options, reporter);
   if (!useless_colour.empty()) result.warnings.push_back(useless_colour);
   return result;
 }
 
 Reconstruction ReconstructBestAgainst(const TsdfVolume& volume, const Sequence& sequence,
                                       const BestOptions& options, PipelineObserver& observer) {
-  RunContext run{options, observer, {}};
-  observer.OnPlan(PlanBest(sequence, options, run.size));
-  return ReconstructThinParts(volume, sequence, run);
+  observer.OnPlan(PlanBest(sequence, options, {}));
+  StageLog log;
+  return ReconstructThinParts(volume, sequence, options, StageReporter{observer, log});
 }
 
 }  // namespace curvefusion

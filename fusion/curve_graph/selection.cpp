@@ -178,13 +178,6 @@ class Selector {
 
 }  // namespace
 
-void UnprovenLengths::Add(const UnprovenLengths& other) {
-  surface += other.surface;
-  thick += other.thick;
-  looked_past += other.looked_past;
-  unproven += other.unproven;
-}
-
 double KeepProven(const std::vector<StretchEvidence>& evidence,
                   const std::vector<WireProof>& proofs, double min_probability,
                   SkeletonGraph& skeleton, UncertainCurves& uncertain) {

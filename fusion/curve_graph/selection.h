@@ -16,7 +16,6 @@ struct UnprovenLengths {
   double unproven = 0;     ///< too little speaks for them
 
   double Sum() const { return surface + thick + looked_past + unproven; }
-  void Add(const UnprovenLengths& other);
 };
 
 /// What was taken out of a skeleton.

@@ -193,27 +193,21 @@ void Summarize(const SkeletonGraph& skeleton, const RadiusOptions& options,
   }
   const std::vector<double> all = DiametersOf(estimate.strips);
   estimate.global_radius = 0.5 * Agree(all, options).diameter;
-  std::map<int, Agreement> agreed_by_wire;
-  std::vector<MeasuredDiameter> gauges;
-  if (options.per_wire) {
-    agreed_by_wire = AgreeByWire(by_wire, options);
-    gauges = GaugesOf(agreed_by_wire, options);
-  }
+  std::map<int, Agreement> agreed_by_wire = AgreeByWire(by_wire, options);
+  const std::vector<MeasuredDiameter> gauges = GaugesOf(agreed_by_wire, options);
   estimate.unmeasured_radius =
       gauges.empty() ? estimate.global_radius : 0.5 * gauges.front().diameter;
   for (const EdgeId edge : skeleton.Edges()) {
-    Agreement agreed = Agree(DiametersOf(by_edge[edge]), options);
-    if (options.per_wire) agreed = ChooseAgreement(agreed, agreed_by_wire[wires.at(edge)]);
+    const Agreement agreed =
+        ChooseAgreement(Agree(DiametersOf(by_edge[edge]), options), agreed_by_wire[wires.at(edge)]);
     if (agreed.count < options.min_strips) {
       estimate.edges.push_back({edge, 0, 0, agreed.count, {}});
       continue;
     }
     const double diameter =
         DrawnToGauge({agreed.diameter, agreed.count}, gauges, options.gauge_strips);
-    estimate.edges.push_back({edge, 0.5 * diameter, 0.5 * StandardError(agreed), agreed.count, {}});
-    if (options.along_edge) {
-      estimate.edges.back().along = RadiiAlong(by_edge[edge], options);
-    }
+    estimate.edges.push_back({edge, 0.5 * diameter, 0.5 * StandardError(agreed), agreed.count,
+                              RadiiAlong(by_edge[edge], options)});
   }
 }
 
@@ -247,16 +241,14 @@ RadiusEstimate EstimateRadius(const SkeletonGraph& skeleton, const Sequence& seq
   return estimate;
 }
 
-void AssignRadii(const RadiusEstimate& estimate, const RadiusOptions& options,
-                 SkeletonGraph& skeleton) {
+void AssignRadii(const RadiusEstimate& estimate, SkeletonGraph& skeleton) {
   if (estimate.global_radius <= 0) return;
   for (const EdgeRadius& own : estimate.edges) {
     if (!skeleton.HasEdge(own.edge)) continue;
     const SkeletonEdge& edge = skeleton.edge(own.edge);
-    double radius = estimate.global_radius;
-    if (options.per_edge) radius = own.radius > 0 ? own.radius : estimate.unmeasured_radius;
+    const double radius = own.radius > 0 ? own.radius : estimate.unmeasured_radius;
     std::vector<double> radii(edge.points.size(), radius);
-    if (options.per_edge && !own.along.empty()) radii = InterpolatedRadii(edge.points, own.along);
+    if (!own.along.empty()) radii = InterpolatedRadii(edge.points, own.along);
     skeleton.SetCurve(own.edge, edge.points, std::move(radii), edge.observations);
   }
 }
@@ -274,21 +266,6 @@ void VisitOptions(RadiusOptions& options, OptionVisitor& visitor) {
                  "Colour images used; more are thinned evenly. CurveFusion 3.3 uses all; beyond 30 "
                  "the result hardly changes."},
                 options.max_frames);
-  visitor.Visit(
-      {"vanishing_color", "", 0, 1,
-       "Deviation: the wires' colour is also told by the backgrounds "
-       "before which strips would vanish: of thin strips the blur leaves no other trace."},
-      options.vanishing_color);
-  visitor.Visit({"per_edge", "", 0, 1,
-                 "Deviation: one radius for each edge; CurveFusion 3.3 has one for all."},
-                options.per_edge);
-  visitor.Visit({"per_wire", "", 0, 1,
-                 "Deviation: edges that go straight on through a junction are pieces of one wire "
-                 "and share their strips: between near junctions too few are free of other wires."},
-                options.per_wire);
-  visitor.Visit({"along_edge", "", 0, 1,
-                 "Deviation: the radius varies along an edge whose thickness clearly changes."},
-                options.along_edge);
   visitor.Visit({"gauge_strips", "", 0, 100000,
                  "Deviation: an object is made of few gauges of wire: the diameter of a wire is "
                  "drawn to that of the wires like it, with the weight of so many strips."},

@@ -14,10 +14,6 @@ struct RadiusOptions {
   double sample_step = 0.010;
   double histogram_bin = 0.00025;
   int max_frames = 30;
-  bool vanishing_color = true;
-  bool per_edge = true;
-  bool per_wire = true;
-  bool along_edge = true;
   double gauge_strips = 100;
   double search_px = 10;
   double max_diameter = 0.025;
@@ -56,8 +52,8 @@ struct EdgeRadius {
 /// Radii of a wire object.
 struct RadiusEstimate {
   double global_radius = 0;  ///< the most prominent value, metres; 0 = not measurable
-  /// What edges without enough strips are given, metres: with options.per_wire that of the thinnest
-  /// gauge, for thin wires stand close together and hide one another; else the global one.
+  /// What edges without enough strips are given, metres: that of the thinnest gauge, for thin wires
+  /// stand close together and hide one another; the global one where no wire is measured.
   double unmeasured_radius = 0;
   std::vector<EdgeRadius> edges;   ///< one per edge, ascending
   std::vector<StripWidth> strips;  ///< every accepted strip
@@ -68,19 +64,18 @@ struct RadiusEstimate {
 /// sequence.frames, evenly thinned), the strip found near each is measured across the curve and
 /// converted to metres. The most prominent value of all is the global radius; each edge gets the
 /// value that the strips of its wire (all edges that go straight on into one another) agree on, or,
-/// where that clearly differs, its own, drawn to the gauge of the wires like it. With
-/// options.along_edge an edge is cut into stretches of 30 mm, and where their diameters differ by
-/// 30 % and more than their errors explain, its radius varies. Places where another strand of the
-/// skeleton lies within 1.5 widths are left out; wires that are hardly anywhere free of others are
-/// measured between those that cross them. Throws Error(kBadInput) for images that cannot be
-/// decoded. Cost: 10 ms a frame for 3 m of wire.
+/// where that clearly differs, its own, drawn to the gauge of the wires like it. An edge is cut
+/// into stretches of 30 mm, and where their diameters differ by 30 % and more than their errors
+/// explain, its radius varies. Places where another strand of the skeleton lies within 1.5 widths
+/// are left out; wires that are hardly anywhere free of others are measured between those that
+/// cross them. Throws Error(kBadInput) for images that cannot be decoded. Cost: 10 ms a frame for 3
+/// m of wire.
 RadiusEstimate EstimateRadius(const SkeletonGraph& skeleton, const Sequence& sequence,
                               const std::vector<int>& frames, const RadiusOptions& options);
 
-/// Sets the radius at every vertex: each edge's own with options.per_edge, at that place of the
-/// edge where it changes along it (unmeasured_radius where it has none), the global one otherwise.
-/// Does nothing where nothing was measured at all (estimate.global_radius == 0).
-void AssignRadii(const RadiusEstimate& estimate, const RadiusOptions& options,
-                 SkeletonGraph& skeleton);
+/// Sets the radius at every vertex: each edge's own, at that place of the edge where it changes
+/// along it; unmeasured_radius where it has none. Does nothing where nothing was measured at all
+/// (estimate.global_radius == 0).
+void AssignRadii(const RadiusEstimate& estimate, SkeletonGraph& skeleton);
 
 }  // namespace curvefusion

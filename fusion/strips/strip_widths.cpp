@@ -61,7 +61,7 @@ std::map<EdgeId, WireColor> ColorsByEdge(const std::vector<FoundStrip>& strips,
   ImageBlur blur{options.luma_blur_px, options.chroma_blur_px};
   blur.chroma_px = CalibrateChromaBlur(all, blur);
   const WireColor estimated = EstimateWireColor(all, blur);
-  const WireColor common = options.vanishing_color ? DrawnToVanishing(estimated, clear) : estimated;
+  const WireColor common = DrawnToVanishing(estimated, clear);
   for (const auto& [edge, own_strips] : by_edge) {
     const WireColor own = EstimateWireColor(own_strips, blur);
     const bool is_same = own.direction.cross(estimated.direction).norm() < kSameColor;

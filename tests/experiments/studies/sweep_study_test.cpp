@@ -32,9 +32,9 @@ StudyRequest RequestFor(const std::vector<std::string>& assignments) {
 }
 
 TEST(SweepStudy, TriesAllCombinationsAndTheDefault) {
-  EXPECT_THAT(SettingsOf(RequestFor({"bundle.min_frames=1,2", "radius.per_edge=false"})),
-              ElementsAre("default", "bundle.min_frames=1 radius.per_edge=false",
-                          "bundle.min_frames=2 radius.per_edge=false"));
+  EXPECT_THAT(SettingsOf(RequestFor({"bundle.min_frames=1,2", "colour_adjustment.enabled=false"})),
+              ElementsAre("default", "bundle.min_frames=1 colour_adjustment.enabled=false",
+                          "bundle.min_frames=2 colour_adjustment.enabled=false"));
   EXPECT_THAT(SettingsOf(RequestFor({})), ElementsAre("default"));
   const auto cases = SweepStudy().cases(RequestFor({"bundle.min_frames=1,2"}));
   const auto min_frames = [&](size_t i) {

@@ -95,7 +95,7 @@ TEST_F(RadiusTest, TheRadiusVariesAlongAnEdgeWhoseThicknessChanges) {
   Polyline points;
   for (int i = 0; i <= 24; ++i) points.emplace_back(-0.12 + 0.01 * i, 0, 0.6);
   const EdgeId edge = skeleton.AddPolyline(points);
-  AssignRadii(EstimateRadius(skeleton, sequence, AllFrames(), {}), {}, skeleton);
+  AssignRadii(EstimateRadius(skeleton, sequence, AllFrames(), {}), skeleton);
   const std::vector<double>& radii = skeleton.edge(edge).radii;
   for (size_t i = 0; i < radii.size(); ++i) {
     // 10 %: all strips of an edge are measured as wide as most of them. Around the step the radius
@@ -104,8 +104,6 @@ TEST_F(RadiusTest, TheRadiusVariesAlongAnEdgeWhoseThicknessChanges) {
     const double truth = points[i].x() < 0 ? 0.0025 : 0.004;
     EXPECT_NEAR(radii[i], truth, 0.1 * truth) << points[i].x();
   }
-  AssignRadii(EstimateRadius(skeleton, sequence, AllFrames(), {.along_edge = false}), {}, skeleton);
-  EXPECT_EQ(skeleton.edge(edge).radii, std::vector<double>(25, skeleton.edge(edge).radii[0]));
 }
 
 TEST_F(RadiusTest, AWireOfOneThicknessHasOneRadius) {
@@ -184,7 +182,7 @@ TEST_F(RadiusTest, NothingToMeasureIsNoError) {
   EXPECT_EQ(estimate.global_radius, 0);
   ASSERT_EQ(estimate.edges.size(), 1u);
   EXPECT_EQ(estimate.edges[0].radius, 0);
-  AssignRadii(estimate, {}, elsewhere);
+  AssignRadii(estimate, elsewhere);
   EXPECT_TRUE(elsewhere.edge(estimate.edges[0].edge).radii.empty());
   EXPECT_EQ(EstimateRadius({}, MakeSequence(), AllFrames(), {}).global_radius, 0);
   EXPECT_EQ(EstimateRadius(Skeleton(Vec3::Zero()), MakeSequence(), {}, {}).global_radius, 0);
@@ -198,11 +196,9 @@ TEST(AssignRadiiTest, EdgesWithoutAValueGetThatOfThinWires) {
   estimate.global_radius = 0.004;
   estimate.unmeasured_radius = 0.002;
   estimate.edges = {{measured, 0.003, 0, 9}, {unmeasured, 0, 0, 0}};
-  AssignRadii(estimate, {}, skeleton);
+  AssignRadii(estimate, skeleton);
   EXPECT_EQ(skeleton.edge(measured).radii, std::vector<double>(3, 0.003));
   EXPECT_EQ(skeleton.edge(unmeasured).radii, std::vector<double>(2, 0.002));
-  AssignRadii(estimate, {.per_edge = false}, skeleton);
-  EXPECT_EQ(skeleton.edge(measured).radii, std::vector<double>(3, 0.004));
 }
 
 SkeletonGraph ReadCurves(const std::filesystem::path& path, std::vector<double>& diameters) {
