@@ -4,9 +4,11 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <set>
 
 #include "experiments/metrics/truth.h"
+#include "experiments/simulation/drift.h"
 #include "experiments/simulation/scan_settings.h"
 #include "kernel/error.h"
 #include "tests/experiments/file_contents.h"
@@ -36,6 +38,35 @@ TEST(DrawScan, KeepsItsRangesAndIsGivenByItsSeed) {
   }
   EXPECT_EQ(sensors.size(), 6u);
   EXPECT_GT(long_scans, 0);
+}
+
+TEST(DrawScan, OneScanInSevenHasThePosesOfTheKitchen) {
+  std::map<std::string, int> scans;
+  for (const std::string& family : FamilyNames()) {
+    for (uint64_t seed = 1; seed <= 60; ++seed) ++scans[DrawScan(family, seed).pose_source];
+  }
+  int total = 0;
+  for (const auto& [source, count] : scans) total += count;
+  EXPECT_EQ(scans.size(), PoseSourceNames().size());
+  // .15 within three standard deviations of that share of 1,080 scans.
+  EXPECT_NEAR(static_cast<double>(scans["kitchen"]) / total, 0.15, 0.033);
+}
+
+// Scans that others have measured keep their poses, but for those that now have the kitchen's.
+TEST(DrawScan, PosesDrawnBeforeTheKitchenCameStay) {
+  struct Drawn {
+    const char* family;
+    uint64_t seed;
+    const char* source;
+    double scale;
+  };
+  for (const Drawn& before : {Drawn{"stand", 1, "bundlefusion", 1.3504911377184634},
+                              Drawn{"cage", 2, "kinfu", 1.0280595910988788},
+                              Drawn{"tree", 2, "orbslam2", 1.1765313133575117}}) {
+    const SimulationOptions scan = DrawScan(before.family, before.seed);
+    EXPECT_EQ(scan.pose_source, before.source) << before.family;
+    EXPECT_DOUBLE_EQ(scan.pose_error_scale, before.scale) << before.family;
+  }
 }
 
 TEST(DrawScan, RoomsHaveNoWireAndFurnishedOnesBoth) {
