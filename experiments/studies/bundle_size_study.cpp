@@ -43,8 +43,10 @@ struct Scale {
 };
 
 Scale ScaleOf(const StudyRequest& request) {
-  if (request.quick) return {{"cat"}, {1, 4, 10, 30, kQuickFrames}, kQuickFrames};
-  return {{"cat", "deco", "rack"}, {1, 4, 10, 30, 80, 240, kFrames}, kFrames};
+  Scale scale = {{"cat", "deco", "rack"}, {1, 4, 10, 30, 80, 240, kFrames}, kFrames};
+  if (request.quick) scale = {{"cat"}, {1, 4, 10, 30, kQuickFrames}, kQuickFrames};
+  if (!request.objects.empty()) scale.objects = ObjectsOf(request);
+  return scale;
 }
 
 std::vector<StudyCase> Cases(const StudyRequest& request) {
@@ -69,7 +71,9 @@ std::vector<StudyCase> Cases(const StudyRequest& request) {
               CaseConfig(request, profile, {fmt::format("bundle.frames={}", size)}));
         }
         add(kVolume, CaseConfig(request, Profile::kPaper,
-                                {fmt::format("volume.voxel_size={}", kFineVoxel)}));
+                                {fmt::format("volume.voxel_size={}", kFineVoxel),
+                                 fmt::format("volume.truncation_voxels={}",
+                                             TsdfOptions().truncation_voxels)}));
       }
     }
   }

@@ -16,14 +16,18 @@ struct PaperBundleOptions {
   /// 1 to 100000. "k = 30 works well for most of the models we have tested."
   int frames = 30;
   /// Metres, 0.0005 to 0.05. "We resample this merged point set ... using a 3D regular grid": no
-  /// number; chosen: a third of the first radius of the contraction.
-  double voxel_size = 5 * kMillimetre;
+  /// number; derived: as far apart as the samples of the contraction, which is what the grid is
+  /// for.
+  double voxel_size = 3 * kMillimetre;
 };
 void VisitOptions(PaperBundleOptions& options, OptionVisitor& visitor);
 
 /// Everything that the paper's method can be told.
 struct PaperOptions {
-  TsdfOptions volume;
+  /// Derived: distances of 3 voxels of 5 mm are less than 17 mm, the least spacing of wires that
+  /// the paper resolves. A volume fills gaps that its truncation spans, and what it fills is a
+  /// surface.
+  TsdfOptions volume = {.truncation_voxels = 3};
   PaperBundleOptions bundle;
   SurfaceRemovalOptions surfaces;
   CurveEdgeOptions edges;
