@@ -183,8 +183,8 @@ void AddRequestOptions(CLI::App& command, ExperimentArguments& arguments) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command
       .add_option("--objects", arguments.request.objects,
-                  "Objects of the studies objects, ablation and sweep, or families of the study "
-                  "families, separated by commas")
+                  "Objects of the studies objects, bundle-size, ablation and sweep, or families of "
+                  "the study families, separated by commas")
       ->delimiter(',');
   command
       .add_option(
