@@ -19,6 +19,7 @@ Json NamedJson(const std::string& text) { return text.empty() ? Json(nullptr) : 
 Json FiguresJson(const CheckReport& report) {
   const ImageSizes& sizes = report.image_sizes;
   return {{"frames", report.frames},
+          {"has_poses", report.has_poses},
           {"frames_without_pose", report.frames_without_pose},
           {"frames_without_partner", report.frames_without_partner},
           {"depth_size", SizeJson(sizes.depth_width, sizes.depth_height)},
@@ -26,7 +27,8 @@ Json FiguresJson(const CheckReport& report) {
           {"depth_scale", KnownJson(report.depth_scale)},
           {"median_depth", KnownJson(report.median_depth)},
           {"depth_validity", report.depth_validity},
-          {"trajectory_length", report.trajectory_length},
+          {"trajectory_length",
+           report.has_poses ? Json(report.trajectory_length) : Json(nullptr)},
           {"duration", KnownJson(report.duration)}};
 }
 

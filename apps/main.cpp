@@ -52,6 +52,7 @@ int Parse(std::vector<std::string> arguments) {
       "`curvefusion help COMMAND` tells more and gives examples.");
   int exit_code = 0;
   AddReconstructCommand(app, exit_code);
+  AddTrackCommand(app, exit_code);
   AddCheckCommand(app, exit_code);
   AddContractCommand(app, exit_code);
   AddMeshCommand(app, exit_code);

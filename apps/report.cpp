@@ -65,6 +65,16 @@ Json SequenceJson(const Sequence& sequence) {
           {"frames_without_partner", sequence.frames_without_partner}};
 }
 
+// Where the poses came from.
+Json PosesJson(const RunRecord& record) {
+  if (!record.tracking) return {{"from", "sequence"}};
+  Json lost = Json::array();
+  for (const LostFrame& frame : record.tracking->lost) {
+    lost.push_back({{"frame", frame.name}, {"why", frame.why}});
+  }
+  return {{"from", "tracking"}, {"keyframes", record.tracking->keyframes}, {"lost", lost}};
+}
+
 Json DiameterJson(double radius) {
   return radius > 0 ? Json(2 * radius / kMillimetre) : Json(nullptr);
 }
@@ -203,6 +213,7 @@ std::string ReportJson(const RunRecord& record) {
       {"profile", ProfileName(record.config.profile)},
       {"sequence", SequenceJson(record.sequence)},
       {"cameras", CamerasJson(record)},
+      {"poses", PosesJson(record)},
       {"seconds", record.seconds},
       {"seconds_per_30_frames",
        frames > 0 ? Json(record.seconds * kBundle / frames) : Json(nullptr)},

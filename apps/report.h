@@ -9,6 +9,7 @@
 #include "capture/sequence.h"
 #include "experiments/config.h"
 #include "fusion/pipeline.h"
+#include "fusion/tracking/track_sequence.h"
 #include "meshing/watertight.h"
 
 namespace curvefusion {
@@ -29,6 +30,7 @@ struct RunRecord {
   double seconds = 0;                 ///< the whole run
   int64_t peak_memory = 0;            ///< bytes
   bool colour_camera_fitted = false;  ///< that of the sequence; otherwise that of the intrinsics
+  std::optional<TrackingResult> tracking;  ///< where the poses come from it
 };
 
 /// The text of report.json: profile, sequence, frames, stages with seconds and counts, warnings,

@@ -112,7 +112,7 @@ std::optional<Sequence> TryReadSequence(const std::filesystem::path& folder,
                                         const FindingHandler& on_finding) {
   std::string message;
   try {
-    return ReadSequence(folder, on_finding);
+    return ReadSequence(folder, PoseUse::kIfGiven, on_finding);
   } catch (const Error& error) {
     message = error.what();
   }
@@ -120,9 +120,19 @@ std::optional<Sequence> TryReadSequence(const std::filesystem::path& folder,
   return std::nullopt;
 }
 
+void ReportMissingPoses(const Sequence& sequence, const FindingHandler& on_finding) {
+  if (sequence.has_poses) return;
+  on_finding({Severity::kWarning,
+              fmt::format("{}: has no camera poses; reconstruct finds them by tracking the camera "
+                          "(curvefusion track does only that)",
+                          sequence.folder.string()),
+              "no-poses"});
+}
+
 // Where most frames of a TUM sequence have no pose, the clocks may be far apart.
 GeometryReport CheckPoses(const Sequence& sequence, const Thumbnails& thumbnails,
                           const FindingHandler& on_finding) {
+  if (!sequence.has_poses) return {};
   if (sequence.format == "tum" && sequence.frames_without_pose > sequence.frame_count()) {
     const Sequence images = ReadTumImages(sequence.folder, [](const CheckFinding&) {});
     GeometryReport report = CheckClocks(images, on_finding);
@@ -133,6 +143,7 @@ GeometryReport CheckPoses(const Sequence& sequence, const Thumbnails& thumbnails
 
 void Summarize(const Sequence& sequence, CheckReport& report) {
   report.format = sequence.format;
+  report.has_poses = sequence.has_poses;
   report.frames = sequence.frame_count();
   report.frames_without_pose = sequence.frames_without_pose;
   report.frames_without_partner = sequence.frames_without_partner;
@@ -158,6 +169,7 @@ CheckReport CheckSequence(const std::filesystem::path& folder, const Progress& p
   };
   if (const auto sequence = TryReadSequence(folder, collect)) {
     Summarize(*sequence, report);
+    ReportMissingPoses(*sequence, collect);
     report.image_sizes = SurveyImages(*sequence, collect);
     DecodedContent content = CheckFrames(*sequence, progress, collect);
     const bool has_samples = content.depth.pixels > 0;

@@ -16,7 +16,8 @@ namespace curvefusion {
 struct CheckReport {
   std::vector<CheckFinding> findings;  ///< errors first
   std::string format;                  ///< as Sequence::format; empty where it is unknown
-  int frames = 0;                      ///< with a pose and both images
+  bool has_poses = true;               ///< otherwise nothing is said of the camera's path
+  int frames = 0;                      ///< with both images, and a pose where there are any
   int frames_without_pose = 0;         ///< dropped
   int frames_without_partner = 0;      ///< colour or depth images without the other, dropped
   ImageSizes image_sizes;

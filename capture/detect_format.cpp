@@ -10,6 +10,7 @@
 #include <system_error>
 #include <vector>
 
+#include "capture/readers/frame_assembly.h"
 #include "capture/readers/readers.h"
 #include "kernel/error.h"
 
@@ -25,29 +26,54 @@ bool LooksLikeTum(const fs::path& folder) {
   return fs::exists(folder / "depth.txt") || fs::exists(folder / "associations.txt");
 }
 
-bool LooksLikeRedwood(const fs::path& folder) { return fs::exists(folder / "trajectory.log"); }
+bool HasTrajectoryLog(const fs::path& folder) { return fs::exists(folder / "trajectory.log"); }
 
-bool LooksLikePerFramePoses(const fs::path& folder) { return fs::is_directory(folder / "pose"); }
+bool HasPoseFolder(const fs::path& folder) { return fs::is_directory(folder / "pose"); }
 
-bool LooksLikeSevenScenes(const fs::path& folder) {
+bool HasImageFolders(const fs::path& folder) {
+  return fs::is_directory(folder / "depth") && fs::is_directory(ColorFolder(folder));
+}
+
+bool LooksLikeRedwood(const fs::path& folder) {
+  return HasTrajectoryLog(folder) || (HasImageFolders(folder) && !HasPoseFolder(folder) &&
+                                      fs::exists(folder / "intrinsic.json"));
+}
+
+bool LooksLikePerFramePoses(const fs::path& folder) {
+  return HasPoseFolder(folder) ||
+         (HasImageFolders(folder) && fs::exists(folder / "intrinsics.json"));
+}
+
+bool HasFilesEndingWith(const fs::path& folder, const std::string& ending) {
   for (const auto& entry : fs::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
-    if (name.starts_with("frame-") && name.ends_with(".depth.png")) return true;
+    if (name.starts_with("frame-") && name.ends_with(ending)) return true;
   }
   return false;
 }
 
+bool LooksLikeSevenScenes(const fs::path& folder) {
+  return HasFilesEndingWith(folder, ".depth.png");
+}
+
+bool HasPoseFiles(const fs::path& folder) { return HasFilesEndingWith(folder, ".pose.txt"); }
+
+using Reader = Sequence (*)(const fs::path& folder, const FindingHandler& on_finding);
+
 struct Format {
   const char* name;
   bool (*matches)(const fs::path& folder);
-  Sequence (*read)(const fs::path& folder, const FindingHandler& on_finding);
+  bool (*has_poses)(const fs::path& folder);
+  Reader read;
+  Reader read_images;
 };
 
 constexpr std::array<Format, 4> kFormats = {{
-    {"tum", LooksLikeTum, ReadTum},
-    {"redwood", LooksLikeRedwood, ReadRedwood},
-    {"per-frame poses", LooksLikePerFramePoses, ReadPerFramePoses},
-    {"7-scenes", LooksLikeSevenScenes, ReadSevenScenes},
+    {"tum", LooksLikeTum, HasTumTrajectory, ReadTum, ReadTumImages},
+    {"redwood", LooksLikeRedwood, HasTrajectoryLog, ReadRedwood, ReadRedwoodImages},
+    {"per-frame poses", LooksLikePerFramePoses, HasPoseFolder, ReadPerFramePoses,
+     ReadPerFrameImages},
+    {"7-scenes", LooksLikeSevenScenes, HasPoseFiles, ReadSevenScenes, ReadSevenScenesImages},
 }};
 
 bool LooksLikeSequence(const fs::path& folder) {
@@ -86,7 +112,8 @@ std::vector<std::string> ScansInside(const fs::path& folder) {
       ErrorKind::kBadInput,
       fmt::format(
           "{}: the format of this folder is unknown; it must hold one of: rgb.txt, depth.txt and "
-          "trajectory.txt (TUM); color/ (or rgb/, image/), depth/ and pose/ (per-frame poses); "
+          "trajectory.txt (TUM); color/ (or rgb/, image/), depth/, intrinsics.json and pose/ "
+          "(per-frame poses); "
           "color/, depth/ and "
           "trajectory.log (Open3D, Redwood); frame-000000.depth.png and so on (7-Scenes)",
           folder.string()));
@@ -96,11 +123,10 @@ void ReportDroppedFrames(const Sequence& sequence, const FindingHandler& on_find
   const int kept = sequence.frame_count();
   const int total = kept + sequence.frames_without_pose + sequence.frames_without_partner / 2;
   const std::string counts = fmt::format(
-      "{}: {} of {} frames have a pose and both images ({} without a pose, {} colour or depth "
-      "images "
+      "{}: {} of {} frames have {}both images ({} without a pose, {} colour or depth images "
       "without the other)",
-      sequence.folder.string(), kept, total, sequence.frames_without_pose,
-      sequence.frames_without_partner);
+      sequence.folder.string(), kept, total, sequence.has_poses ? "a pose and " : "",
+      sequence.frames_without_pose, sequence.frames_without_partner);
   if (kept == 0) {
     on_finding({Severity::kError, counts + "; compare the stamps or names of the images with those "
                                            "of the poses"});
@@ -133,11 +159,14 @@ void RequireFolder(const fs::path& folder) {
 
 }  // namespace
 
-Sequence ReadSequence(const fs::path& folder, const FindingHandler& on_finding) {
+Sequence ReadSequence(const fs::path& folder, PoseUse use, const FindingHandler& on_finding) {
   RequireFolder(folder);
   for (const Format& format : kFormats) {
     if (!format.matches(folder)) continue;
-    Sequence sequence = format.read(folder, on_finding);
+    const bool with_poses =
+        use == PoseUse::kNeeded || (use == PoseUse::kIfGiven && format.has_poses(folder));
+    Sequence sequence = (with_poses ? format.read : format.read_images)(folder, on_finding);
+    sequence.has_poses = with_poses;
     sequence.format = format.name;
     sequence.folder = folder;
     ReportDroppedFrames(sequence, on_finding);

@@ -37,13 +37,13 @@ void RequirePlausibleDepth(const Sequence& sequence, const FindingHandler& on_fi
 
 }  // namespace
 
-Sequence OpenSequence(const std::filesystem::path& folder) {
+Sequence OpenSequence(const std::filesystem::path& folder, PoseUse use) {
   std::vector<std::string> warnings;
   const FindingHandler throw_errors = [&warnings](const CheckFinding& finding) {
     if (finding.severity == Severity::kError) throw Error(ErrorKind::kBadInput, finding.message);
     warnings.push_back(finding.message);
   };
-  Sequence sequence = ReadSequence(folder, throw_errors);
+  Sequence sequence = ReadSequence(folder, use, throw_errors);
   SurveyImages(sequence, throw_errors);
   RequirePlausibleDepth(sequence, throw_errors);
   sequence.warnings = std::move(warnings);

@@ -18,6 +18,7 @@ struct SequenceFrame {
   RigidTransform T_world_camera;  ///< pose of the depth camera
   std::filesystem::path color_path;
   std::filesystem::path depth_path;
+  double color_delay = 0;  ///< seconds from the depth image to the colour image
 };
 
 /// An RGB-D sequence whose images are decoded when asked for. Open it with OpenSequence.
@@ -31,7 +32,8 @@ struct Sequence {
   RigidTransform T_color_depth = RigidTransform::Identity();
   double depth_scale = 5000;          ///< depth units per metre
   int invalid_depth = 0;              ///< raw value that means "no measurement", besides 0
-  std::vector<SequenceFrame> frames;  ///< ordered, all with a pose and both images
+  std::vector<SequenceFrame> frames;  ///< ordered, all with both images
+  bool has_poses = true;              ///< otherwise those of the frames say nothing
   int frames_without_pose = 0;        ///< dropped when opening
   int frames_without_partner = 0;     ///< colour or depth images without the other, dropped
   std::vector<std::string> warnings;  ///< what the user should know, a sentence each
@@ -39,11 +41,18 @@ struct Sequence {
   int frame_count() const { return static_cast<int>(frames.size()); }
 };
 
+/// What becomes of the poses of a sequence.
+enum class PoseUse {
+  kNeeded,   ///< a sequence without any is bad input; frames without one are dropped
+  kIfGiven,  ///< the same, but where there are none at all the sequence is opened without
+  kIgnored,  ///< every frame with both images is there, Sequence::has_poses is false
+};
+
 /// Detects the format of a folder (DESIGN: TUM, per-frame poses, Open3D/Redwood, 7-Scenes) and
 /// reads everything but the images, of which it looks at the headers and at the depths of a few
 /// frames. Throws Error(kBadInput) naming file, line or frame, value and remedy at the first defect
 /// that would spoil a reconstruction; capture/check.h finds all of them. Well under a second.
-Sequence OpenSequence(const std::filesystem::path& folder);
+Sequence OpenSequence(const std::filesystem::path& folder, PoseUse use = PoseUse::kNeeded);
 
 /// Whether three quarters of the frames are as near to the next as those of a camera in a moving
 /// hand; otherwise they are views each of its own.

@@ -42,7 +42,9 @@ void PrintFigures(const CheckReport& report) {
   }
   const std::string duration =
       report.duration > 0 ? fmt::format(" in {:.1f} s", report.duration) : "";
-  fmt::print("camera path  {:.2f} m{}\n", report.trajectory_length, duration);
+  fmt::print("camera path  {}{}\n",
+             report.has_poses ? fmt::format("{:.2f} m", report.trajectory_length) : "unknown",
+             duration);
 }
 
 // How far depth of different views disagrees, by gap and by distance.

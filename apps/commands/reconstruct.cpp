@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "apps/commands/command.h"
 #include "apps/commands/config_arguments.h"
@@ -15,11 +16,13 @@
 #include "apps/report.h"
 #include "apps/result_folder.h"
 #include "apps/run_observer.h"
+#include "apps/tracked_poses.h"
 #include "apps/tube_warnings.h"
 #include "capture/content/colour_findings.h"
 #include "capture/content/geometry_check.h"
 #include "capture/trajectory.h"
 #include "experiments/pictures/png.h"
+#include "fusion/tracking/track_sequence.h"
 #include "graph/io/graph_io.h"
 #include "kernel/atomic_file.h"
 #include "kernel/cancellation.h"
@@ -40,6 +43,7 @@ struct ReconstructArguments {
   fs::path output;
   ConfigArguments config;
   bool force = false;
+  bool track = false;
   StageOutputs stages;
   std::string colour_camera = "auto";
   RunOptions run;
@@ -53,13 +57,6 @@ void WriteText(const fs::path& path, const std::string& text) {
   WriteStreamAtomically(path, [&](std::ostream& stream) { stream << text; });
 }
 
-Trajectory CorrectedTrajectory(const Sequence& sequence) {
-  Trajectory trajectory;
-  for (const SequenceFrame& frame : sequence.frames)
-    trajectory.push_back({frame.timestamp, frame.T_world_camera});
-  return trajectory;
-}
-
 void WriteUncertain(const Reconstruction& reconstruction, const fs::path& folder) {
   if (reconstruction.uncertain.graph.empty()) return;
   WriteSkeleton(folder / "uncertain.json", reconstruction.uncertain.graph);
@@ -69,7 +66,7 @@ void WriteSkeletonAndPicture(const RunRecord& record, const fs::path& folder) {
   const Reconstruction& reconstruction = record.reconstruction;
   WriteSkeleton(folder / "skeleton.json", reconstruction.skeleton);
   WriteUncertain(reconstruction, folder);
-  WriteTumTrajectory(folder / "trajectory.txt", CorrectedTrajectory(reconstruction.sequence));
+  WriteTumTrajectory(folder / "trajectory.txt", PosesOf(reconstruction.sequence));
   WritePng(
       folder / "preview.png",
       DrawPreview(reconstruction.skeleton, reconstruction.uncertain.graph, reconstruction.points,
@@ -131,24 +128,37 @@ void RequireRoom(const ReconstructArguments& arguments, const Sequence& sequence
   if (!stages.volume.empty()) RequireFreeSpace(stages.volume, kFiles);
 }
 
+// The sequence with poses: its own, which must fit its depth, or those of the tracker.
+Sequence WithPoses(Sequence sequence, ProgressPrinter& printer,
+                   std::optional<TrackingResult>& tracking) {
+  if (sequence.has_poses) {
+    RequireFittingPoses(sequence);
+    return sequence;
+  }
+  tracking = TrackSequence(sequence, GivenStart(sequence), {}, InterruptibleProgress(printer));
+  return tracking->sequence;
+}
+
 int RunReconstruct(const ReconstructArguments& arguments) {
   const auto start = Clock::now();
   const Config config = ReadConfig(Sources(arguments.config));
   LimitThreads(arguments.run);
-  Sequence sequence = OpenSequence(arguments.sequence);
+  Sequence sequence =
+      OpenSequence(arguments.sequence, arguments.track ? PoseUse::kIgnored : PoseUse::kIfGiven);
   RequireInputStays(arguments);
   RequireRoom(arguments, sequence);
   const ResultFolder output(arguments.output, {arguments.stages.folder, arguments.stages.volume},
                             arguments.force);
-  RequireFittingPoses(sequence);
-  const bool fitted = arguments.colour_camera == "auto" && UseFittedColourCamera(sequence);
   ProgressPrinter printer = MakeProgressPrinter(arguments.run.quiet);
+  std::optional<TrackingResult> tracking;
+  sequence = WithPoses(std::move(sequence), printer, tracking);
+  const bool fitted = arguments.colour_camera == "auto" && UseFittedColourCamera(sequence);
   RunObserver observer(printer, arguments.stages);
   const Reconstruction reconstruction = Reconstruct(sequence, config.pipeline, observer);
   printer.Report(kWritingStage, 0, 1);
   ThrowIfCancelled();
 
-  RunRecord record{sequence, config, reconstruction, {}, 0, 0, fitted};
+  RunRecord record{sequence, config, reconstruction, {}, 0, 0, fitted, tracking};
   const bool found = !reconstruction.skeleton.empty();
   const fs::path report = found ? output.path() / "report.json" : output.NothingFoundReport();
   if (found) {
@@ -179,6 +189,9 @@ void AddReconstructCommand(CLI::App& app, int& exit_code) {
   command->add_flag("--force", arguments->force,
                     "Take an output folder that holds other things; they stay as they are");
   AddConfigArguments(*command, arguments->config);
+  command->add_flag("--track", arguments->track,
+                    "Find the camera poses by tracking (see track) even where the sequence has "
+                    "some; without poses this is done anyway");
   command
       ->add_option("--colour-camera", arguments->colour_camera,
                    "auto: where colour edges lie far from depth edges, the colour camera that was "
@@ -193,6 +206,7 @@ void AddReconstructCommand(CLI::App& app, int& exit_code) {
   command->footer(
       "Example:\n  curvefusion reconstruct scan -o result\n"
       "  curvefusion reconstruct scan -o result --profile paper --set volume.voxel_size=0.01\n"
+      "  curvefusion reconstruct scan -o result --track\n"
       "  curvefusion reconstruct scan -o result --save-stages result/stages");
   command->callback([arguments, &exit_code] { exit_code = RunReconstruct(*arguments); });
 }

@@ -131,7 +131,7 @@ void ReportPath(const Sequence& sequence, double depth, const Reporter& reporter
                               "parts will be missing: take {} or more",
                               sequence.frame_count(), 5 * kMinFrames));
   }
-  if (sequence.frame_count() < 2 || !(depth > 0)) return;
+  if (sequence.frame_count() < 2 || !(depth > 0) || !sequence.has_poses) return;
   const Motion motion = MeasureMotion(sequence, depth);
   if (motion.extent < kStandingExtent && motion.turn < kStandingAngle) {
     reporter.Warn("static-camera",

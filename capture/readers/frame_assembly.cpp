@@ -67,6 +67,10 @@ void UseIntrinsics(const Intrinsics& intrinsics, double default_depth_scale, Seq
   sequence.depth_scale = intrinsics.depth_scale.value_or(default_depth_scale);
 }
 
+std::optional<RigidTransform> NoPose(int /*rank*/, const std::filesystem::path& /*depth_path*/) {
+  return RigidTransform::Identity();
+}
+
 void AddFrames(NumberedImages color, const NumberedImages& depth, const PoseLookup& find_pose,
                Sequence& sequence) {
   int rank = 0;

@@ -33,6 +33,9 @@ void UseIntrinsics(const Intrinsics& intrinsics, double default_depth_scale, Seq
 using PoseLookup =
     std::function<std::optional<RigidTransform>(int rank, const std::filesystem::path& depth_path)>;
 
+/// For sequences whose poses are not asked for: the identity for all.
+std::optional<RigidTransform> NoPose(int rank, const std::filesystem::path& depth_path);
+
 /// Appends a frame for every depth image that has a colour image of the same number and a pose;
 /// counts the others as dropped. Frames are named after the depth image up to its first dot.
 void AddFrames(NumberedImages color, const NumberedImages& depth, const PoseLookup& find_pose,

@@ -8,19 +8,28 @@ namespace {
 
 constexpr double kMillimetreUnits = 1000;
 
+Sequence ReadWith(const std::filesystem::path& folder, const PoseLookup& find_pose,
+                  const FindingHandler& on_finding) {
+  Sequence sequence;
+  UseIntrinsics(ReadIntrinsics(folder / "intrinsics.json", on_finding), kMillimetreUnits, sequence);
+  AddFrames(ImagesByFrameNumber(ColorFolder(folder)), ImagesByFrameNumber(folder / "depth"),
+            find_pose, sequence);
+  return sequence;
+}
+
 }  // namespace
 
 Sequence ReadPerFramePoses(const std::filesystem::path& folder, const FindingHandler& on_finding) {
-  Sequence sequence;
-  UseIntrinsics(ReadIntrinsics(folder / "intrinsics.json", on_finding), kMillimetreUnits, sequence);
   const auto find_pose = [&](int, const std::filesystem::path& depth_path) {
     const std::filesystem::path path = folder / "pose" / (FrameName(depth_path) + ".txt");
     if (!std::filesystem::exists(path)) return std::optional<RigidTransform>();
     return ReadPoseMatrix(path, on_finding);
   };
-  AddFrames(ImagesByFrameNumber(ColorFolder(folder)), ImagesByFrameNumber(folder / "depth"),
-            find_pose, sequence);
-  return sequence;
+  return ReadWith(folder, find_pose, on_finding);
+}
+
+Sequence ReadPerFrameImages(const std::filesystem::path& folder, const FindingHandler& on_finding) {
+  return ReadWith(folder, NoPose, on_finding);
 }
 
 }  // namespace curvefusion

@@ -60,20 +60,29 @@ std::map<int, RigidTransform> ReadTrajectoryLog(const std::filesystem::path& pat
   return poses;
 }
 
-}  // namespace
-
-Sequence ReadRedwood(const std::filesystem::path& folder, const FindingHandler& on_finding) {
+Sequence ReadWith(const std::filesystem::path& folder, const PoseLookup& find_pose,
+                  const FindingHandler& on_finding) {
   Sequence sequence;
   UseIntrinsics(ReadRedwoodIntrinsics(folder / "intrinsic.json", on_finding), kMillimetreUnits,
                 sequence);
+  AddFrames(ImagesByFrameNumber(ColorFolder(folder)), ImagesByFrameNumber(folder / "depth"),
+            find_pose, sequence);
+  return sequence;
+}
+
+}  // namespace
+
+Sequence ReadRedwood(const std::filesystem::path& folder, const FindingHandler& on_finding) {
   const auto poses = ReadTrajectoryLog(folder / "trajectory.log", on_finding);
   const auto find_pose = [&poses](int rank, const std::filesystem::path&) {
     const auto pose = poses.find(rank);
     return pose == poses.end() ? std::optional<RigidTransform>() : pose->second;
   };
-  AddFrames(ImagesByFrameNumber(ColorFolder(folder)), ImagesByFrameNumber(folder / "depth"),
-            find_pose, sequence);
-  return sequence;
+  return ReadWith(folder, find_pose, on_finding);
+}
+
+Sequence ReadRedwoodImages(const std::filesystem::path& folder, const FindingHandler& on_finding) {
+  return ReadWith(folder, NoPose, on_finding);
 }
 
 }  // namespace curvefusion

@@ -21,21 +21,31 @@ Intrinsics ReadSevenScenesIntrinsics(const std::filesystem::path& path,
   return intrinsics;
 }
 
-}  // namespace
-
-Sequence ReadSevenScenes(const std::filesystem::path& folder, const FindingHandler& on_finding) {
+Sequence ReadWith(const std::filesystem::path& folder, const PoseLookup& find_pose,
+                  const FindingHandler& on_finding) {
   Sequence sequence;
   sequence.invalid_depth = kInvalidDepth;
   UseIntrinsics(ReadSevenScenesIntrinsics(folder / "intrinsics.json", on_finding), kMillimetreUnits,
                 sequence);
+  AddFrames(ImagesByFrameNumber(folder, ".color"), ImagesByFrameNumber(folder, ".depth"), find_pose,
+            sequence);
+  return sequence;
+}
+
+}  // namespace
+
+Sequence ReadSevenScenes(const std::filesystem::path& folder, const FindingHandler& on_finding) {
   const auto find_pose = [&](int, const std::filesystem::path& depth_path) {
     const std::filesystem::path path = folder / (FrameName(depth_path) + ".pose.txt");
     if (!std::filesystem::exists(path)) return std::optional<RigidTransform>();
     return ReadPoseMatrix(path, on_finding);
   };
-  AddFrames(ImagesByFrameNumber(folder, ".color"), ImagesByFrameNumber(folder, ".depth"), find_pose,
-            sequence);
-  return sequence;
+  return ReadWith(folder, find_pose, on_finding);
+}
+
+Sequence ReadSevenScenesImages(const std::filesystem::path& folder,
+                               const FindingHandler& on_finding) {
+  return ReadWith(folder, NoPose, on_finding);
 }
 
 }  // namespace curvefusion

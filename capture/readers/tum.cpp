@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -19,6 +20,7 @@ namespace curvefusion {
 namespace {
 
 constexpr double kTumDepthUnits = 5000;
+constexpr const char* kTrajectoryNames[] = {"trajectory.txt", "groundtruth.txt"};
 
 // A line "stamp path" of rgb.txt or depth.txt.
 struct StampedImage {
@@ -113,16 +115,26 @@ std::vector<ImagePair> ReadPairs(const std::filesystem::path& folder,
   return pairs;
 }
 
+SequenceFrame FrameOf(const ImagePair& pair, const RigidTransform& T_world_camera) {
+  return {pair.depth.stamp, pair.depth.timestamp, T_world_camera,
+          pair.color.path,  pair.depth.path,      pair.color.timestamp - pair.depth.timestamp};
+}
+
 }  // namespace
 
+bool HasTumTrajectory(const std::filesystem::path& folder) {
+  return std::any_of(std::begin(kTrajectoryNames), std::end(kTrajectoryNames),
+                     [&](const char* name) { return std::filesystem::exists(folder / name); });
+}
+
 std::filesystem::path TumTrajectoryPath(const std::filesystem::path& folder) {
-  for (const char* name : {"trajectory.txt", "groundtruth.txt"}) {
+  for (const char* name : kTrajectoryNames) {
     if (std::filesystem::exists(folder / name)) return folder / name;
   }
   throw Error(
       ErrorKind::kBadInput,
       fmt::format("{}: neither trajectory.txt nor groundtruth.txt is there; write the camera "
-                  "poses as lines 't tx ty tz qx qy qz qw'",
+                  "poses as lines 't tx ty tz qx qy qz qw', or let `curvefusion track` find them",
                   folder.string()));
 }
 
@@ -136,8 +148,7 @@ Sequence ReadTum(const std::filesystem::path& folder, const FindingHandler& on_f
       ++sequence.frames_without_pose;
       continue;
     }
-    sequence.frames.push_back({pair.depth.stamp, pair.depth.timestamp, pose->T_world_camera,
-                               pair.color.path, pair.depth.path});
+    sequence.frames.push_back(FrameOf(pair, pose->T_world_camera));
   }
   return sequence;
 }
@@ -148,8 +159,7 @@ Sequence ReadTumImages(const std::filesystem::path& folder, const FindingHandler
   sequence.folder = folder;
   UseIntrinsics(ReadIntrinsics(folder / "intrinsics.json", on_finding), kTumDepthUnits, sequence);
   for (const ImagePair& pair : ReadPairs(folder, on_finding, sequence)) {
-    sequence.frames.push_back({pair.depth.stamp, pair.depth.timestamp, RigidTransform::Identity(),
-                               pair.color.path, pair.depth.path});
+    sequence.frames.push_back(FrameOf(pair, RigidTransform::Identity()));
   }
   return sequence;
 }

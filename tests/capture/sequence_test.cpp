@@ -196,6 +196,33 @@ TEST_F(SequenceTest, MissingFilesAreNamed) {
   EXPECT_THAT(OpenError(folder()), HasSubstr("neither trajectory.txt nor groundtruth.txt"));
 }
 
+TEST_F(SequenceTest, ASequenceWithoutPosesOpensWhereNoneAreNeeded) {
+  WriteTumSequence(folder());
+  EXPECT_TRUE(OpenSequence(folder(), PoseUse::kIfGiven).has_poses);
+  std::filesystem::remove(folder() / "trajectory.txt");
+  const Sequence tum = OpenSequence(folder(), PoseUse::kIfGiven);
+  EXPECT_FALSE(tum.has_poses);
+  EXPECT_EQ(tum.frame_count(), kFixtureFrames);
+
+  const TemporaryFolder other;
+  WritePerFrameSequence(other.path());
+  std::filesystem::remove(other.path() / "pose/000001.txt");
+  EXPECT_EQ(OpenSequence(other.path()).frame_count(), kFixtureFrames - 1);
+  EXPECT_EQ(OpenSequence(other.path(), PoseUse::kIgnored).frame_count(), kFixtureFrames);
+  std::filesystem::remove_all(other.path() / "pose");
+  const Sequence images = OpenSequence(other.path(), PoseUse::kIfGiven);
+  EXPECT_FALSE(images.has_poses);
+  EXPECT_EQ(images.frame_count(), kFixtureFrames);
+}
+
+// The fixture's colour comes 4 ms after its depth.
+TEST_F(SequenceTest, TheDelayOfColourIsKept) {
+  WriteTumSequence(folder());
+  for (const SequenceFrame& frame : OpenSequence(folder()).frames) {
+    EXPECT_NEAR(frame.color_delay, 0.004, 1e-9);
+  }
+}
+
 TEST_F(SequenceTest, LoadingAnImageOfAnotherSizeThrows) {
   WriteTumSequence(folder());
   const Sequence sequence = OpenSequence(folder());

@@ -73,6 +73,7 @@ const std::map<std::string, std::map<std::string, std::set<std::string>>> kRooms
       {"adjustment", {"appearance", "registration", "strips"}},
       {"silhouettes", {"adjustment", "appearance", "segmentation", "strips"}},
       {"curve_graph", {"appearance", "strips"}},
+      {"tracking", {"volume"}},
       {"paper", {"", "segmentation", "strips", "volume"}},
       {"best",
        {"", "adjustment", "curve_graph", "registration", "segmentation", "silhouettes", "strips",

@@ -1,0 +1,26 @@
+#include "apps/tracked_poses.h"
+
+#include <algorithm>
+
+#include "capture/detect_format.h"
+
+namespace curvefusion {
+
+RigidTransform GivenStart(const Sequence& images) {
+  const Sequence given = ReadSequence(images.folder, PoseUse::kIfGiven, [](const CheckFinding&) {});
+  if (!given.has_poses || images.frames.empty()) return RigidTransform::Identity();
+  const std::string& first = images.frames.front().name;
+  const auto frame = std::find_if(given.frames.begin(), given.frames.end(),
+                                  [&](const SequenceFrame& f) { return f.name == first; });
+  return frame == given.frames.end() ? RigidTransform::Identity() : frame->T_world_camera;
+}
+
+Trajectory PosesOf(const Sequence& sequence) {
+  Trajectory trajectory;
+  for (const SequenceFrame& frame : sequence.frames) {
+    trajectory.push_back({frame.timestamp, frame.T_world_camera});
+  }
+  return trajectory;
+}
+
+}  // namespace curvefusion

@@ -1,0 +1,170 @@
+#include "fusion/tracking/camera_tracker.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "fusion/tracking/rotation_alignment.h"
+#include "kernel/rigid_motion.h"
+
+namespace curvefusion {
+
+namespace {
+
+constexpr double kMaxExtrapolation = 3;  // intervals: a lost camera is not followed for long
+constexpr int kKeyframesTried = 3;
+constexpr double kMinMeasured = 0.05;  // of the pixels
+constexpr double kMinOverlap = 0.3;    // of what was measured
+constexpr double kMinInliers = 0.55;   // of the overlap
+constexpr double kMaxDeviation = 3.5;  // standard deviations of the sensor's noise
+constexpr double kMaxGrey = 0.5;       // deviation over contrast: images of unlike places have 1.4
+constexpr double kMaxUncertainty = 5 * kMillimetre;
+
+TsdfOptions VolumeOptions(const TrackingOptions& options) {
+  TsdfOptions volume;
+  volume.voxel_size = options.voxel_size;
+  volume.truncation_voxels = options.truncation_voxels;
+  volume.max_depth = options.max_depth;
+  return volume;
+}
+
+// The share of the pixels of the finest level that have a depth.
+double MeasuredShare(const TrackingFrame& frame) {
+  const DepthImage& depth = frame.levels.front().depth;
+  const auto count =
+      std::count_if(depth.data(), depth.data() + depth.size(), [](float z) { return z > 0; });
+  return static_cast<double>(count) / static_cast<double>(depth.size());
+}
+
+bool IsBetter(const TrackedFrame& a, const TrackedFrame& b) {
+  if (a.is_tracked != b.is_tracked) return a.is_tracked;
+  return a.is_tracked && a.alignment.cost < b.alignment.cost;
+}
+
+}  // namespace
+
+std::string WhyNotTrusted(const FrameAlignment& alignment) {
+  const GeometricFit& fit = alignment.fit;
+  if (fit.overlapping < kMinOverlap * fit.measured) {
+    return fmt::format("{:.0f} % of its depth overlaps the model, {:.0f} % are needed",
+                       100.0 * fit.overlapping / std::max(1, fit.measured), 100 * kMinOverlap);
+  }
+  if (fit.inliers < kMinInliers * fit.overlapping) {
+    return fmt::format("{:.0f} % of the overlap are inliers, {:.0f} % are needed",
+                       100.0 * fit.inliers / std::max(1, fit.overlapping), 100 * kMinInliers);
+  }
+  if (fit.deviation > kMaxDeviation) {
+    return fmt::format(
+        "depth differs from the model by {:.1f} times the noise, at most {:g} is "
+        "trusted",
+        fit.deviation, kMaxDeviation);
+  }
+  if (alignment.grey_deviation > kMaxGrey * alignment.grey_contrast) {
+    return fmt::format("grey differs from the keyframe by {:.0f} levels of a contrast of {:.0f}",
+                       alignment.grey_deviation, alignment.grey_contrast);
+  }
+  if (!(alignment.uncertainty < kMaxUncertainty)) {
+    return fmt::format(
+        "the surfaces in view leave the camera free to move by {:.1f} mm, at most "
+        "{:g} mm is trusted",
+        alignment.uncertainty / kMillimetre, kMaxUncertainty / kMillimetre);
+  }
+  return "";
+}
+
+CameraTracker::CameraTracker(const TrackingCameras& cameras, const TrackingOptions& options,
+                             const RigidTransform& T_world_start)
+    : cameras_(cameras), T_world_start_(T_world_start), volume_(VolumeOptions(options)) {}
+
+TrackedFrame CameraTracker::Track(const TrackingFrame& frame) {
+  const double measured = MeasuredShare(frame);
+  if (measured < kMinMeasured) {
+    TrackedFrame lost;
+    lost.why_lost = fmt::format("{:.0f} % of its pixels have a depth, {:.0f} % are needed",
+                                100 * measured, 100 * kMinMeasured);
+    return lost;
+  }
+  if (!before_) return Start(frame);
+  TrackedFrame tracked = TryFrom(frame, Guesses(frame));
+  if (!tracked.is_tracked || was_lost_) {
+    const TrackedFrame again = TryFromKeyframes(frame);
+    if (IsBetter(again, tracked)) tracked = again;
+  }
+  was_lost_ = !tracked.is_tracked;
+  if (tracked.is_tracked) Add(frame, tracked.T_world_camera);
+  return tracked;
+}
+
+TrackedFrame CameraTracker::Start(const TrackingFrame& frame) {
+  Add(frame, T_world_start_);
+  TrackedFrame tracked;
+  tracked.is_tracked = true;
+  tracked.T_world_camera = T_world_start_;
+  return tracked;
+}
+
+// Hands shake: the camera may go on as before, turn as the images say, or stand.
+std::vector<RigidTransform> CameraTracker::Guesses(const TrackingFrame& frame) const {
+  double share = 0;
+  const double elapsed = frame.timestamp - before_->pose.timestamp;
+  if (before_->interval > 0) share = elapsed / before_->interval;
+  if (share > kMaxExtrapolation) share = 0;
+  const RigidTransform& T_world_before = before_->pose.T_world_camera;
+  const RigidTransform T_before_now = RigidMotion(share * RotationVector(before_->velocity),
+                                                  share * before_->velocity.translation());
+  std::vector<RigidTransform> guesses = {T_world_before * T_before_now};
+  const FrameLevel& coarsest = frame.levels.back();
+  if (!coarsest.grey.empty()) {
+    guesses.push_back(T_world_before * RotationByGrey(before_->coarsest, coarsest, T_before_now));
+    guesses.push_back(T_world_before *
+                      RotationByGrey(before_->coarsest, coarsest, RigidTransform::Identity()));
+  }
+  guesses.push_back(T_world_before);
+  return guesses;
+}
+
+TrackedFrame CameraTracker::TryFrom(const TrackingFrame& frame,
+                                    const std::vector<RigidTransform>& T_world_guesses) const {
+  const ModelView model =
+      RenderModel(volume_, frame.levels.front().depth_camera, T_world_guesses.front());
+  const KeyframeMap::Entry* nearest =
+      frame.levels.front().grey.empty() ? nullptr : keyframes_.Nearest(T_world_guesses.front());
+  TrackedFrame tracked;
+  tracked.alignment = AlignFrame(frame, model, nearest == nullptr ? nullptr : &nearest->keyframe,
+                                 before_->pose, cameras_.T_color_depth, T_world_guesses);
+  tracked.why_lost = WhyNotTrusted(tracked.alignment);
+  tracked.is_tracked = tracked.why_lost.empty();
+  tracked.T_world_camera = tracked.alignment.T_world_camera;
+  return tracked;
+}
+
+TrackedFrame CameraTracker::TryFromKeyframes(const TrackingFrame& frame) const {
+  const FrameLevel& coarsest = frame.levels.back();
+  if (coarsest.grey.empty()) return {};
+  TrackedFrame best;
+  for (const KeyframeMap::Entry* entry : keyframes_.MostAlike(coarsest, kKeyframesTried)) {
+    const RigidTransform T_keyframe_now =
+        RotationByGrey(entry->coarsest, coarsest, RigidTransform::Identity());
+    TrackedFrame tracked = TryFrom(frame, {entry->keyframe.T_world_camera * T_keyframe_now});
+    if (IsBetter(tracked, best)) best = std::move(tracked);
+  }
+  return best;
+}
+
+void CameraTracker::Add(const TrackingFrame& frame, const RigidTransform& T_world_camera) {
+  const FrameLevel& finest = frame.levels.front();
+  volume_.Integrate(finest.depth, finest.depth_camera, T_world_camera);
+  Before now;
+  now.pose = {T_world_camera, frame.timestamp};
+  now.coarsest = frame.levels.back();
+  RigidTransform T_color_depth = cameras_.T_color_depth;
+  if (before_) {
+    now.velocity = before_->pose.T_world_camera.inverse() * T_world_camera;
+    now.interval = frame.timestamp - before_->pose.timestamp;
+    T_color_depth = ColorFromDepth(frame, before_->pose, T_world_camera, T_color_depth);
+  }
+  if (!finest.grey.empty()) keyframes_.AddIfNew(frame, T_world_camera, T_color_depth);
+  before_ = std::move(now);
+}
+
+}  // namespace curvefusion
