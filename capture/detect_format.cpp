@@ -31,7 +31,8 @@ bool HasTrajectoryLog(const fs::path& folder) { return fs::exists(folder / "traj
 bool HasPoseFolder(const fs::path& folder) { return fs::is_directory(folder / "pose"); }
 
 bool HasImageFolders(const fs::path& folder) {
-  return fs::is_directory(folder / "depth") && fs::is_directory(ColorFolder(folder));
+  return fs::is_directory(folder / "depth") && !fs::is_empty(folder / "depth") &&
+         fs::is_directory(ColorFolder(folder));
 }
 
 bool LooksLikeRedwood(const fs::path& folder) {

@@ -7,7 +7,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 
 #include "apps/commands/command.h"
 #include "apps/commands/config_arguments.h"
@@ -128,15 +127,16 @@ void RequireRoom(const ReconstructArguments& arguments, const Sequence& sequence
   if (!stages.volume.empty()) RequireFreeSpace(stages.volume, kFiles);
 }
 
-// The sequence with poses: its own, which must fit its depth, or those of the tracker.
-Sequence WithPoses(Sequence sequence, ProgressPrinter& printer,
-                   std::optional<TrackingResult>& tracking) {
+// The poses must fit the depth; without any, they are tracked.
+std::optional<TrackingResult> FindPoses(Sequence& sequence, ProgressPrinter& printer) {
   if (sequence.has_poses) {
     RequireFittingPoses(sequence);
-    return sequence;
+    return std::nullopt;
   }
-  tracking = TrackSequence(sequence, GivenStart(sequence), {}, InterruptibleProgress(printer));
-  return tracking->sequence;
+  TrackingResult tracking =
+      TrackSequence(sequence, GivenStart(sequence), {}, InterruptibleProgress(printer));
+  sequence = tracking.sequence;
+  return tracking;
 }
 
 int RunReconstruct(const ReconstructArguments& arguments) {
@@ -150,9 +150,8 @@ int RunReconstruct(const ReconstructArguments& arguments) {
   const ResultFolder output(arguments.output, {arguments.stages.folder, arguments.stages.volume},
                             arguments.force);
   ProgressPrinter printer = MakeProgressPrinter(arguments.run.quiet);
-  std::optional<TrackingResult> tracking;
-  sequence = WithPoses(std::move(sequence), printer, tracking);
   const bool fitted = arguments.colour_camera == "auto" && UseFittedColourCamera(sequence);
+  const std::optional<TrackingResult> tracking = FindPoses(sequence, printer);
   RunObserver observer(printer, arguments.stages);
   const Reconstruction reconstruction = Reconstruct(sequence, config.pipeline, observer);
   printer.Report(kWritingStage, 0, 1);

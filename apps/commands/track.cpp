@@ -11,6 +11,7 @@
 #include "apps/commands/command.h"
 #include "apps/output_guard.h"
 #include "apps/tracked_poses.h"
+#include "capture/content/colour_findings.h"
 #include "capture/trajectory.h"
 #include "experiments/metrics/trajectory_metrics.h"
 #include "fusion/tracking/track_sequence.h"
@@ -110,9 +111,10 @@ int RunTrack(const TrackArguments& arguments) {
   LimitThreads(arguments.run);
   RequireOutside(arguments.sequence, arguments.output);
   RequireApart({arguments.reference}, arguments.output);
-  const Sequence images = OpenSequence(arguments.sequence, PoseUse::kIgnored);
+  Sequence images = OpenSequence(arguments.sequence, PoseUse::kIgnored);
   TrackingOptions options;
   options.use_color = !arguments.depth_only;
+  if (options.use_color) UseFittedColourCamera(images);
   ProgressPrinter printer = MakeProgressPrinter(arguments.run.quiet);
   const auto start = Clock::now();
   const TrackingResult result =

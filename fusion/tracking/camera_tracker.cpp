@@ -18,6 +18,7 @@ constexpr double kMinOverlap = 0.3;    // of what was measured
 constexpr double kMinInliers = 0.55;   // of the overlap
 constexpr double kMaxDeviation = 3.5;  // standard deviations of the sensor's noise
 constexpr double kMaxGrey = 0.5;       // deviation over contrast: images of unlike places have 1.4
+constexpr double kMinContrast = 20;    // grey levels. Chosen: less says nothing beside noise
 constexpr double kMaxUncertainty = 5 * kMillimetre;
 
 TsdfOptions VolumeOptions(const TrackingOptions& options) {
@@ -59,7 +60,8 @@ std::string WhyNotTrusted(const FrameAlignment& alignment) {
         "trusted",
         fit.deviation, kMaxDeviation);
   }
-  if (alignment.grey_deviation > kMaxGrey * alignment.grey_contrast) {
+  if (alignment.grey_contrast > kMinContrast &&
+      alignment.grey_deviation > kMaxGrey * alignment.grey_contrast) {
     return fmt::format("grey differs from the keyframe by {:.0f} levels of a contrast of {:.0f}",
                        alignment.grey_deviation, alignment.grey_contrast);
   }
