@@ -27,7 +27,8 @@ struct TrackingResult {
 /// Finds the pose of every frame of a sequence, whatever poses it has; the first tracked one is at
 /// `T_world_start`. Frames that cannot be placed are left out and named. Throws Error(kBadInput)
 /// where fewer than half of the frames could be placed, and where an image cannot be read.
-/// Exceptions of `progress` pass through. About 50 ms a frame of 640x480 on two cores.
+/// Exceptions of `progress` pass through. A frame of 640x480 takes a tenth of a second of processor
+/// time.
 TrackingResult TrackSequence(const Sequence& images, const RigidTransform& T_world_start,
                              const TrackingOptions& options, const Progress& progress);
 
