@@ -9,6 +9,8 @@
 #include "fusion/curve_graph/candidate_curves.h"
 #include "fusion/curve_graph/colour_candidates.h"
 #include "fusion/curve_graph/selection.h"
+#include "fusion/curve_graph/strip_views.h"
+#include "fusion/curve_graph/tip_tracking.h"
 #include "fusion/curve_graph/wire_proof.h"
 #include "fusion/silhouettes/colour_pruning.h"
 #include "fusion/silhouettes/weak_wires.h"
@@ -97,14 +99,18 @@ bool AddWiresFromColour(const ColourAdjustment& adjusted, const RidgeOptions& op
                         const StageReporter& reporter, Reconstruction& result) {
   const char* stage = "wires from colour";
   const StageLog::Timer timer = reporter.Begin(stage);
-  const ObservedPoints candidates =
-      FindColourCandidates(result.skeleton, result.sequence, adjusted.frames, adjusted.posteriors);
+  StripViews views(result.skeleton, result.sequence, adjusted.frames, adjusted.posteriors);
+  const double radius = result.radii.unmeasured_radius;
+  const double followed = TrackTips(radius, views, result.skeleton);
+  const ObservedPoints candidates = FindColourCandidates(views);
   const double added =
-      AddCandidateCurves(candidates, options, result.radii.unmeasured_radius, result.skeleton);
+      followed + AddCandidateCurves(candidates, options, radius, views, result.skeleton);
+  reporter.log.Count(stage, "followed, m", followed);
   reporter.log.Count(stage, "points", static_cast<double>(candidates.size()));
   reporter.log.Count(stage, "added, m", added);
   reporter.observer.OnPoints("colour_candidates", candidates);
   if (added == 0) return false;
+  CloseFreeEnds(result.skeleton, options.free_ends, candidates);
   TidyRidgeSkeleton(result.skeleton, options);
   result.trust.wire_length += added;
   reporter.observer.OnGraph("with_colour", result.skeleton);

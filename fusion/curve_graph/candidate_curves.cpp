@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "fusion/curve_graph/tip_tracking.h"
 #include "graph/connected_parts.h"
 #include "graph/edge_parts.h"
 #include "kernel/point_grid.h"
@@ -16,7 +17,7 @@ namespace {
 constexpr double kBeside = 0.004;  // metres; nearer to a curve a candidate is the curve itself
 constexpr double kSame = 0.0002;   // metres; a curve is where it was
 // Strips are not told within some pixels of known curves, nor where wires cross in many images.
-constexpr double kMaxGap = 0.04;  // metres
+constexpr double kMaxGap = 0.06;  // metres
 constexpr double kMaxGapPerLength = 1.2;
 constexpr double kMinPiece = 0.012;  // metres; the shortest spur
 
@@ -48,16 +49,18 @@ void KeepNewWires(const std::vector<Vec3>& known, SkeletonGraph& found) {
   found.RemoveIsolatedNodes();
 }
 
-void AddGraph(const SkeletonGraph& more, double radius, SkeletonGraph& skeleton) {
+std::vector<EdgeId> AddGraph(const SkeletonGraph& more, double radius, SkeletonGraph& skeleton) {
+  std::vector<EdgeId> added;
   std::map<NodeId, NodeId> nodes;
   for (const NodeId node : more.Nodes()) nodes[node] = skeleton.AddNode(more.position(node));
   for (const EdgeId id : more.Edges()) {
     const SkeletonEdge& edge = more.edge(id);
-    skeleton.AddEdge({{nodes.at(edge.nodes[0]), nodes.at(edge.nodes[1])},
-                      edge.points,
-                      std::vector<double>(edge.points.size(), radius),
-                      {}});
+    added.push_back(skeleton.AddEdge({{nodes.at(edge.nodes[0]), nodes.at(edge.nodes[1])},
+                                      edge.points,
+                                      std::vector<double>(edge.points.size(), radius),
+                                      {}}));
   }
+  return added;
 }
 
 // Removes parts of the graph in which nothing lies on the curves given.
@@ -78,14 +81,16 @@ void DropDetached(const std::vector<Vec3>& curves, SkeletonGraph& skeleton) {
 }  // namespace
 
 double AddCandidateCurves(const ObservedPoints& candidates, const RidgeOptions& options,
-                          double radius, SkeletonGraph& skeleton) {
+                          double radius, StripViews& views, SkeletonGraph& skeleton) {
+  const std::vector<Vec3> known = PointsOf(skeleton);
   if (candidates.empty()) return 0;
   SkeletonGraph found = ExtractRidgeSkeleton(candidates, options);
-  const std::vector<Vec3> known = PointsOf(skeleton);
   KeepNewWires(known, found);
   if (found.empty()) return 0;
   const double length = skeleton.TotalLength();
-  AddGraph(found, radius, skeleton);
+  for (const EdgeId id : AddGraph(found, radius, skeleton))
+    views.Explain(skeleton.edge(id).points, skeleton.edge(id).radii);
+  TrackTips(radius, views, skeleton);
   FreeEndOptions reach = options.free_ends;
   reach.max_gap = kMaxGap;
   reach.max_gap_per_length = kMaxGapPerLength;

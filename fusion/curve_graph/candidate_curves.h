@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fusion/curve_graph/strip_views.h"
 #include "graph/contraction/ridge_skeleton.h"
 #include "graph/skeleton_graph.h"
 #include "kernel/observed_points.h"
@@ -7,10 +8,10 @@
 namespace curvefusion {
 
 /// Adds the curves of `candidates` (FindColourCandidates), contracted with `options`, but for what
-/// runs along curves of the skeleton; joins their ends with what lies ahead of them
-/// (CloseFreeEnds), and drops what hangs together with none of them: an object is one piece. They
-/// have the radius given, in metres. Returns how many metres were added.
+/// runs along curves of the skeleton; follows all ends (TrackTips), joins them with what lies ahead
+/// (CloseFreeEnds), and drops what hangs together with none of the curves that were there: an
+/// object is one piece. What is new has the radius given, in metres. Returns the metres added.
 double AddCandidateCurves(const ObservedPoints& candidates, const RidgeOptions& options,
-                          double radius, SkeletonGraph& skeleton);
+                          double radius, StripViews& views, SkeletonGraph& skeleton);
 
 }  // namespace curvefusion

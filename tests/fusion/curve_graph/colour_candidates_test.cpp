@@ -25,7 +25,7 @@ double DistanceTo(const Polyline& curve, const Vec3& p) { return Project(curve, 
 
 TEST(ColourCandidates, LieOnTheWireThatNoCurveExplains) {
   const SilhouetteScan scan({kStem, kTwig}, {}, kBehind);
-  const ObservedPoints candidates = scan.ColourCandidates(Known());
+  const ObservedPoints candidates = FindColourCandidates(scan.Strips(Known()));
   EXPECT_GT(candidates.size(), 50u);
   std::vector<double> distances;
   for (const Vec3& p : candidates.positions) distances.push_back(DistanceTo(kTwig, p));
@@ -37,24 +37,26 @@ TEST(ColourCandidates, NoneWhereCurvesExplainAllStrips) {
   const SilhouetteScan scan({kStem, kTwig}, {}, kBehind);
   SkeletonGraph graph = Known();
   AddTestEdge(graph, kTwig);
-  EXPECT_TRUE(scan.ColourCandidates(graph).empty());
+  EXPECT_TRUE(FindColourCandidates(scan.Strips(graph)).empty());
 }
 
 // What is painted on a wall at the twig's own distance is no wire.
 TEST(ColourCandidates, NoneWhereNothingIsFarBehind) {
   const SilhouetteScan scan({kStem, kTwig}, {}, 0.605);
-  EXPECT_TRUE(scan.ColourCandidates(Known()).empty());
+  EXPECT_TRUE(FindColourCandidates(scan.Strips(Known())).empty());
 }
 
 TEST(ColourCandidates, NoneWithoutCurves) {
   const SilhouetteScan scan({kTwig}, {}, kBehind);
-  EXPECT_TRUE(scan.ColourCandidates({}).empty());
+  EXPECT_TRUE(FindColourCandidates(scan.Strips({})).empty());
 }
 
 TEST(CandidateCurves, JoinWhatIsThere) {
   const SilhouetteScan scan({kStem, kTwig}, {}, kBehind);
   SkeletonGraph graph = Known();
-  const double added = AddCandidateCurves(scan.ColourCandidates(graph), {}, kTestRadius, graph);
+  StripViews views = scan.Strips(graph);
+  const double added =
+      AddCandidateCurves(FindColourCandidates(views), {}, kTestRadius, views, graph);
   EXPECT_NEAR(added, Length(kTwig), 0.01);
   EXPECT_EQ(graph.ComponentCount(), 1);
   EXPECT_TRUE(Faults(graph).empty());
@@ -64,15 +66,17 @@ TEST(CandidateCurves, ThatHangTogetherWithNothingAreLeftOut) {
   const Polyline far = TestLine({0.055, -0.05, 0}, {0.055, 0.05, 0});
   const SilhouetteScan scan({kStem, far}, {}, kBehind);
   SkeletonGraph graph = Known();
-  const ObservedPoints candidates = scan.ColourCandidates(graph);
+  StripViews views = scan.Strips(graph);
+  const ObservedPoints candidates = FindColourCandidates(views);
   EXPECT_FALSE(candidates.empty());
-  EXPECT_EQ(AddCandidateCurves(candidates, {}, kTestRadius, graph), 0);
+  EXPECT_EQ(AddCandidateCurves(candidates, {}, kTestRadius, views, graph), 0);
   EXPECT_EQ(graph.edge_count(), 1);
 }
 
 TEST(CandidateCurves, NothingWithoutCandidates) {
   SkeletonGraph graph = Known();
-  EXPECT_EQ(AddCandidateCurves({}, {}, kTestRadius, graph), 0);
+  StripViews views({}, {}, {}, {});
+  EXPECT_EQ(AddCandidateCurves({}, {}, kTestRadius, views, graph), 0);
 }
 
 }  // namespace

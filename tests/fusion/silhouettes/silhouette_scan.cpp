@@ -103,8 +103,8 @@ WireSilhouettes SilhouetteScan::Silhouettes() const {
   return {sequence_, frames_, posteriors_, static_cast<int>(frames_.size())};
 }
 
-ObservedPoints SilhouetteScan::ColourCandidates(const SkeletonGraph& skeleton) const {
-  return FindColourCandidates(skeleton, sequence_, frames_, posteriors_);
+StripViews SilhouetteScan::Strips(const SkeletonGraph& skeleton) const {
+  return {skeleton, sequence_, frames_, posteriors_};
 }
 
 Polyline TestLine(const Vec3& a, const Vec3& b) { return Resample({a, b}, 0.002); }

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "fusion/curve_graph/strip_views.h"
 #include "fusion/silhouettes/wire_silhouettes.h"
 #include "graph/skeleton_graph.h"
 #include "kernel/observed_points.h"
@@ -27,8 +28,8 @@ class SilhouetteScan {
 
   WireSilhouettes Silhouettes() const;
 
-  /// The same images in colour, dark wires before something bright.
-  ObservedPoints ColourCandidates(const SkeletonGraph& skeleton) const;
+  /// Strips of the same images in colour, dark wires before something bright.
+  StripViews Strips(const SkeletonGraph& skeleton) const;
 
  private:
   std::filesystem::path folder_;

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <opencv2/core/types.hpp>
+#include <vector>
+
+#include "capture/sequence.h"
+#include "fusion/appearance/wire_posterior.h"
+#include "graph/skeleton_graph.h"
+#include "kernel/camera.h"
+#include "kernel/geometry.h"
+#include "kernel/image.h"
+
+namespace curvefusion {
+
+/// How many images look at a place, and how many of them show the middle of a strip there.
+struct StripAgreement {
+  int looked = 0;
+  int seen = 0;
+  double evidence = 0;         // logarithm of how much likelier that is for a wire than by chance
+  double middle_evidence = 0;  // likewise, of how near the strips' middles are
+};
+
+/// Colour images in which strips stand out that no known curve explains, and what depth shows of
+/// the space in front of them. Where images are full of strips one more tells little.
+class StripViews {
+ public:
+  struct View {
+    RigidTransform T_depth_world;
+    RigidTransform T_color_world;
+    Vec3 center;
+    MaskImage explained;                       // by curves
+    Image<uint8_t> to_strip;                   // distances to strips' middles, sixteenths of pixels
+    Image<float> farthest;                     // depth, in cells, metres
+    std::vector<Eigen::Vector2i> unexplained;  // some middles of strips that no curve covers
+    Image<float> seen[2], not_seen[2];  // evidence, in cells: of a first look, of a close one
+  };
+
+  /// `frames` are those whose images of how likely pixels show wire are in `posteriors`.
+  StripViews(const SkeletonGraph& skeleton, const Sequence& sequence,
+             const std::vector<int>& frames, const std::vector<PosteriorImage>& posteriors);
+
+  const std::vector<View>& views() const { return views_; }
+
+  /// Around the curves: a quarter of their extent farther to all sides. Strips elsewhere are not
+  /// looked for.
+  const Eigen::AlignedBox3d& bounds() const { return bounds_; }
+  const PinholeCamera& color_camera() const { return color_camera_; }
+
+  /// From now on a curve explains the strips along it.
+  void Explain(const Polyline& points, const std::vector<double>& radii);
+
+  /// By every fifth image and strips within 3.5 pixels: a first look.
+  StripAgreement FirstLook(const Vec3& p) const { return AgreementAt(p, 0); }
+
+  /// By all images and strips within 1.4 pixels.
+  StripAgreement CloseLook(const Vec3& p) const { return AgreementAt(p, 1); }
+
+  /// Whether depth of a view shows only what is nearer than a place.
+  bool Hides(const View& view, const Vec3& p) const;
+
+  /// Whether depth shows something farther behind a place in most of the images that can tell.
+  bool IsFree(const Vec3& p) const;
+
+ private:
+  StripAgreement AgreementAt(const Vec3& p, int look) const;
+  float BehindIn(const View& view, const Vec3& p) const;
+  cv::Rect RegionIn(const View& view) const;
+  void ExplainIn(View& view, const Polyline& points, const std::vector<double>& radii) const;
+
+  PinholeCamera depth_camera_;
+  PinholeCamera color_camera_;
+  Eigen::AlignedBox3d bounds_;
+  std::vector<View> views_;
+};
+
+}  // namespace curvefusion
