@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "capture/content/geometry_check.h"
 #include "capture/detect_format.h"
 
 namespace curvefusion {
@@ -21,6 +22,15 @@ Trajectory PosesOf(const Sequence& sequence) {
     trajectory.push_back({frame.timestamp, frame.T_world_camera});
   }
   return trajectory;
+}
+
+std::string DoubtOfPoses(const Sequence& tracked) {
+  if (!DepthDisagrees(tracked)) return {};
+  return tracked.folder.string() +
+         ": the tracked poses do not fit the depth images: the camera was lost without notice; "
+         "scan "
+         "more slowly and nearer to things with corners and colours, or give poses of another "
+         "system (docs/tracking.md)";
 }
 
 }  // namespace curvefusion

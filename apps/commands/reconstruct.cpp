@@ -136,6 +136,8 @@ std::optional<TrackingResult> FindPoses(Sequence& sequence, ProgressPrinter& pri
   TrackingResult tracking =
       TrackSequence(sequence, GivenStart(sequence), {}, InterruptibleProgress(printer));
   sequence = tracking.sequence;
+  const std::string doubt = DoubtOfPoses(sequence);
+  if (!doubt.empty()) throw Error(ErrorKind::kBadInput, doubt);
   return tracking;
 }
 

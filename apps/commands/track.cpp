@@ -105,6 +105,8 @@ void PrintResult(const TrackingResult& result, const Sequence& images, double se
   for (const LostFrame& frame : result.lost)
     fmt::print("lost         {}: {}\n", frame.name, frame.why);
   for (const std::string& warning : result.warnings) fmt::print("warning: {}\n", warning);
+  const std::string doubt = DoubtOfPoses(result.sequence);
+  if (!doubt.empty()) fmt::print("warning: {}\n", doubt);
 }
 
 int RunTrack(const TrackArguments& arguments) {

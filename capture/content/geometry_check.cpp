@@ -207,4 +207,15 @@ void RequireFittingPoses(Sequence& sequence) {
   });
 }
 
+bool DepthDisagrees(const Sequence& sequence) {
+  const std::vector<FramePair> pairs = SpreadPairs(sequence.frame_count(), kSampledStarts);
+  const Thumbnails thumbnails = DepthThumbnails(sequence, FramesOf(pairs));
+  if (thumbnails.depth.empty()) return false;
+  FramePoses poses;
+  for (const SequenceFrame& frame : sequence.frames) poses.emplace_back(frame.T_world_camera);
+  const DepthViews views(thumbnails, sequence.depth_scale);
+  const PoseAgreement agreement = MeasureAgreement(views, pairs, poses);
+  return agreement.usable >= kMinJudgedPairs && WideResidual(pairs, agreement) > kMaxWideResidual;
+}
+
 }  // namespace curvefusion

@@ -55,4 +55,8 @@ GeometryReport CheckClocks(const Sequence& sequence, const FindingHandler& on_fi
 /// what is in doubt.
 void RequireFittingPoses(Sequence& sequence);
 
+/// Whether depth of frames up to 30 apart disagrees, whatever the cause; not where it cannot tell.
+/// Decodes about 30 depth images.
+bool DepthDisagrees(const Sequence& sequence);
+
 }  // namespace curvefusion

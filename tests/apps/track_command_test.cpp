@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "apps/tracked_poses.h"
+#include "capture/detect_format.h"
 #include "tests/apps/command_line_fixture.h"
 
 namespace curvefusion {
@@ -65,6 +67,20 @@ TEST_F(Track, AReferenceOfAnotherClockIsBadInput) {
   const Outcome outcome = Run("track scan -o tracked.txt --reference late.txt");
   EXPECT_EQ(outcome.exit_code, 3);
   EXPECT_THAT(outcome.output, HasSubstr("late.txt: has poses for 0 of the 4 tracked frames"));
+}
+
+TEST_F(Track, PosesThatDepthDisagreesWithAreDoubted) {
+  ASSERT_EQ(
+      Run("simulate cubeframe -o scan --sensor ideal --poses true --quiet --frames 40").exit_code,
+      0);
+  Sequence tracked = ReadSequence(folder_ / "scan", PoseUse::kNeeded, [](const CheckFinding&) {});
+  EXPECT_EQ(DoubtOfPoses(tracked), "");
+  for (size_t i = 0; i < tracked.frames.size(); ++i) {
+    Vec3 away = Vec3::Zero();
+    away[static_cast<int>(i % 3)] = i % 2 == 0 ? 0.2 : -0.2;
+    tracked.frames[i].T_world_camera.translation() += away;
+  }
+  EXPECT_THAT(DoubtOfPoses(tracked), HasSubstr("the camera was lost without notice"));
 }
 
 }  // namespace
