@@ -49,7 +49,7 @@ Amounts AmountsOf(const Sequence& sequence, const BestOptions& options, const Ru
 }
 
 // Seconds of one thread: fitted to cubeframe, lampshade, cable, kitchen and aims
-// (docs/results.md#time-left); wires from colour after one plant of 66 frames, 2.6 s.
+// (docs/results.md#time-left); wires from colour after basket and umbrella, 1.8 and 2.8 s of two.
 std::vector<PlannedStage> BestStages(const Amounts& a) {
   const double radius = a.strips * (0.0033 * a.size + 0.0016 * a.seen);
   return {{"volume", 0.0145 * a.integrated},
@@ -65,7 +65,7 @@ std::vector<PlannedStage> BestStages(const Amounts& a) {
           {"colour adjustment", a.adjusted * (0.005 * a.size + 0.006 * a.seen)},
           {"silhouettes", 0.0015 * a.size * a.adjusted * a.length},
           {"radius", radius},
-          {"wires from colour", 0.06 * a.size * std::min(a.adjusted, 40.0)},
+          {"wires from colour", 0.06 * a.size * std::min(a.adjusted, 90.0)},
           {"radius", radius},
           {"evidence", a.looked * (0.0025 * a.size + 0.0004 * a.seen)}};
 }

@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
+#include "capture/farthest_depth.h"
 #include "capture/frame_stream.h"
 #include "fusion/curve_graph/strip_middles.h"
 #include "kernel/parallel.h"
@@ -33,7 +34,6 @@ constexpr double kNearest = 0.05;         // metres before a camera
 constexpr float kHidingDistance = 0.03F;  // metres; noise and drift of depth come to less
 constexpr float kFreeDistance = 0.02F;    // metres behind a wire; CurveFusion 3, assumption (i)
 constexpr double kFreeShare = 0.8;        // of the images whose depth tells
-constexpr int kCellPx = 4;
 constexpr int kAroundCells = 9;
 constexpr double kDistanceUnits = 16;  // of the images of distances, in a pixel
 
@@ -52,32 +52,19 @@ Image<uint8_t> DistanceTo(const MaskImage& middles) {
   return units;
 }
 
-// The greatest depth within each cell: thin things in front hide nothing.
-Image<float> FarthestInCells(const DepthImage& depth) {
-  Image<float> cells((depth.width() + kCellPx - 1) / kCellPx,
-                     (depth.height() + kCellPx - 1) / kCellPx);
-  for (int v = 0; v < depth.height(); ++v) {
-    for (int u = 0; u < depth.width(); ++u) {
-      float& cell = cells(u / kCellPx, v / kCellPx);
-      cell = std::max(cell, depth(u, v));
-    }
-  }
-  return cells;
-}
-
 // What a strip within reach of a place tells, and none: logarithms of how much likelier that is for
 // a wire than by chance, by the share of pixels around that have a strip within reach.
 void SetEvidence(double reach_px, const Image<uint8_t>& to_strip, Image<float>& seen,
                  Image<float>& not_seen) {
-  Image<float> shares((to_strip.width() + kCellPx - 1) / kCellPx,
-                      (to_strip.height() + kCellPx - 1) / kCellPx);
+  Image<float> shares((to_strip.width() + kDepthCellPx - 1) / kDepthCellPx,
+                      (to_strip.height() + kDepthCellPx - 1) / kDepthCellPx);
   for (int v = 0; v < to_strip.height(); ++v)
     for (int u = 0; u < to_strip.width(); ++u)
-      shares(u / kCellPx, v / kCellPx) += to_strip(u, v) <= reach_px * kDistanceUnits;
+      shares(u / kDepthCellPx, v / kDepthCellPx) += to_strip(u, v) <= reach_px * kDistanceUnits;
   seen = not_seen = Image<float>(shares.width(), shares.height());
   const cv::Mat from(shares.height(), shares.width(), CV_32F, shares.data());
   cv::Mat around;
-  cv::blur(from / (kCellPx * kCellPx), around, cv::Size(kAroundCells, kAroundCells));
+  cv::blur(from / (kDepthCellPx * kDepthCellPx), around, cv::Size(kAroundCells, kAroundCells));
   for (int v = 0; v < shares.height(); ++v) {
     for (int u = 0; u < shares.width(); ++u) {
       const double chance = std::clamp<double>(around.at<float>(v, u), kMinChance, kSeen);
@@ -203,7 +190,7 @@ float StripViews::BehindIn(const View& view, const Vec3& p) const {
   const Vec2 pixel = depth_camera_.Project(p_depth);
   if (!depth_camera_.Contains(pixel)) return 0;
   const Eigen::Vector2i at = PinholeCamera::Rounded(pixel);
-  const float farthest = view.farthest(at.x() / kCellPx, at.y() / kCellPx);
+  const float farthest = view.farthest(at.x() / kDepthCellPx, at.y() / kDepthCellPx);
   return farthest > 0 ? farthest - static_cast<float>(p_depth.z()) : 0;
 }
 
@@ -236,7 +223,7 @@ StripAgreement StripViews::AgreementAt(const Vec3& p, int look) const {
     const Image<float>& told = seen ? view.seen[look] : view.not_seen[look];
     ++agreement.looked;
     agreement.seen += seen;
-    agreement.evidence += kStride[look] * told(at.x() / kCellPx, at.y() / kCellPx);
+    agreement.evidence += kStride[look] * told(at.x() / kDepthCellPx, at.y() / kDepthCellPx);
     const double off = distance / kMiddlePx;
     if (seen) agreement.middle_evidence += kAtMiddle - 0.5 * off * off;
   }

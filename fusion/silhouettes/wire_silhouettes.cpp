@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "capture/farthest_depth.h"
 #include "capture/frame_stream.h"
 #include "kernel/parallel.h"
 
@@ -11,23 +12,14 @@ namespace curvefusion {
 
 namespace {
 
-constexpr int kCellPx = 4;
 constexpr float kHidingDistance = 0.03F;  // metres; noise and drift of depth come to less
 constexpr double kBlurPx = 2.5;           // colour runs so far beyond a wire's outline
 constexpr int kMinLooks = 8;
 constexpr uint8_t kWire = 128;  // least posterior of a pixel that shows wire
 
-// The greatest depth within the 3 x 3 cells around each cell: thin things in front hide nothing,
-// however much block matching widens them.
+// The greatest depth within the 3 x 3 cells around each cell: block matching widens thin things.
 Image<float> FarthestAround(const DepthImage& depth) {
-  Image<float> cells((depth.width() + kCellPx - 1) / kCellPx,
-                     (depth.height() + kCellPx - 1) / kCellPx);
-  for (int v = 0; v < depth.height(); ++v) {
-    for (int u = 0; u < depth.width(); ++u) {
-      float& cell = cells(u / kCellPx, v / kCellPx);
-      cell = std::max(cell, depth(u, v));
-    }
-  }
+  const Image<float> cells = FarthestInCells(depth);
   Image<float> around(cells.width(), cells.height());
   for (int v = 0; v < cells.height(); ++v) {
     for (int u = 0; u < cells.width(); ++u) {
@@ -58,7 +50,7 @@ bool WireSilhouettes::IsHidden(const View& view, const Vec3& p_depth) const {
   const Vec2 pixel = depth_camera_.Project(p_depth);
   if (!depth_camera_.Contains(pixel)) return false;
   const Eigen::Vector2i at = PinholeCamera::Rounded(pixel);
-  const float farthest = view.farthest(at.x() / kCellPx, at.y() / kCellPx);
+  const float farthest = view.farthest(at.x() / kDepthCellPx, at.y() / kDepthCellPx);
   return farthest > 0 && farthest < static_cast<float>(p_depth.z()) - kHidingDistance;
 }
 
