@@ -161,4 +161,24 @@ const StampedPose* NearestPose(const Trajectory& trajectory, double timestamp, d
   return std::abs(nearest->timestamp - timestamp) <= tolerance ? &*nearest : nullptr;
 }
 
+std::optional<RigidTransform> PoseAt(const Trajectory& trajectory, double time, double max_gap) {
+  const auto after = std::lower_bound(
+      trajectory.begin(), trajectory.end(), time,
+      [](const StampedPose& pose, double stamp) { return pose.timestamp < stamp; });
+  if (after == trajectory.end()) return std::nullopt;
+  if (after->timestamp == time) return after->T_world_camera;
+  if (after == trajectory.begin()) return std::nullopt;
+  const StampedPose& before = *std::prev(after);
+  const double gap = after->timestamp - before.timestamp;
+  if (gap > max_gap) return std::nullopt;
+  const double share = (time - before.timestamp) / gap;
+  const Eigen::Quaterniond first(before.T_world_camera.linear());
+  const Eigen::Quaterniond second(after->T_world_camera.linear());
+  RigidTransform pose = RigidTransform::Identity();
+  pose.linear() = first.slerp(share, second).toRotationMatrix();
+  pose.translation() = (1 - share) * before.T_world_camera.translation() +
+                       share * after->T_world_camera.translation();
+  return pose;
+}
+
 }  // namespace curvefusion

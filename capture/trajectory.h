@@ -50,4 +50,8 @@ std::optional<RigidTransform> RigidFromMatrix(const Eigen::Matrix4d& matrix,
 const StampedPose* NearestPose(const Trajectory& trajectory, double timestamp,
                                double tolerance = kAssociationTolerance);
 
+/// The pose at a time, between those before and after it; none outside the trajectory and where
+/// these are more than `max_gap` seconds apart.
+std::optional<RigidTransform> PoseAt(const Trajectory& trajectory, double time, double max_gap);
+
 }  // namespace curvefusion

@@ -39,29 +39,7 @@ struct TrackArguments {
 struct PosePairs {
   std::vector<RigidTransform> tracked;
   std::vector<RigidTransform> reference;
-  double seconds = 0;
 };
-
-// Between the two poses around a time; none where they are far apart.
-std::optional<RigidTransform> PoseAt(const Trajectory& trajectory, double time) {
-  const auto after = std::lower_bound(
-      trajectory.begin(), trajectory.end(), time,
-      [](const StampedPose& pose, double stamp) { return pose.timestamp < stamp; });
-  if (after == trajectory.end()) return std::nullopt;
-  if (after->timestamp == time) return after->T_world_camera;
-  if (after == trajectory.begin()) return std::nullopt;
-  const StampedPose& a = *std::prev(after);
-  const double gap = after->timestamp - a.timestamp;
-  if (gap > kReferenceGap) return std::nullopt;
-  const double share = (time - a.timestamp) / gap;
-  const RigidTransform& b = after->T_world_camera;
-  RigidTransform pose = RigidTransform::Identity();
-  pose.linear() = Eigen::Quaterniond(a.T_world_camera.linear())
-                      .slerp(share, Eigen::Quaterniond(b.linear()))
-                      .toRotationMatrix();
-  pose.translation() = (1 - share) * a.T_world_camera.translation() + share * b.translation();
-  return pose;
-}
 
 PosePairs PairPoses(const Sequence& tracked, const fs::path& file) {
   const Trajectory reference = ReadTumTrajectory(file, [](const CheckFinding& finding) {
@@ -71,7 +49,7 @@ PosePairs PairPoses(const Sequence& tracked, const fs::path& file) {
   });
   PosePairs pairs;
   for (const SequenceFrame& frame : tracked.frames) {
-    const auto pose = PoseAt(reference, frame.timestamp);
+    const auto pose = PoseAt(reference, frame.timestamp, kReferenceGap);
     if (!pose) continue;
     pairs.tracked.push_back(frame.T_world_camera);
     pairs.reference.push_back(*pose);

@@ -11,6 +11,7 @@
 #include "capture/content/geometry_details.h"
 #include "capture/content/geometry_messages.h"
 #include "capture/content/pose_explanation.h"
+#include "capture/depth_noise.h"
 #include "capture/readers/readers.h"
 #include "kernel/error.h"
 #include "kernel/quantile.h"
@@ -21,9 +22,6 @@ namespace {
 
 constexpr int kStarts = 16;  // pairs of each gap; 64 pairs of some 100 frames
 constexpr int kSampledStarts = 6;
-// Khoshelham 2012: standard deviation of structured light, metres, of the squared distance;
-// generous for others.
-constexpr double kNoisePerSquaredMetre = 1.425e-3;
 constexpr std::array<double, 7> kDistances = {0, 0.5, 1, 1.5, 2, 3, 100};
 constexpr int kMinPoints = 200;  // of a distance or gap
 // Chosen: where poses that stand still cost no more than this factor of the given ones, any poses
@@ -33,7 +31,7 @@ constexpr double kTellsMargin = 0.02;  // of cost: a thousandth of the distance
 
 // Two measurements differ by sqrt(2) sigma, of which the median absolute value is .6745.
 double NoiseAt(double distance) {
-  return 0.6745 * std::sqrt(2.0) * kNoisePerSquaredMetre * distance * distance;
+  return 0.6745 * std::sqrt(2.0) * kNoisePerSquaredDepth * distance * distance;
 }
 
 struct Differences {

@@ -120,27 +120,9 @@ FramePoses DelayedPoses(const FramePoses& poses, int frames) {
 }
 
 FramePoses PosesAt(const Trajectory& trajectory, const std::vector<double>& times, double offset) {
-  FramePoses poses(times.size());
-  for (size_t i = 0; i < times.size(); ++i) {
-    const double time = times[i] + offset;
-    const auto next =
-        std::lower_bound(trajectory.begin(), trajectory.end(), time,
-                         [](const StampedPose& pose, double t) { return pose.timestamp < t; });
-    if (next == trajectory.end()) continue;
-    if (next->timestamp == time) poses[i] = next->T_world_camera;
-    if (next == trajectory.begin()) continue;
-    const StampedPose& before = *std::prev(next);
-    const double between = next->timestamp - before.timestamp;
-    if (between > kMaxTimeBetween) continue;
-    const double share = (time - before.timestamp) / between;
-    const Eigen::Quaterniond first(before.T_world_camera.linear());
-    const Eigen::Quaterniond second(next->T_world_camera.linear());
-    RigidTransform pose = RigidTransform::Identity();
-    pose.linear() = first.slerp(share, second).toRotationMatrix();
-    pose.translation() = (1 - share) * before.T_world_camera.translation() +
-                         share * next->T_world_camera.translation();
-    poses[i] = pose;
-  }
+  FramePoses poses;
+  for (const double time : times)
+    poses.push_back(PoseAt(trajectory, time + offset, kMaxTimeBetween));
   return poses;
 }
 

@@ -34,6 +34,7 @@ constexpr double kNearest = 0.05;         // metres before a camera
 constexpr float kHidingDistance = 0.03F;  // metres; noise and drift of depth come to less
 constexpr float kFreeDistance = 0.02F;    // metres behind a wire; CurveFusion 3, assumption (i)
 constexpr double kFreeShare = 0.8;        // of the images whose depth tells
+constexpr int kCellPx = 4;                // of a colour image
 constexpr int kAroundCells = 9;
 constexpr double kDistanceUnits = 16;  // of the images of distances, in a pixel
 
@@ -56,15 +57,15 @@ Image<uint8_t> DistanceTo(const MaskImage& middles) {
 // a wire than by chance, by the share of pixels around that have a strip within reach.
 void SetEvidence(double reach_px, const Image<uint8_t>& to_strip, Image<float>& seen,
                  Image<float>& not_seen) {
-  Image<float> shares((to_strip.width() + kDepthCellPx - 1) / kDepthCellPx,
-                      (to_strip.height() + kDepthCellPx - 1) / kDepthCellPx);
+  Image<float> shares((to_strip.width() + kCellPx - 1) / kCellPx,
+                      (to_strip.height() + kCellPx - 1) / kCellPx);
   for (int v = 0; v < to_strip.height(); ++v)
     for (int u = 0; u < to_strip.width(); ++u)
-      shares(u / kDepthCellPx, v / kDepthCellPx) += to_strip(u, v) <= reach_px * kDistanceUnits;
+      shares(u / kCellPx, v / kCellPx) += to_strip(u, v) <= reach_px * kDistanceUnits;
   seen = not_seen = Image<float>(shares.width(), shares.height());
   const cv::Mat from(shares.height(), shares.width(), CV_32F, shares.data());
   cv::Mat around;
-  cv::blur(from / (kDepthCellPx * kDepthCellPx), around, cv::Size(kAroundCells, kAroundCells));
+  cv::blur(from / (kCellPx * kCellPx), around, cv::Size(kAroundCells, kAroundCells));
   for (int v = 0; v < shares.height(); ++v) {
     for (int u = 0; u < shares.width(); ++u) {
       const double chance = std::clamp<double>(around.at<float>(v, u), kMinChance, kSeen);
@@ -95,13 +96,12 @@ Image<Pixel> Crop(const Image<Pixel>& image, const cv::Rect& region) {
   return crop;
 }
 
-// The middles of strips in a part of an image.
+// The middles of strips in the part of an image that `color` holds.
 MaskImage MiddlesWithin(const cv::Rect& region, const ColorImage& color,
                         const PosteriorImage& posterior, const MaskImage& explained) {
-  MaskImage middles(color.width(), color.height(), 0);
+  MaskImage middles(explained.width(), explained.height(), 0);
   if (region.empty()) return middles;
-  const MaskImage found =
-      StripMiddles(Crop(color, region), Crop(posterior, region), Crop(explained, region));
+  const MaskImage found = StripMiddles(color, Crop(posterior, region), Crop(explained, region));
   for (int v = 0; v < region.height; ++v)
     std::copy(found.row(v), found.row(v) + region.width, middles.row(region.y + v) + region.x);
   return middles;
@@ -120,14 +120,14 @@ StripViews::StripViews(const SkeletonGraph& skeleton, const Sequence& sequence,
   bounds_.min() -= margin;
   bounds_.max() += margin;
   const std::vector<int> used = EvenlyThinned(frames, kViews);
-  std::vector<ColorImage> images;
+  std::vector<ColorImage> parts;  // of the images, around the curves
   ForEachFrame(sequence, used, {.depth = true, .color = true}, [&](const DecodedFrame& frame) {
     View& view = views_.emplace_back();
     view.T_depth_world = sequence.frames[frame.index].T_world_camera.inverse();
     view.T_color_world = sequence.T_color_depth * view.T_depth_world;
     view.center = view.T_color_world.inverse().translation();
     view.farthest = FarthestInCells(frame.depth);
-    images.push_back(frame.color);
+    parts.push_back(Crop(frame.color, RegionIn(view)));
   });
   ParallelFor(0, static_cast<int64_t>(views_.size()), 1, [&](int64_t i) {
     View& view = views_[i];
@@ -135,7 +135,7 @@ StripViews::StripViews(const SkeletonGraph& skeleton, const Sequence& sequence,
     for (const EdgeId id : skeleton.Edges())
       ExplainIn(view, skeleton.edge(id).points, skeleton.edge(id).radii);
     const auto place = std::lower_bound(frames.begin(), frames.end(), used[i]) - frames.begin();
-    FindStrips(MiddlesWithin(RegionIn(view), images[i], posteriors[place], view.explained), view);
+    FindStrips(MiddlesWithin(RegionIn(view), parts[i], posteriors[place], view.explained), view);
   });
 }
 
@@ -223,7 +223,7 @@ StripAgreement StripViews::AgreementAt(const Vec3& p, int look) const {
     const Image<float>& told = seen ? view.seen[look] : view.not_seen[look];
     ++agreement.looked;
     agreement.seen += seen;
-    agreement.evidence += kStride[look] * told(at.x() / kDepthCellPx, at.y() / kDepthCellPx);
+    agreement.evidence += kStride[look] * told(at.x() / kCellPx, at.y() / kCellPx);
     const double off = distance / kMiddlePx;
     if (seen) agreement.middle_evidence += kAtMiddle - 0.5 * off * off;
   }

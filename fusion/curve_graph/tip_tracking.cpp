@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -16,8 +17,7 @@ namespace {
 
 // Scores are logarithms of how much likelier the strips are for a wire than by chance, less what
 // wires and bends cost beforehand. Chosen while looking at training scans furnished 1, rack 2,
-// tree 2, umbrella 1 and vine 1, where ends of wires that go on score 15 to 69 and those that end
-// below 2 (docs/lab_notebook.md).
+// tree 2, umbrella 1 and vine 1 (docs/lab_notebook.md).
 constexpr double kStep = 0.003;              // metres
 constexpr double kCorrelationLength = 0.01;  // metres; strips nearer to each other tell the same
 constexpr double kShare = kStep / kCorrelationLength;  // derived: of what a place tells
@@ -31,7 +31,7 @@ constexpr double kFirstStep = 0.006;  // metres; strips are not told beside know
 constexpr double kFirstBend = 0.6;    // radians; ends of curves lie beside their wires
 constexpr size_t kBeam = 12;          // paths followed at a time
 constexpr double kMaxDrop = 3;        // below the best of a path so far
-constexpr double kMinScore = 4;       // derived: a chance of 2 % to be none
+constexpr double kMinScore = 4;       // 98 %, as far as the scores can be believed
 constexpr double kMaxLength = 1;      // metres
 constexpr double kFitLength = 0.015;  // metres, that tell the direction of an end
 constexpr double kBeside = 0.004;     // metres; nearer to another curve a path is that curve
@@ -180,17 +180,20 @@ Vec3 DirectionAt(const SkeletonGraph& skeleton, NodeId node) {
 
 double TrackTips(double radius, StripViews& views, SkeletonGraph& skeleton) {
   double length = 0;
+  std::optional<TipTracker> tracker;  // that knows all curves
   for (const NodeId node : skeleton.Nodes()) {
     if (skeleton.Degree(node) != 1) continue;
     const Vec3 direction = DirectionAt(skeleton, node);
     if (direction == Vec3::Zero()) continue;
-    Polyline path = TipTracker(views, skeleton).Follow(skeleton.position(node), direction);
+    if (!tracker) tracker.emplace(views, skeleton);
+    Polyline path = tracker->Follow(skeleton.position(node), direction);
     if (path.size() < 2) continue;
     Smooth(path);
     const std::vector<double> radii(path.size(), radius);
     views.Explain(path, radii);
     skeleton.AddEdge({{node, skeleton.AddNode(path.back())}, path, radii, {}});
     length += Length(path);
+    tracker.reset();
   }
   if (length > 0) skeleton.DissolveDegree2Nodes();
   return length;

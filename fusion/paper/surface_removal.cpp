@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "capture/depth_noise.h"
 #include "fusion/segmentation/depth_opening.h"
 #include "kernel/parallel.h"
 
@@ -18,8 +19,6 @@ DepthOpeningOptions Opening(const SurfaceRemovalOptions& options) {
   return opening;
 }
 
-// Standard deviation of a Kinect V1's depth is that times depth squared, 1/m (Khoshelham 2012).
-constexpr double kNoiseQuadratic = 0.001425;
 constexpr double kNoiseFactor = 3;
 // Kinect V1: nearer depth is below its range; farther depth lies on no thin structure (noise of
 // three standard deviations exceeds the thickness of what is scanned by far).
@@ -28,7 +27,7 @@ constexpr double kMaxDepth = 3.0;
 
 // How far from a large surface a depth must lie.
 double Separation(double depth, const SurfaceRemovalOptions& options) {
-  return std::max(options.separation, kNoiseFactor * kNoiseQuadratic * depth * depth);
+  return std::max(options.separation, kNoiseFactor * kNoisePerSquaredDepth * depth * depth);
 }
 
 // Whether a surface that opening has left comes nearer to a depth pixel than `separation`.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "capture/depth_noise.h"
 #include "kernel/camera.h"
 #include "kernel/image.h"
 #include "kernel/options.h"
@@ -9,7 +10,7 @@ namespace curvefusion {
 /// Which raw depth pixels belong to a thin structure, CurveFusion 3.1 "Removing large surfaces".
 struct DifferenceSetOptions {
   double noise_factor = 3.0;
-  double noise_quadratic = 0.001425;
+  double noise_quadratic = kNoisePerSquaredDepth;
   double front_distance = 0.0;
   double silhouette_margin_px = 0;
   double behind_removed = 0.02;

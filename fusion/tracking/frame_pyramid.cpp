@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "capture/content/shrunk_grey.h"
+#include "capture/depth_noise.h"
 #include "kernel/parallel.h"
 
 namespace curvefusion {
@@ -27,7 +28,7 @@ float SquareDepth(const DepthImage& depth, int first_u, int first_v, int side, f
   if (2 * count < side * side) return 0;
   std::nth_element(values, values + count / 2, values + count);
   const float median = values[count / 2];
-  const float reach = kSameSurface * static_cast<float>(TrackingDepthNoise(median));
+  const float reach = kSameSurface * static_cast<float>(kNoisePerSquaredDepth * median * median);
   float sum = 0;
   int near = 0;
   for (int i = 0; i < count; ++i) {
@@ -101,11 +102,6 @@ void AddGreyLevels(const ColorImage& color, const PinholeCamera& camera, int wid
 PinholeCamera EverySecond(const PinholeCamera& camera) {
   return {camera.width / 2, camera.height / 2, 0.5 * camera.fx,
           0.5 * camera.fy,  0.5 * camera.cx,   0.5 * camera.cy};
-}
-
-double TrackingDepthNoise(double depth) {
-  constexpr double kNoisePerSquaredMetre = 1.425e-3;  // Khoshelham and Elberink 2012
-  return kNoisePerSquaredMetre * depth * depth;
 }
 
 DepthImage ReducedDepth(const DepthImage& depth, int divisor, double max_depth) {

@@ -24,7 +24,7 @@ struct FrameLevel {
   Image<GreySample> grey;
 };
 
-/// A frame as the tracker sees it: three levels, the finest first, each of half the size of the
+/// A frame as the tracker sees it: four levels, the finest first, each of half the size of the
 /// one before.
 struct TrackingFrame {
   double timestamp = 0;    ///< of the depth image
@@ -40,9 +40,6 @@ struct TrackingCameras {
   PinholeCamera color;
   RigidTransform T_color_depth = RigidTransform::Identity();
 };
-
-/// Standard deviation of structured light's depth (Khoshelham and Elberink 2012), metres.
-double TrackingDepthNoise(double depth);
 
 /// The camera of an image that has every second pixel of every second row of another's.
 PinholeCamera EverySecond(const PinholeCamera& camera);

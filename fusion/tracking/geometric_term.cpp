@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "capture/depth_noise.h"
 #include "kernel/parallel.h"
 #include "kernel/quantile.h"
 
@@ -61,7 +62,8 @@ class PairFinder {
     if (offset.squaredNorm() > kMaxDistance * kMaxDistance) return Pairing::kNoModel;
     pair.distance = pair.normal.dot(offset);
     // Noise runs along the frame's ray.
-    const float sensor = static_cast<float>(TrackingDepthNoise(z)) * pair.normal.dot(R_ * ray);
+    const float sensor =
+        static_cast<float>(kNoisePerSquaredDepth * z * z) * pair.normal.dot(R_ * ray);
     pair.noise = std::sqrt(sensor * sensor + kModelNoise * kModelNoise);
     return Pairing::kPaired;
   }
