@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <numbers>
 #include <vector>
 
@@ -13,8 +12,6 @@
 namespace curvefusion {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // Grey levels between the largest and the least of R, G and B: 0 in grey images; measured 23 to 31
 // on average in cubeframe, lampshade, cable and kitchen. Chosen near the former.
@@ -71,50 +68,9 @@ std::string LostCurves(const CurveFunnel& curves) {
       .sentence;
 }
 
-Json PixelsJson(double value) { return value > 0 ? Json(value) : Json(nullptr); }
-
 std::string Percent(double share) { return fmt::format("{:.0f} %", 100 * share); }
 
 }  // namespace
-
-Json FunnelJson(const Funnel& funnel) {
-  const PointFunnel& points = funnel.points;
-  const CurveFunnel& curves = funnel.curves;
-  return {{"frames", points.frames},
-          {"chroma", points.chroma},
-          {"depth_pixels", points.depth_pixels},
-          {"thin_pixels", points.thin_pixels},
-          {"thin_pixels_after_colour_gate", points.gated_pixels},
-          {"candidate_points", points.merged_points},
-          {"dropped_points",
-           {{"too_few_frames", points.too_few_frames},
-            {"small_clusters", points.small_clusters},
-            {"colour_unverified", points.unverified},
-            {"isolated", points.isolated}}},
-          {"points", points.points},
-          {"contracted_length", curves.contracted},
-          {"dropped_length",
-           {{"surface_edge", curves.unproven.surface},
-            {"thick", curves.unproven.thick},
-            {"looked_past_by_depth", curves.unproven.looked_past},
-            {"unproven", curves.unproven.unproven},
-            {"looked_past", curves.looked_past}}},
-          {"length", curves.curves}};
-}
-
-Json TrustJson(const Trust& trust) {
-  return {{"wire_share", trust.length > 0 ? trust.wire_length / trust.length : 0},
-          {"measured_diameter_share", trust.measured_share},
-          {"depth_share", trust.depth_share},
-          {"colour_share", trust.colour_share},
-          {"adjusted_to_colour", trust.adjusted},
-          {"residual_before_px", PixelsJson(trust.residual_before_px)},
-          {"residual_px", PixelsJson(trust.residual_px)},
-          {"pose_shift_mm", trust.pose_shift / kMillimetre},
-          {"max_pose_shift_mm", trust.max_pose_shift / kMillimetre},
-          {"pose_turn_degrees", trust.pose_turn * 180 / std::numbers::pi},
-          {"doubts", Doubts(trust)}};
-}
 
 std::string TrustLines(const Trust& trust) {
   const std::string residual =

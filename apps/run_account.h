@@ -1,16 +1,11 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "fusion/funnel.h"
 #include "fusion/trust.h"
 
 namespace curvefusion {
-
-/// The parts `funnel` and `trust` of report.json.
-nlohmann::ordered_json FunnelJson(const Funnel& funnel);
-nlohmann::ordered_json TrustJson(const Trust& trust);
 
 /// How far a result may be trusted, two lines for the terminal.
 std::string TrustLines(const Trust& trust);

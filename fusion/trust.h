@@ -22,6 +22,9 @@ struct Trust {
   double pose_shift = 0;      ///< metres: by which poses were moved, median over frames
   double max_pose_shift = 0;  ///< metres
   double pose_turn = 0;       ///< radians, median
+
+  /// Whether anything is known: the paper does not judge its results.
+  bool is_judged() const { return length > 0; }
 };
 
 /// Adds shares and poses to result.trust, which holds what the adjustment to colours told. `given`

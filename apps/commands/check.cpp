@@ -8,9 +8,9 @@
 #include <memory>
 #include <string>
 
-#include "apps/check_json.h"
 #include "apps/commands/command.h"
 #include "apps/output_guard.h"
+#include "capture/check_json.h"
 #include "capture/content/repair.h"
 #include "kernel/error.h"
 

@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
-#include <numbers>
 #include <string>
 #include <vector>
 
@@ -11,10 +10,7 @@
 #include "apps/output_folder.h"
 #include "apps/output_guard.h"
 #include "apps/report.h"
-#include "apps/set_radius.h"
-#include "graph/contraction/l1_contraction.h"
-#include "graph/contraction/ridge_skeleton.h"
-#include "graph/contraction/suggested_radius.h"
+#include "graph/contraction/cloud_curves.h"
 #include "graph/io/graph_io.h"
 #include "kernel/cancellation.h"
 #include "kernel/cloud_io.h"
@@ -33,36 +29,17 @@ struct ContractArguments {
   RunOptions run;
 };
 
-SkeletonGraph ExtractL1(const ObservedPoints& points, double neighbourhood) {
-  const double radius = neighbourhood > 0 ? neighbourhood : SuggestedRadius(points);
-  return radius > 0 ? ExtractL1Skeleton(points, OptionsForRadius(radius)) : SkeletonGraph();
+CloudCurveOptions OptionsOf(const ContractArguments& arguments) {
+  return {CloudMethodNamed(arguments.method), arguments.neighbourhood_mm * kMillimetre,
+          arguments.radius_mm * kMillimetre};
 }
 
 // A wire object of more than this is no object but a unit other than the metre.
 constexpr double kLargestObject = 10;
-// The ridge kernel is made for wires of 2 to 12 mm, whose suggested neighbourhood is about 15 mm;
-// the L1 axis adapts to clouds that are this many times larger or smaller.
-constexpr double kRidgeNeighbourhood = 0.015;
-constexpr double kRidgeSizeRange = 2.5;
 
 // Metres per unit: millimetres where the cloud would be too large for metres.
 double GuessedScale(const ObservedPoints& points) {
   return RobustExtent(points).maxCoeff() <= kLargestObject ? 1 : kMillimetre;
-}
-
-bool HasUsualSize(const ObservedPoints& points) {
-  const double ratio = SuggestedRadius(points) / kRidgeNeighbourhood;
-  return ratio < kRidgeSizeRange && ratio > 1 / kRidgeSizeRange;
-}
-
-// Points of a depth camera lie on the near side of a wire, pi/4 radii before its axis on average.
-SkeletonGraph ExtractAtAxis(const ObservedPoints& points, const ContractArguments& arguments) {
-  const double radius = arguments.radius_mm * kMillimetre;
-  const ObservedPoints axis_points = ShiftAlongRays(points, std::numbers::pi / 4 * radius);
-  const bool ridge =
-      arguments.method == "ridge" || (arguments.method == "auto" && HasUsualSize(axis_points));
-  return ridge ? ExtractRidgeSkeleton(axis_points, {})
-               : ExtractL1(axis_points, arguments.neighbourhood_mm * kMillimetre);
 }
 
 int RunContract(const ContractArguments& arguments) {
@@ -76,7 +53,7 @@ int RunContract(const ContractArguments& arguments) {
     fmt::print("Coordinates are taken as millimetres (--scale 1 if they are metres)\n");
   }
   for (Vec3& position : points.positions) position *= scale;
-  SkeletonGraph graph = ExtractAtAxis(points, arguments);
+  const SkeletonGraph graph = CurvesOfCloud(points, OptionsOf(arguments));
   ThrowIfCancelled();
   if (graph.empty()) {
     fmt::print(stderr,
@@ -85,7 +62,6 @@ int RunContract(const ContractArguments& arguments) {
                points.size(), arguments.cloud.string());
     return kNothingThin;
   }
-  if (arguments.radius_mm > 0) SetRadius(arguments.radius_mm * kMillimetre, graph);
   const std::vector<std::string> losses = ExportSkeleton(arguments.output, graph);
   if (!arguments.run.quiet) {
     fmt::print("Found {}\n  skeleton  {}\n", FiguresLine(MeasureGraph(graph)),

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "apps/commands/command.h"
-#include "apps/graph_figures.h"
 #include "apps/output_folder.h"
 #include "apps/output_guard.h"
+#include "graph/graph_figures.h"
 #include "graph/intersections.h"
 #include "graph/io/graph_io.h"
 #include "graph/smoothing.h"

@@ -10,13 +10,13 @@
 #include "apps/commands/command.h"
 #include "apps/output_folder.h"
 #include "apps/output_guard.h"
-#include "apps/set_radius.h"
-#include "apps/tube_warnings.h"
 #include "graph/io/graph_io.h"
+#include "graph/set_radius.h"
 #include "kernel/cancellation.h"
 #include "kernel/error.h"
 #include "meshing/io/mesh_io.h"
 #include "meshing/tube_normals.h"
+#include "meshing/tube_warnings.h"
 #include "meshing/tubes.h"
 
 namespace curvefusion {

@@ -15,13 +15,10 @@
 #include "apps/report.h"
 #include "apps/result_folder.h"
 #include "apps/run_observer.h"
-#include "apps/tracked_poses.h"
-#include "apps/tube_warnings.h"
 #include "capture/content/colour_findings.h"
-#include "capture/content/geometry_check.h"
 #include "capture/trajectory.h"
 #include "experiments/pictures/png.h"
-#include "fusion/tracking/track_sequence.h"
+#include "fusion/tracking/tracked_poses.h"
 #include "graph/io/graph_io.h"
 #include "kernel/atomic_file.h"
 #include "kernel/cancellation.h"
@@ -29,6 +26,7 @@
 #include "kernel/free_space.h"
 #include "kernel/peak_memory.h"
 #include "meshing/io/mesh_io.h"
+#include "meshing/tube_warnings.h"
 
 namespace curvefusion {
 
@@ -127,20 +125,6 @@ void RequireRoom(const ReconstructArguments& arguments, const Sequence& sequence
   if (!stages.volume.empty()) RequireFreeSpace(stages.volume, kFiles);
 }
 
-// The poses must fit the depth; without any, they are tracked.
-std::optional<TrackingResult> FindPoses(Sequence& sequence, ProgressPrinter& printer) {
-  if (sequence.has_poses) {
-    RequireFittingPoses(sequence);
-    return std::nullopt;
-  }
-  TrackingResult tracking =
-      TrackSequence(sequence, GivenStart(sequence), {}, InterruptibleProgress(printer));
-  sequence = tracking.sequence;
-  const std::string doubt = DoubtOfPoses(sequence);
-  if (!doubt.empty()) throw Error(ErrorKind::kBadInput, doubt);
-  return tracking;
-}
-
 int RunReconstruct(const ReconstructArguments& arguments) {
   const auto start = Clock::now();
   const Config config = ReadConfig(Sources(arguments.config));
@@ -153,7 +137,8 @@ int RunReconstruct(const ReconstructArguments& arguments) {
                             arguments.force);
   ProgressPrinter printer = MakeProgressPrinter(arguments.run.quiet);
   const bool fitted = arguments.colour_camera == "auto" && UseFittedColourCamera(sequence);
-  const std::optional<TrackingResult> tracking = FindPoses(sequence, printer);
+  const std::optional<TrackingResult> tracking =
+      FindPoses(sequence, InterruptibleProgress(printer));
   RunObserver observer(printer, arguments.stages);
   const Reconstruction reconstruction = Reconstruct(sequence, config.pipeline, observer);
   printer.Report(kWritingStage, 0, 1);

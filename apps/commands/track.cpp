@@ -10,11 +10,11 @@
 
 #include "apps/commands/command.h"
 #include "apps/output_guard.h"
-#include "apps/tracked_poses.h"
 #include "capture/content/colour_findings.h"
 #include "capture/trajectory.h"
 #include "experiments/metrics/trajectory_metrics.h"
 #include "fusion/tracking/track_sequence.h"
+#include "fusion/tracking/tracked_poses.h"
 #include "kernel/error.h"
 
 namespace curvefusion {

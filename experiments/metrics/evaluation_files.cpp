@@ -204,12 +204,16 @@ std::string ReadIfThere(const std::filesystem::path& path) {
 
 }  // namespace
 
+std::string EvaluationText(const EvaluationLabels& labels, const Evaluation& evaluation) {
+  // Names of files need not be UTF-8.
+  return EvaluationJson(labels, evaluation).dump(1, ' ', false, Json::error_handler_t::replace) +
+         "\n";
+}
+
 void WriteEvaluation(const std::filesystem::path& path, const EvaluationLabels& labels,
                      const Evaluation& evaluation) {
-  const std::string text =
-      EvaluationJson(labels, evaluation)
-          .dump(1, ' ', false, Json::error_handler_t::replace);  // names of files need not be UTF-8
-  WriteStreamAtomically(path, [&](std::ostream& stream) { stream << text << "\n"; });
+  const std::string text = EvaluationText(labels, evaluation);
+  WriteStreamAtomically(path, [&](std::ostream& stream) { stream << text; });
 }
 
 void AppendEvaluation(const std::filesystem::path& path, const EvaluationLabels& labels,

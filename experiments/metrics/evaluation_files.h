@@ -14,8 +14,11 @@ struct EvaluationLabels {
   std::string truth;
 };
 
-/// All figures as JSON: lengths in mm where the key ends in `_mm`, otherwise in metres; null where
-/// there is nothing to take a share or a mean of.
+/// All figures as a JSON object: lengths in mm where the key ends in `_mm`, otherwise in metres;
+/// null where there is nothing to take a share or a mean of.
+std::string EvaluationText(const EvaluationLabels& labels, const Evaluation& evaluation);
+
+/// EvaluationText into a file, atomically.
 void WriteEvaluation(const std::filesystem::path& path, const EvaluationLabels& labels,
                      const Evaluation& evaluation);
 

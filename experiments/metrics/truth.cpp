@@ -86,12 +86,16 @@ SkeletonGraph ReadTruth(const fs::path& path) {
     return TruthFromCurves(text, file.string());
   }
   SkeletonGraph truth = SkeletonFromJson(text, file.string());
+  RequireRadii(truth, file.string());
+  return truth;
+}
+
+void RequireRadii(const SkeletonGraph& truth, const std::string& source) {
   for (const EdgeId edge : truth.Edges()) {
     if (!truth.edge(edge).radii.empty()) continue;
-    throw Error(ErrorKind::kBadInput, file.string() + ": edge " + std::to_string(edge) +
+    throw Error(ErrorKind::kBadInput, source + ": edge " + std::to_string(edge) +
                                           " has no radius; a truth needs them all");
   }
-  return truth;
 }
 
 }  // namespace curvefusion

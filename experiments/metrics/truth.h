@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "graph/skeleton_graph.h"
 
@@ -11,5 +12,9 @@ namespace curvefusion {
 /// folder with either, as SimulateScan writes it. Throws Error(kBadInput) for anything else, also
 /// for a skeleton with edges without radius.
 SkeletonGraph ReadTruth(const std::filesystem::path& path);
+
+/// Throws Error(kBadInput) where an edge has no radius: the figures of such a truth would be wrong.
+/// `source` names it in the error.
+void RequireRadii(const SkeletonGraph& truth, const std::string& source);
 
 }  // namespace curvefusion

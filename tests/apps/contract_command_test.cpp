@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/graph_figures.h"
+#include "graph/graph_figures.h"
 #include "graph/io/graph_io.h"
 #include "tests/apps/command_line_fixture.h"
 

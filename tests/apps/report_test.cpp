@@ -105,6 +105,34 @@ TEST(Report, TellsWhatEdgesAndJunctionsRestOn) {
   EXPECT_EQ(skeleton["per_junction"][0]["images"]["seen"], 7);
 }
 
+TEST(Report, HoldsWhatEveryRuleTook) {
+  YRun run;
+  run.reconstruction.funnel.points.merged_points = 34'063;
+  run.reconstruction.funnel.points.unverified = 34'017;
+  run.reconstruction.funnel.points.too_few_frames = 40;
+  const auto funnel = nlohmann::json::parse(ReportJson(run.Record()))["funnel"];
+  EXPECT_EQ(funnel["candidate_points"], 34'063);
+  EXPECT_EQ(funnel["dropped_points"]["colour_unverified"], 34'017);
+  EXPECT_EQ(funnel["dropped_points"]["too_few_frames"], 40);
+  EXPECT_EQ(funnel["dropped_length"]["thick"], 0);
+  EXPECT_EQ(funnel["dropped_length"]["surface_edge"], 0);
+}
+
+TEST(Report, TellsHowFarAResultMayBeTrusted) {
+  YRun run;
+  Trust& trust = run.reconstruction.trust;
+  trust.length = 3;
+  trust.measured_share = 0.25;
+  trust.wire_length = 1.5;
+  trust.pose_shift = 0.002;
+  const auto json = nlohmann::json::parse(ReportJson(run.Record()))["trust"];
+  EXPECT_EQ(json["measured_diameter_share"], 0.25);
+  EXPECT_EQ(json["wire_share"], 0.5);
+  EXPECT_DOUBLE_EQ(json["pose_shift_mm"], 2);
+  EXPECT_TRUE(json["residual_px"].is_null());
+  EXPECT_EQ(json["doubts"].size(), 1u);
+}
+
 TEST(Summary, NamesFindingsFilesAndWarnings) {
   YRun run;
   const std::string summary = Summary(run.Record(), "out", "out/report.json");

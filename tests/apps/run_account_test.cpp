@@ -3,8 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
 namespace curvefusion {
 namespace {
 
@@ -59,26 +57,6 @@ TEST(RunAccount, TheTerminalIsToldWhatWasLeftOut) {
   EXPECT_EQ(UncertainLine(lengths),
             "  left out  7.78 m that are no proven wires: 6.04 m edges of surfaces, 1.74 m too "
             "thick\n");
-}
-
-TEST(RunAccount, JsonHoldsEveryRule) {
-  const auto funnel = FunnelJson(GreyFunnel());
-  EXPECT_EQ(funnel["candidate_points"], 34'063);
-  EXPECT_EQ(funnel["dropped_points"]["colour_unverified"], 34'017);
-  EXPECT_EQ(funnel["dropped_points"]["too_few_frames"], 40);
-  EXPECT_EQ(funnel["dropped_length"]["thick"], 0);
-  EXPECT_EQ(funnel["dropped_length"]["surface_edge"], 0);
-  Trust trust;
-  trust.length = 3;
-  trust.measured_share = 0.25;
-  trust.wire_length = 1.5;
-  trust.pose_shift = 0.002;
-  const auto json = TrustJson(trust);
-  EXPECT_EQ(json["measured_diameter_share"], 0.25);
-  EXPECT_EQ(json["wire_share"], 0.5);
-  EXPECT_DOUBLE_EQ(json["pose_shift_mm"], 2);
-  EXPECT_TRUE(json["residual_px"].is_null());
-  EXPECT_EQ(json["doubts"].size(), 1u);
 }
 
 TEST(RunAccount, TheTerminalIsToldTheEvidence) {

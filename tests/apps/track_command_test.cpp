@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "apps/tracked_poses.h"
 #include "capture/detect_format.h"
+#include "fusion/tracking/tracked_poses.h"
 #include "tests/apps/command_line_fixture.h"
 
 namespace curvefusion {

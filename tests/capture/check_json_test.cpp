@@ -1,4 +1,4 @@
-#include "apps/check_json.h"
+#include "capture/check_json.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,10 @@
-#include "apps/tracked_poses.h"
+#include "fusion/tracking/tracked_poses.h"
 
 #include <algorithm>
 
 #include "capture/content/geometry_check.h"
 #include "capture/detect_format.h"
+#include "kernel/error.h"
 
 namespace curvefusion {
 
@@ -31,6 +32,18 @@ std::string DoubtOfPoses(const Sequence& tracked) {
          "scan "
          "more slowly and nearer to things with corners and colours, or give poses of another "
          "system (docs/tracking.md)";
+}
+
+std::optional<TrackingResult> FindPoses(Sequence& sequence, const Progress& progress) {
+  if (sequence.has_poses) {
+    RequireFittingPoses(sequence);
+    return std::nullopt;
+  }
+  TrackingResult tracking = TrackSequence(sequence, GivenStart(sequence), {}, progress);
+  sequence = tracking.sequence;
+  const std::string doubt = DoubtOfPoses(sequence);
+  if (!doubt.empty()) throw Error(ErrorKind::kBadInput, doubt);
+  return tracking;
 }
 
 }  // namespace curvefusion

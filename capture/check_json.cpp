@@ -1,4 +1,4 @@
-#include "apps/check_json.h"
+#include "capture/check_json.h"
 
 #include <nlohmann/json.hpp>
 
@@ -27,8 +27,7 @@ Json FiguresJson(const CheckReport& report) {
           {"depth_scale", KnownJson(report.depth_scale)},
           {"median_depth", KnownJson(report.median_depth)},
           {"depth_validity", report.depth_validity},
-          {"trajectory_length",
-           report.has_poses ? Json(report.trajectory_length) : Json(nullptr)},
+          {"trajectory_length", report.has_poses ? Json(report.trajectory_length) : Json(nullptr)},
           {"duration", KnownJson(report.duration)}};
 }
 

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "capture/sequence.h"
 #include "capture/trajectory.h"
+#include "fusion/tracking/track_sequence.h"
+#include "kernel/progress.h"
 
 namespace curvefusion {
 
@@ -17,5 +20,12 @@ Trajectory PosesOf(const Sequence& sequence);
 /// Why tracked poses cannot be believed: depth images of frames apart disagree. Empty where they
 /// agree, or where that cannot be told. About .1 s.
 std::string DoubtOfPoses(const Sequence& tracked);
+
+/// What a reconstruction needs of the poses of a sequence: those that it has must fit its depth;
+/// where it has none, they are tracked from the one that its folder gives to the first frame. The
+/// sequence then holds the frames that could be placed. Returns how tracking went, where it was
+/// done. Throws Error(kBadInput) where poses cannot be believed. Exceptions of `progress` pass
+/// through.
+std::optional<TrackingResult> FindPoses(Sequence& sequence, const Progress& progress);
 
 }  // namespace curvefusion

@@ -1,4 +1,4 @@
-#include "apps/set_radius.h"
+#include "graph/set_radius.h"
 
 #include <algorithm>
 #include <numeric>

@@ -1,4 +1,4 @@
-#include "apps/graph_figures.h"
+#include "graph/graph_figures.h"
 
 #include <utility>
 

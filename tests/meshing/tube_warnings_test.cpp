@@ -1,4 +1,4 @@
-#include "apps/tube_warnings.h"
+#include "meshing/tube_warnings.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "capture/sequence.h"
+#include "experiments/config.h"
+#include "fusion/pipeline.h"
+#include "fusion/tracking/track_sequence.h"
+#include "meshing/watertight.h"
+
+namespace curvefusion {
+
+/// What became of the tubes.
+struct MeshRecord {
+  WatertightReport figures;
+  double seconds = 0;
+  std::vector<std::string> warnings;
+};
+
+/// What report.json tells of a run.
+struct RunRecord {
+  const Sequence& sequence;
+  const Config& config;
+  const Reconstruction& reconstruction;
+  std::optional<MeshRecord> mesh;     ///< missing where nothing was found
+  double seconds = 0;                 ///< the whole run
+  int64_t peak_memory = 0;            ///< bytes
+  bool colour_camera_fitted = false;  ///< that of the sequence; otherwise that of the intrinsics
+  std::optional<TrackingResult> tracking;  ///< where the poses come from it
+};
+
+/// The text of report.json: profile, sequence, frames, stages with seconds and counts, warnings,
+/// figures of the skeleton and the mesh. Lengths in metres, diameters in millimetres.
+std::string ReportJson(const RunRecord& record);
+
+/// All warnings of a run, each once.
+std::vector<std::string> AllWarnings(const RunRecord& record);
+
+}  // namespace curvefusion
