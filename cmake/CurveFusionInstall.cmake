@@ -2,13 +2,13 @@ include(CMakePackageConfigHelpers)
 set(curvefusion_cmake_dir "${CMAKE_INSTALL_LIBDIR}/cmake/curvefusion")
 
 install(TARGETS curvefusion_build_flags curvefusion_kernel curvefusion_capture curvefusion_graph
-                curvefusion_fusion curvefusion_meshing
+                curvefusion_fusion curvefusion_meshing curvefusion_experiments
         EXPORT curvefusion ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}"
         LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}")
 install(TARGETS curvefusion RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
 install(EXPORT curvefusion NAMESPACE curvefusion:: FILE curvefusionTargets.cmake
         DESTINATION "${curvefusion_cmake_dir}")
-foreach(folder kernel capture graph fusion meshing)
+foreach(folder kernel capture graph fusion meshing experiments)
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/${folder}"
           DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/curvefusion" FILES_MATCHING PATTERN "*.h")
 endforeach()

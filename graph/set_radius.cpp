@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "kernel/error.h"
+
 namespace curvefusion {
 
 namespace {
@@ -51,6 +53,18 @@ void SetMedianRadius(SkeletonGraph& graph) {
     if (2 * below < total) continue;
     SetRadius(radius, graph);
     return;
+  }
+}
+
+void ReduceRadii(const std::string& to, SkeletonGraph& graph) {
+  if (to == "vertex") return;
+  if (to == "edge") {
+    SetMeanRadii(graph);
+  } else if (to == "global") {
+    SetMedianRadius(graph);
+  } else {
+    throw Error(ErrorKind::kUsage,
+                "there are no radii from " + to + "; name vertex, edge or global");
   }
 }
 

@@ -66,10 +66,8 @@ int CheckFile(const MeshArguments& arguments, const std::filesystem::path& path)
 void ChooseRadii(const MeshArguments& arguments, SkeletonGraph& skeleton) {
   if (arguments.radius_mm > 0) {
     SetRadius(arguments.radius_mm * kMillimetre, skeleton);
-  } else if (arguments.radius_from == "edge") {
-    SetMeanRadii(skeleton);
-  } else if (arguments.radius_from == "global") {
-    SetMedianRadius(skeleton);
+  } else {
+    ReduceRadii(arguments.radius_from, skeleton);
   }
 }
 

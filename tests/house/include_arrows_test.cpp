@@ -24,6 +24,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"meshing", {"meshing", "graph", "kernel"}},
     {"experiments", {"experiments", "fusion", "meshing", "capture", "graph", "kernel"}},
     {"apps", {"apps", "experiments", "fusion", "meshing", "capture", "graph", "kernel"}},
+    {"python", {"python", "experiments", "fusion", "meshing", "capture", "graph", "kernel"}},
 };
 
 bool IsSource(const fs::path& path) {

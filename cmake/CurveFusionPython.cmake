@@ -1,0 +1,21 @@
+# The Python module, where it is wanted and what it needs is there. Python is looked for where
+# pybind11 is, unless it is named (Python_EXECUTABLE): another one may come first in PATH.
+if(CURVEFUSION_BUILD_PYTHON)
+  find_path(pybind11_DIR pybind11Config.cmake PATH_SUFFIXES lib/cmake/pybind11 share/cmake/pybind11)
+  if(pybind11_DIR AND NOT Python_EXECUTABLE AND NOT Python_ROOT_DIR)
+    get_filename_component(Python_ROOT_DIR "${pybind11_DIR}/../../.." ABSOLUTE)
+  endif()
+  find_package(Python 3.9 QUIET COMPONENTS Interpreter Development.Module NumPy)
+  if(Python_FOUND)
+    find_package(pybind11 2.10 CONFIG QUIET)
+  endif()
+  if(Python_FOUND AND pybind11_FOUND)
+    message(STATUS "Python module: for ${Python_EXECUTABLE}")
+    add_subdirectory(python)
+  elseif(CURVEFUSION_BUILD_PYTHON STREQUAL "AUTO")
+    message(STATUS "Python module: not built, it needs Python's headers, NumPy and pybind11")
+  else()
+    message(FATAL_ERROR "The Python module needs Python's headers, NumPy and pybind11 2.10 "
+                        "(Debian: python3-dev python3-numpy pybind11-dev)")
+  endif()
+endif()
