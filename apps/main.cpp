@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "apps/commands/command.h"
+#include "apps/command_line.h"
 #include "apps/failure.h"
 #include "apps/interrupt.h"
 #include "apps/memory_reserve.h"
@@ -41,26 +41,9 @@ std::vector<std::string> Arguments(int argc, char** argv) {
 }
 
 int Parse(std::vector<std::string> arguments) {
-  CLI::App app("CurveFusion: wire objects from RGB-D scans, as curve skeletons and tube meshes.");
-  app.name("curvefusion");
-  app.set_version_flag("--version", CURVEFUSION_VERSION);
-  app.require_subcommand(1);
-  app.footer(
-      "Exit codes: 0 done, 1 a mesh with defects (mesh --check), 2 usage, 3 bad input, 4 nothing\n"
-      "thin found, 5 out of memory or disk, 75 another run writes to the same place, 130 "
-      "interrupted.\n"
-      "`curvefusion help COMMAND` tells more and gives examples.");
+  CLI::App app;
   int exit_code = 0;
-  AddReconstructCommand(app, exit_code);
-  AddTrackCommand(app, exit_code);
-  AddCheckCommand(app, exit_code);
-  AddContractCommand(app, exit_code);
-  AddMeshCommand(app, exit_code);
-  AddGraphCommand(app, exit_code);
-  AddConfigCommand(app, exit_code);
-  AddSimulateCommand(app, exit_code);
-  AddEvaluateCommand(app, exit_code);
-  AddExperimentCommand(app, exit_code);
+  AddCommandLine(app, exit_code);
   CheckCommandName(app, arguments);
   try {
     std::reverse(arguments.begin(), arguments.end());  // as CLI11 takes them
