@@ -36,7 +36,7 @@ class ShellFiles : public CommandLine {
   bool IsTakenBy(const std::string& shell, const std::string& flag, const std::string& text) const {
     Write("completion", text);
     return RunShell("! command -v " + shell + " >/dev/null || " + shell + " " + flag +
-                    " completion >output.txt 2>&1; test $? = 0 >output.txt")
+                    " completion >output.txt 2>&1")
                .exit_code == 0;
   }
 

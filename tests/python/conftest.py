@@ -14,11 +14,11 @@ def program():
 
 @pytest.fixture(scope="session")
 def scan(program, tmp_path_factory):
-    """A scan of a cube of wires by a camera without noise, 24 frames."""
+    """A scan of a cube of wires by a camera without noise, 16 frames."""
     folder = tmp_path_factory.mktemp("scan") / "cube"
     subprocess.run(
         [program, "simulate", "cubeframe", "-o", folder, "--sensor", "ideal", "--quiet"]
-        + ["--frames", "24"],
+        + ["--frames", "16"],
         check=True,
     )
     return folder

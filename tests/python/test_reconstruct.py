@@ -2,6 +2,7 @@ import ast
 import json
 import os
 import pathlib
+import re
 import runpy
 import signal
 import subprocess
@@ -51,7 +52,7 @@ def test_what_a_result_holds(run, scan):
     # The wires of the cube are 5 mm thick; a few frames give them to some percent.
     assert np.nanmedian(result.radii) == pytest.approx(0.0025, rel=0.2)
     assert result.global_radius == pytest.approx(0.0025, rel=0.2)
-    assert result.poses.shape == (24, 4, 4)
+    assert result.poses.shape == (16, 4, 4)
     assert result.points.shape[1] == 3 and len(result.points) == result.report["points"]
     assert isinstance(result.uncertain, cf.SkeletonGraph)
     assert all(isinstance(warning, str) for warning in result.warnings)
@@ -198,6 +199,17 @@ def test_the_example_runs(scan, tmp_path, monkeypatch, capsys):
     runpy.run_path(str(example), run_name="__main__")
     assert cf.Mesh.load(tmp_path / "wires.ply").watertight
     assert "watertight" in capsys.readouterr().out
+
+
+def test_the_programs_of_the_documents_run(scan, tmp_path, monkeypatch):
+    text = (pathlib.Path(os.environ["CURVEFUSION_SOURCE_DIR"]) / "docs" / "python.md").read_text()
+    programs = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
+    assert len(programs) == 2
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "scan").symlink_to(scan)
+    for program in programs:
+        exec(program, {})
+    assert cf.Mesh.load("cross.stl").watertight
 
 
 def test_the_stub_names_what_the_module_has():
