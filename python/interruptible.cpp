@@ -72,23 +72,30 @@ void CallBack(const py::object& callback, const Step& step) {
   callback(step.stage, step.done, step.total);
 }
 
-// Handles signals and steps until the work ends. Returns what Python raised meanwhile.
-std::optional<py::error_already_set> Attend(Exchange& exchange, const py::object& callback) {
+// What Python raised while the work went on.
+struct Raised {
+  std::optional<py::error_already_set> error;
+  bool by_signal = false;
+};
+
+// Handles signals and steps until the work ends.
+Raised Attend(Exchange& exchange, const py::object& callback) {
   const py::gil_scoped_release released;
-  std::optional<py::error_already_set> raised;
+  Raised raised;
   std::optional<Step> step;
   while (exchange.IsAtWork(step)) {
     const py::gil_scoped_acquire acquired;
     try {
       if (PyErr_CheckSignals() != 0) {
         RequestCancellation();
+        raised.by_signal = true;
         throw py::error_already_set();
       }
-      if (step && !raised) CallBack(callback, *step);
+      if (step && !raised.error) CallBack(callback, *step);
     } catch (py::error_already_set& error) {
-      if (!raised) raised.emplace(error);
+      if (!raised.error) raised.error.emplace(error);
     }
-    if (step) exchange.Answer(raised.has_value());
+    if (step) exchange.Answer(raised.error.has_value());
   }
   return raised;
 }
@@ -117,12 +124,10 @@ void RunInterruptibly(const py::object& callback,
     }
     exchange.Finish();
   });
-  const std::optional<py::error_already_set> raised = Attend(exchange, callback);
+  const Raised raised = Attend(exchange, callback);
   worker.join();
-  if (raised) {
-    ResetCancellation();
-    throw py::error_already_set(*raised);
-  }
+  if (raised.by_signal) ResetCancellation();
+  if (raised.error) throw py::error_already_set(*raised.error);
   if (failure) std::rethrow_exception(failure);
 }
 

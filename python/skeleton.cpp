@@ -70,6 +70,7 @@ Graph MakeGraph(const Numbers& nodes, const std::vector<Edge>& edges) {
     for (const Vec3& position : Points(nodes, "nodes")) graph->AddNode(position);
   }
   for (size_t i = 0; i < edges.size(); ++i) {
+    if (!edges[i]) throw py::type_error(fmt::format("edges[{}]: is None and no Edge", i));
     RequireSound(*edges[i], i, *graph);
     graph->AddEdge(*edges[i]);
   }

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fstream>
+#include <regex>
 #include <string>
 
 #include "apps/command_line.h"
@@ -50,10 +51,8 @@ TEST_F(ShellFiles, ThePageHasEveryCommandAndOption) {
   for (const CLI::App* command : app_.get_subcommands({})) {
     EXPECT_THAT(page, HasSubstr(".SS curvefusion " + command->get_name() + "\n"));
     for (const CLI::Option* option : command->get_options()) {
-      for (std::string name : option->get_lnames()) {
-        for (size_t i = name.find('-'); i != std::string::npos; i = name.find('-', i + 2)) {
-          name.insert(i, "\\");
-        }
+      for (const std::string& plain : option->get_lnames()) {
+        const std::string name = std::regex_replace(plain, std::regex("-"), "\\-");
         EXPECT_THAT(page, HasSubstr("\\fB\\-\\-" + name + "\\fR"));
         ++options;
       }

@@ -172,22 +172,22 @@ def progress(*step):
 try:
     cf.reconstruct(sys.argv[1], progress=progress)
 except KeyboardInterrupt:
-    print("interrupted", flush=True)
+    print("interrupted", len(calls), flush=True)
 graph = cf.SkeletonGraph([[0, 0, 0], [0, 0, 1]], [cf.Edge((0, 1), [[0, 0, 0], [0, 0, 1]])])
 print(len(graph.smooth().edges))  # later calls are not interrupted
 """
 
 
-def test_control_c_ends_a_run_soon(scan):
+def test_control_c_ends_a_run_soon(run, scan):
     process = subprocess.Popen(
         [sys.executable, "-c", INTERRUPTED, scan], stdout=subprocess.PIPE, text=True
     )
     assert process.stdout.readline() == "running\n"
-    start = time.monotonic()
     process.send_signal(signal.SIGINT)
-    assert process.stdout.readline() == "interrupted\n"
-    # A person waits so long; a loaded machine may take some of it.
-    assert time.monotonic() - start < 3
+    word, calls = process.stdout.readline().split()
+    assert word == "interrupted"
+    _, steps = run
+    assert int(calls) < len(steps) / 2  # by steps, as a machine may be slow
     assert process.communicate()[0] == "1\n"
     assert process.returncode == 0
 

@@ -103,6 +103,8 @@ def test_shapes_that_cannot_be():
         cf.SkeletonGraph(np.zeros(3), [])
     with pytest.raises(cf.BadInputError):
         cf.SkeletonGraph([[np.inf, 0, 0]], [])
+    with pytest.raises(TypeError, match="edges"):
+        cf.SkeletonGraph([ORIGIN, TIP], [None])
     with pytest.raises(cf.UsageError, match="proximity"):
         cf.SkeletonGraph([], []).validate(-1)
 
