@@ -54,13 +54,9 @@ std::vector<Argument> ArgumentsOf(const CLI::App& command, bool by_position) {
   return arguments;
 }
 
-std::vector<const CLI::App*> CommandsOf(CLI::App& app) {
-  std::vector<const CLI::App*> commands;
-  for (const CLI::App* command : app.get_subcommands({})) commands.push_back(command);
-  return commands;
-}
+std::vector<const CLI::App*> CommandsOf(const CLI::App& app) { return app.get_subcommands({}); }
 
-std::vector<std::string> NamesOf(CLI::App& app) {
+std::vector<std::string> NamesOf(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::App* command : CommandsOf(app)) names.push_back(command->get_name());
   names.emplace_back("help");
@@ -179,7 +175,7 @@ std::string FishLines(const CLI::App& command) {
 
 }  // namespace
 
-std::string ManualPage(CLI::App& app) {
+std::string ManualPage(const CLI::App& app) {
   std::string text = fmt::format(
       ".TH CURVEFUSION 1 \"\" \"\" \"User Commands\"\n.ad l\n.SH NAME\ncurvefusion \\- {}\n"
       ".SH SYNOPSIS\n\\fBcurvefusion\\fR \\fICOMMAND\\fR [\\fIOPTIONS\\fR] ...\n.SH COMMANDS\n",
@@ -188,7 +184,7 @@ std::string ManualPage(CLI::App& app) {
   return text + fmt::format(".SH NOTES\n{}\n", Roff(app.get_footer()));
 }
 
-std::string BashCompletion(CLI::App& app) {
+std::string BashCompletion(const CLI::App& app) {
   std::string text = fmt::format(
       "_curvefusion() {{\n"
       "  local current=${{COMP_WORDS[COMP_CWORD]}} previous=${{COMP_WORDS[COMP_CWORD-1]}} words=\n"
@@ -206,7 +202,7 @@ std::string BashCompletion(CLI::App& app) {
          "complete -o default -F _curvefusion curvefusion\n";
 }
 
-std::string ZshCompletion(CLI::App& app) {
+std::string ZshCompletion(const CLI::App& app) {
   std::string text =
       "#compdef curvefusion\n"
       "_curvefusion() {\n"
@@ -229,7 +225,7 @@ std::string ZshCompletion(CLI::App& app) {
   return text + "  esac\n}\n_curvefusion \"$@\"\n";
 }
 
-std::string FishCompletion(CLI::App& app) {
+std::string FishCompletion(const CLI::App& app) {
   std::string text;
   for (const CLI::App* command : CommandsOf(app)) {
     text += fmt::format("complete -c curvefusion -f -n __fish_use_subcommand -a {} -d {}\n",

@@ -41,7 +41,7 @@ class ShellFiles : public CommandLine {
                .exit_code == 0;
   }
 
-  mutable CLI::App app_;
+  CLI::App app_;
   int exit_code_ = 0;
 };
 
