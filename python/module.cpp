@@ -1,9 +1,9 @@
 // The exceptions of the module, what its parts share, and the module itself.
 #include <fmt/format.h>
 
-#include <cmath>
 #include <exception>
 #include <system_error>
+#include <utility>
 
 #include "kernel/error.h"
 #include "python/bindings.h"
@@ -52,7 +52,7 @@ void Raise(PyObject* type, const std::string& message) {
 // Lacks of memory become Python's MemoryError without this.
 void Translate(std::exception_ptr failure) {
   try {
-    std::rethrow_exception(failure);
+    std::rethrow_exception(std::move(failure));
   } catch (const Error& error) {
     Raise(ErrorClass(error.kind()), error.what());
   } catch (const std::system_error& error) {

@@ -3,7 +3,10 @@
 
 #include <pybind11/stl/filesystem.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <filesystem>
+#include <iterator>
 
 #include "capture/check.h"
 #include "capture/check_json.h"
@@ -48,11 +51,11 @@ int FrameIndex(const Sequence& sequence, int frame) {
 }
 
 // An array that owns the pixels of an image.
-template <class Pixel, class Channel>
+template <class Pixel, class Channel, int kChannels>
 py::array TakeImage(Image<Pixel> image) {
   auto* pixels = new Image<Pixel>(std::move(image));
   const py::capsule owner(pixels, [](void* p) { delete static_cast<Image<Pixel>*>(p); });
-  constexpr py::ssize_t kChannels = sizeof(Pixel) / sizeof(Channel);
+  static_assert(sizeof(Pixel) == kChannels * sizeof(Channel));
   std::vector<py::ssize_t> shape = {pixels->height(), pixels->width()};
   if (kChannels > 1) shape.push_back(kChannels);
   return py::array_t<Channel>(shape, reinterpret_cast<const Channel*>(pixels->data()), owner);
@@ -65,7 +68,7 @@ py::array Depth(const Sequence& sequence, int frame) {
     const py::gil_scoped_release released;
     image = LoadDepth(sequence, index);
   }
-  return TakeImage<float, float>(std::move(image));
+  return TakeImage<float, float, 1>(std::move(image));
 }
 
 py::array Color(const Sequence& sequence, int frame) {
@@ -75,7 +78,7 @@ py::array Color(const Sequence& sequence, int frame) {
     const py::gil_scoped_release released;
     image = LoadColor(sequence, index);
   }
-  return TakeImage<Rgb, uint8_t>(std::move(image));
+  return TakeImage<Rgb, uint8_t, 3>(std::move(image));
 }
 
 Sequence Open(const std::filesystem::path& folder) {
