@@ -241,15 +241,44 @@ Profile FileProfile(const Source& source) {
   return ProfileNamed(*node->value<std::string>());
 }
 
+// TOML tells numbers with a fraction from whole ones.
+std::string TomlNumber(double value) {
+  const std::string number = Number(value);
+  return number.find_first_of(".en") == std::string::npos ? number + ".0" : number;
+}
+
+// All options with their values, in the order they are visited.
+class ValueCollector : public OptionVisitor {
+ public:
+  void BeginSection(const char* name) override { section_ = name; }
+  void Visit(const OptionInfo& info, double& value) override { Add(info, TomlNumber(value)); }
+  void Visit(const OptionInfo& info, int& value) override { Add(info, std::to_string(value)); }
+  void Visit(const OptionInfo& info, bool& value) override { Add(info, value ? "true" : "false"); }
+  const std::vector<OptionValue>& values() const { return values_; }
+
+ private:
+  void Add(const OptionInfo& info, const std::string& value) {
+    values_.push_back(
+        {fmt::format("{}.{}", section_, info.name), value, info.unit, info.description, ""});
+  }
+
+  std::string section_;
+  std::vector<OptionValue> values_;
+};
+
+std::vector<OptionValue> OptionValues(Config config) {
+  ValueCollector collector;
+  VisitOptions(config, collector);
+  return collector.values();
+}
+
 // Prints the visited options as TOML tables.
 class TomlWriter : public OptionVisitor {
  public:
   void BeginSection(const char* name) override { text_ += fmt::format("\n[{}]\n", name); }
 
   void Visit(const OptionInfo& info, double& value) override {
-    std::string number = Number(value);
-    if (number.find_first_of(".en") == std::string::npos) number += ".0";
-    Write(info, number, Range(info));
+    Write(info, TomlNumber(value), Range(info));
   }
   void Visit(const OptionInfo& info, int& value) override {
     Write(info, std::to_string(value), Range(info));
@@ -273,6 +302,17 @@ class TomlWriter : public OptionVisitor {
 void VisitOptions(Config& config, OptionVisitor& visitor) {
   VisitOptions(config.pipeline, visitor);
   VisitOptions(config.tubes, visitor);
+}
+
+std::vector<OptionValue> ChangedOptions(const Config& config) {
+  const std::vector<OptionValue> initial = OptionValues(ProfileConfig(config.profile));
+  std::vector<OptionValue> changed;
+  size_t i = 0;
+  for (OptionValue& option : OptionValues(config)) {
+    option.initial = initial[i++].value;
+    if (option.value != option.initial) changed.push_back(option);
+  }
+  return changed;
 }
 
 Config ProfileConfig(Profile profile) { return {profile, ProfileOptions(profile), {}}; }

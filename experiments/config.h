@@ -18,6 +18,18 @@ struct Config {
 };
 void VisitOptions(Config& config, OptionVisitor& visitor);
 
+/// An option and what it is set to.
+struct OptionValue {
+  std::string name;         ///< with its section: "volume.voxel_size"
+  std::string value;        ///< as the config file writes it
+  std::string unit;         ///< empty for pure numbers
+  std::string description;  ///< one sentence
+  std::string initial;      ///< what its profile starts from
+};
+
+/// The options that are not as their profile starts from, in their order.
+std::vector<OptionValue> ChangedOptions(const Config& config);
+
 /// What a profile starts from.
 Config ProfileConfig(Profile profile);
 

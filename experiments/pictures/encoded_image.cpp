@@ -8,25 +8,21 @@
 
 namespace curvefusion {
 
-namespace {
-
 // OpenCV tells by its return value or by an exception of any kind that memory has run out.
-std::vector<unsigned char> Encoded(const std::filesystem::path& path, const cv::Mat& image,
-                                   const std::vector<int>& parameters) {
+std::vector<unsigned char> EncodeImage(const std::filesystem::path& name, const cv::Mat& image,
+                                       const std::vector<int>& parameters) {
   std::vector<unsigned char> bytes;
   try {
-    if (cv::imencode(path.extension().string(), image, bytes, parameters)) return bytes;
+    if (cv::imencode(name.extension().string(), image, bytes, parameters)) return bytes;
   } catch (const cv::Exception&) {
   }
   throw Error(ErrorKind::kResource,
-              path.string() + ": cannot be encoded; is there memory for its image?");
+              name.string() + ": cannot be encoded; is there memory for its image?");
 }
-
-}  // namespace
 
 void WriteEncoded(const std::filesystem::path& path, const cv::Mat& image,
                   const std::vector<int>& parameters) {
-  const std::vector<unsigned char> bytes = Encoded(path, image, parameters);
+  const std::vector<unsigned char> bytes = EncodeImage(path, image, parameters);
   WriteStreamAtomically(path, [&](std::ostream& stream) {
     stream.write(reinterpret_cast<const char*>(bytes.data()),
                  static_cast<std::streamsize>(bytes.size()));
