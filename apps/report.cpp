@@ -48,7 +48,7 @@ std::string FiguresLine(const GraphFigures& figures) {
 }
 
 std::string Summary(const RunRecord& record, const std::filesystem::path& folder,
-                    const std::filesystem::path& report) {
+                    const std::filesystem::path& page, const std::filesystem::path& report) {
   const SkeletonGraph& skeleton = record.reconstruction.skeleton;
   std::string text = skeleton.empty()
                          ? NothingThinText(record.reconstruction.funnel)
@@ -58,6 +58,7 @@ std::string Summary(const RunRecord& record, const std::filesystem::path& folder
   const auto add_file = [&](const char* what, const std::filesystem::path& file) {
     text += fmt::format("  {:<9} {}\n", what, file.string());
   };
+  add_file("page", page);
   if (!skeleton.empty()) {
     add_file("picture", folder / "preview.png");
     add_file("mesh", folder / "mesh.ply");

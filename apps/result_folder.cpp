@@ -23,8 +23,10 @@ namespace {
 constexpr const char* kLock = "curvefusion.lock";
 constexpr const char* kReport = "report.json";
 constexpr const char* kConfig = "config.toml";
+constexpr const char* kPage = "report.html";
 constexpr const char* kNothingReport = "report_nothing_found.json";
 constexpr const char* kNothingConfig = "config_nothing_found.toml";
+constexpr const char* kNothingPage = "report_nothing_found.html";
 
 bool IsReport(const fs::path& path) {
   std::error_code ignored;
@@ -77,8 +79,8 @@ void RequireNoneReplaced(const fs::path& folder) {
 
 const std::vector<std::string>& ResultNames() {
   static const std::vector<std::string> names = {
-      "skeleton.json", "uncertain.json", "trajectory.txt", "mesh.ply", "preview.png",
-      kConfig,         kNothingReport,   kNothingConfig,   kReport};
+      "skeleton.json", "uncertain.json", "trajectory.txt", "mesh.ply",     "preview.png", kPage,
+      kConfig,         kNothingReport,   kNothingPage,     kNothingConfig, kReport};
   return names;
 }
 
@@ -100,8 +102,10 @@ void ResultFolder::Replace(const Writer& write) const {
 
 bool ResultFolder::HoldsSkeleton() const { return fs::exists(folder_ / "skeleton.json"); }
 
-fs::path ResultFolder::NothingFoundReport() const {
-  return folder_ / (HoldsSkeleton() ? kNothingReport : kReport);
+std::string ResultFolder::NothingFoundName(const std::string& name) const {
+  if (!HoldsSkeleton()) return name;
+  const fs::path path = name;
+  return path.stem().string() + "_nothing_found" + path.extension().string();
 }
 
 void ResultFolder::AddNothingFound(const Writer& write) const {
@@ -109,10 +113,12 @@ void ResultFolder::AddNothingFound(const Writer& write) const {
     Replace(write);
     return;
   }
-  WriteFilesTogether(folder_, {kNothingConfig, kNothingReport}, [&](const fs::path& temporary) {
+  const std::vector<std::string> names = {kNothingPage, kNothingConfig, kNothingReport};
+  WriteFilesTogether(folder_, names, [&](const fs::path& temporary) {
     write(temporary);
-    fs::rename(temporary / kConfig, temporary / kNothingConfig);
-    fs::rename(temporary / kReport, temporary / kNothingReport);
+    for (const char* name : {kPage, kConfig, kReport}) {
+      fs::rename(temporary / name, temporary / NothingFoundName(name));
+    }
   });
 }
 

@@ -32,11 +32,12 @@ class ResultFolder {
   /// Replaces the files of an earlier run by what `write` makes in a temporary folder.
   void Replace(const Writer& write) const;
 
-  /// Where the report of a run that found nothing goes: an earlier result stays whole.
-  std::filesystem::path NothingFoundReport() const;
+  /// The name that report.json, report.html or config.toml of a run that found nothing gets: an
+  /// earlier result stays whole.
+  std::string NothingFoundName(const std::string& name) const;
 
-  /// Adds that report and the settings, both made by `write` as report.json and config.toml, and
-  /// what else it makes where there is no earlier result.
+  /// Adds these three, all made by `write`, and what else it makes where there is no earlier
+  /// result.
   void AddNothingFound(const Writer& write) const;
 
  private:

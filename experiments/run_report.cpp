@@ -212,10 +212,10 @@ std::vector<std::string> AllWarnings(const RunRecord& record) {
   return warnings;
 }
 
-std::string ReportJson(const RunRecord& record) {
+Json ReportData(const RunRecord& record) {
   const Reconstruction& reconstruction = record.reconstruction;
   const int frames = record.sequence.frame_count();
-  const Json report = {
+  return {
       {"format", "curvefusion-report"},
       {"version", 1},
       {"profile", ProfileName(record.config.profile)},
@@ -233,8 +233,11 @@ std::string ReportJson(const RunRecord& record) {
       {"skeleton", SkeletonJson(reconstruction)},
       {"mesh", record.mesh ? MeshJson(*record.mesh) : Json(nullptr)},
       {"warnings", AllWarnings(record)}};
+}
+
+std::string ReportJson(const RunRecord& record) {
   // Names of files need not be UTF-8.
-  return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return ReportData(record).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace curvefusion

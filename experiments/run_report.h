@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,8 +33,11 @@ struct RunRecord {
   std::optional<TrackingResult> tracking;  ///< where the poses come from it
 };
 
-/// The text of report.json: profile, sequence, frames, stages with seconds and counts, warnings,
+/// What report.json holds: profile, sequence, frames, stages with seconds and counts, warnings,
 /// figures of the skeleton and the mesh. Lengths in metres, diameters in millimetres.
+nlohmann::ordered_json ReportData(const RunRecord& record);
+
+/// The text of report.json.
 std::string ReportJson(const RunRecord& record);
 
 /// All warnings of a run, each once.

@@ -13,6 +13,7 @@
 #include "apps/output_guard.h"
 #include "apps/preview.h"
 #include "apps/report.h"
+#include "apps/report_page.h"
 #include "apps/result_folder.h"
 #include "apps/run_observer.h"
 #include "capture/content/colour_findings.h"
@@ -59,15 +60,17 @@ void WriteUncertain(const Reconstruction& reconstruction, const fs::path& folder
   WriteSkeleton(folder / "uncertain.json", reconstruction.uncertain.graph);
 }
 
-void WriteSkeletonAndPicture(const RunRecord& record, const fs::path& folder) {
+// Returns the picture.
+ColorImage WriteSkeletonAndPicture(const RunRecord& record, const fs::path& folder) {
   const Reconstruction& reconstruction = record.reconstruction;
   WriteSkeleton(folder / "skeleton.json", reconstruction.skeleton);
   WriteUncertain(reconstruction, folder);
   WriteTumTrajectory(folder / "trajectory.txt", PosesOf(reconstruction.sequence));
-  WritePng(
-      folder / "preview.png",
+  ColorImage preview =
       DrawPreview(reconstruction.skeleton, reconstruction.uncertain.graph, reconstruction.points,
-                  reconstruction.sequence, FiguresLine(MeasureGraph(reconstruction.skeleton))));
+                  reconstruction.sequence, FiguresLine(MeasureGraph(reconstruction.skeleton)));
+  WritePng(folder / "preview.png", preview);
+  return preview;
 }
 
 MeshRecord WriteTubes(const RunRecord& record, const fs::path& folder) {
@@ -78,11 +81,29 @@ MeshRecord WriteTubes(const RunRecord& record, const fs::path& folder) {
           TubeWarnings(record.reconstruction.skeleton, tubes, record.config.tubes)};
 }
 
-// The report tells of all that came before it.
-void WriteReport(RunRecord& record, Clock::time_point start, const fs::path& folder) {
+// The page tells what else will be there, by the names that it will have.
+std::vector<std::string> FilesBesideThePage(const ResultFolder& output, const fs::path& folder) {
+  const bool found = fs::exists(folder / "skeleton.json");
+  const std::string nothing_report = output.NothingFoundName("report.json");
+  if (!found && nothing_report != "report.json") {
+    return {nothing_report, output.NothingFoundName("config.toml")};
+  }
+  std::vector<std::string> files;
+  for (const std::string& name : ResultNames()) {
+    if (fs::exists(folder / name) || name == "report.json") files.push_back(name);
+  }
+  return files;
+}
+
+// The report and its page tell of all that came before them.
+void WriteReport(RunRecord& record, const ColorImage& preview, Clock::time_point start,
+                 const ResultFolder& output, const fs::path& folder) {
   WriteText(folder / "config.toml", ConfigToml(record.config));
+  const PagePictures pictures = MakePagePictures(record.reconstruction, preview);
   record.seconds = SecondsSince(start);
   record.peak_memory = PeakMemory();
+  WriteText(folder / "report.html",
+            ReportPage(record, pictures, FilesBesideThePage(output, folder)));
   WriteText(folder / "report.json", ReportJson(record));
 }
 
@@ -90,14 +111,14 @@ void WriteReport(RunRecord& record, Clock::time_point start, const fs::path& fol
 void WriteResult(RunRecord& record, Clock::time_point start, const ResultFolder& output) {
   std::optional<Error> failure;
   output.Replace([&](const fs::path& folder) {
-    WriteSkeletonAndPicture(record, folder);
+    const ColorImage preview = WriteSkeletonAndPicture(record, folder);
     try {
       record.mesh = WriteTubes(record, folder);
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::kBadInput) throw;
       failure = WithPathReplaced(error, folder, output.path());
     }
-    WriteReport(record, start, folder);
+    WriteReport(record, preview, start, output, folder);
   });
   if (!failure) return;
   throw Error(failure->kind(), fmt::format("{}; {} is complete", failure->what(),
@@ -114,7 +135,7 @@ void RequireInputStays(const ReconstructArguments& arguments) {
 }
 
 void RequireRoom(const ReconstructArguments& arguments, const Sequence& sequence) {
-  // Chosen: ten times what a wire cube takes, whose result has 1.5 MB, volume 1 MB.
+  // Chosen: five times what a wire cube takes, whose result has 3 MB, volume 1 MB.
   constexpr std::uintmax_t kFiles = 16u << 20;
   // Measured (25 frames of that cube, --save-stages): 57 kB a frame; the double for larger objects.
   constexpr std::uintmax_t kStagesOfFrame = 114000;
@@ -146,17 +167,21 @@ int RunReconstruct(const ReconstructArguments& arguments) {
 
   RunRecord record{sequence, config, reconstruction, {}, 0, 0, fitted, tracking};
   const bool found = !reconstruction.skeleton.empty();
-  const fs::path report = found ? output.path() / "report.json" : output.NothingFoundReport();
+  const auto final_path = [&](const char* name) {
+    return output.path() / (found ? name : output.NothingFoundName(name));
+  };
+  const fs::path page = final_path("report.html");
+  const fs::path report = final_path("report.json");
   if (found) {
     WriteResult(record, start, output);
   } else {
     output.AddNothingFound([&](const fs::path& folder) {
       WriteUncertain(reconstruction, folder);
-      WriteReport(record, start, folder);
+      WriteReport(record, {}, start, output, folder);
     });
   }
   printer.Finish();
-  if (!arguments.run.quiet) fmt::print("{}", Summary(record, output.path(), report));
+  if (!arguments.run.quiet) fmt::print("{}", Summary(record, output.path(), page, report));
   return found ? 0 : kNothingThin;
 }
 
@@ -169,8 +194,8 @@ void AddReconstructCommand(CLI::App& app, int& exit_code) {
   command->add_option("SEQUENCE", arguments->sequence, "Folder of the sequence")->required();
   command
       ->add_option("-o,--output", arguments->output,
-                   "Folder for skeleton.json, trajectory.txt, mesh.ply, preview.png, report.json, "
-                   "config.toml")
+                   "Folder for skeleton.json, trajectory.txt, mesh.ply, preview.png, report.html, "
+                   "report.json, config.toml")
       ->required();
   command->add_flag("--force", arguments->force,
                     "Take an output folder that holds other things; they stay as they are");

@@ -172,6 +172,7 @@ TEST_F(CommandLine, NothingThinIsFourWithAReport) {
   EXPECT_EQ(outcome.exit_code, 4);
   EXPECT_THAT(outcome.output, HasSubstr("nothing thin"));
   EXPECT_TRUE(fs::exists(folder_ / "out/report.json"));
+  EXPECT_THAT(Text("out/report.html"), HasSubstr(R"("nothing_found":")"));
   EXPECT_TRUE(fs::exists(folder_ / "out/config.toml"));
   EXPECT_EQ(CountFiles("out", "skeleton"), 0);
 }
@@ -182,10 +183,10 @@ TEST_F(CommandLine, ACubeGivesAllFilesAndItsThirteenJunctions) {
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_THAT(outcome.output, HasSubstr("13 junctions, 1 free end"));
   for (const char* name : {"skeleton.json", "trajectory.txt", "mesh.ply", "preview.png",
-                           "report.json", "config.toml"}) {
+                           "report.html", "report.json", "config.toml"}) {
     EXPECT_EQ(CountFiles("out", name), 1) << name;
   }
-  EXPECT_EQ(CountFiles("out", ""), 6);  // and nothing half-written beside them
+  EXPECT_EQ(CountFiles("out", ""), 7);  // and nothing half-written beside them
 }
 
 TEST_F(CommandLine, AFolderThatCannotBeWrittenIsFive) {

@@ -135,9 +135,10 @@ TEST(Report, TellsHowFarAResultMayBeTrusted) {
 
 TEST(Summary, NamesFindingsFilesAndWarnings) {
   YRun run;
-  const std::string summary = Summary(run.Record(), "out", "out/report.json");
+  const std::string summary = Summary(run.Record(), "out", "out/report.html", "out/report.json");
   EXPECT_THAT(summary, HasSubstr("3 curves, 0.30 m, diameter 4.0 to 6.0 mm, 1 junction, 3 free"));
-  for (const char* file : {"out/skeleton.json", "out/mesh.ply", "out/preview.png"}) {
+  for (const char* file :
+       {"out/skeleton.json", "out/mesh.ply", "out/preview.png", "out/report.html"}) {
     EXPECT_THAT(summary, HasSubstr(file));
   }
   EXPECT_THAT(summary, HasSubstr("warning: Two frames have no pose."));
@@ -147,7 +148,7 @@ TEST(Summary, NamesFindingsFilesAndWarnings) {
 TEST(Summary, TellsEveryWarningOnce) {
   YRun run;
   run.reconstruction.warnings.insert(run.reconstruction.warnings.begin(), run.sequence.warnings[0]);
-  const std::string summary = Summary(run.Record(), "out", "out/report.json");
+  const std::string summary = Summary(run.Record(), "out", "out/report.html", "out/report.json");
   const size_t first = summary.find("Two frames have no pose.");
   ASSERT_NE(first, std::string::npos);
   EXPECT_EQ(summary.find("Two frames have no pose.", first + 1), std::string::npos);
@@ -157,7 +158,7 @@ TEST(Summary, TellsEveryWarningOnce) {
 TEST(Summary, OfNothingNamesNoFilesThatAreNotThere) {
   YRun run;
   run.reconstruction.skeleton = SkeletonGraph();
-  const std::string summary = Summary(run.Record(), "out", "out/report.json");
+  const std::string summary = Summary(run.Record(), "out", "out/report.html", "out/report.json");
   EXPECT_THAT(summary, HasSubstr("nothing thin"));
   EXPECT_THAT(summary, Not(HasSubstr("mesh.ply")));
 }

@@ -69,7 +69,7 @@ TEST_F(Resources, WhatAKilledRunHasLeftIsCleaned) {
   ASSERT_EQ(::waitpid(child, nullptr, 0), child);
   ASSERT_EQ(CountFiles("out", ""), 2);
   EXPECT_EQ(Run(std::string("reconstruct scan -o out") + kNothing).exit_code, 4);
-  EXPECT_EQ(CountFiles("out", ""), 2);  // report.json and config.toml
+  EXPECT_EQ(CountFiles("out", ""), 3);  // report.json, report.html and config.toml
   EXPECT_EQ(CountFiles("out", "report.json"), 1);
 }
 

@@ -97,6 +97,21 @@ std::string LastingPart(const std::string& report) {
   return json.dump();
 }
 
+// The same of the page, whose data hold the report.
+std::string LastingPartOfPage(const std::string& page) {
+  const std::string begin = R"(<script type="application/json" id="data">)";
+  const size_t first = page.find(begin);
+  const size_t last = page.find("</script>", first);
+  if (first == std::string::npos || last == std::string::npos || !page.ends_with("</html>\n")) {
+    return page;
+  }
+  const size_t data = first + begin.size();
+  auto json = nlohmann::ordered_json::parse(page.substr(data, last - data), nullptr, false);
+  if (json.is_discarded()) return page;
+  json["report"] = LastingPart(json["report"].dump());
+  return page.substr(0, first) + json.dump() + page.substr(last);
+}
+
 // lib3MF makes new identifiers in every run: of an archive that is whole this is all to compare.
 std::string WholeArchive(const std::string& bytes) {
   constexpr size_t kEnd = 22;  // bytes of a ZIP archive's last record (PKWARE, APPNOTE.TXT 4.3.16)
@@ -109,6 +124,7 @@ std::string WholeArchive(const std::string& bytes) {
 std::string Comparable(const fs::path& path) {
   const std::string bytes = Text(path);
   if (path.filename() == "report.json") return LastingPart(bytes);
+  if (path.filename() == "report.html") return LastingPartOfPage(bytes);
   if (path.extension() == ".3mf") return WholeArchive(bytes);
   return bytes;
 }

@@ -45,13 +45,18 @@ std::string CloudText(double size) {
   return text;
 }
 
-// Is `found` the result without the tubes, which could not be made, told by the report?
+// Is `found` the result without the tubes, which could not be made, told by the report and its
+// page?
 bool IsResultWithoutTubes(const Files& found, const Files& result) {
-  if (!result.contains("out/mesh.ply") || !found.contains("out/report.json")) return false;
+  if (!result.contains("out/mesh.ply") || !found.contains("out/report.json") ||
+      !found.contains("out/report.html")) {
+    return false;
+  }
   Files rest = result;
   rest.erase("out/mesh.ply");
-  rest["out/report.json"] = found.at("out/report.json");
-  return found == rest && rest["out/report.json"].ends_with("}");
+  for (const char* name : {"out/report.json", "out/report.html"}) rest[name] = found.at(name);
+  return found == rest && rest["out/report.json"].ends_with("}") &&
+         rest["out/report.html"].ends_with("</html>\n");
 }
 
 bool IsTemporary(const std::string& name) {
