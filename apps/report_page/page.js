@@ -4,6 +4,7 @@
 const ReportPage = (() => {
   const SELECTED_LINE = "rgb(226, 0, 122)";
   const OVERLAY_LINE = "rgba(0, 140, 220, 0.75)";
+  const MOST_ROWS = 1000; // of the table of curves
   const NEAREST = 50; // mm before a camera, below which nothing is drawn
 
   const byId = (id) => document.getElementById(id);
@@ -357,13 +358,12 @@ const ReportPage = (() => {
     page.chosen = index;
     describe(index);
     if (page.viewer) page.viewer.select(index);
-    drawOverlays();
-    const rows = page.rows;
-    rows.forEach((row, i) => row.classList.toggle("chosen", i === index));
-    if (rows[index]) {
-      const box = rows[index].closest(".scroll");
-      const top = rows[index].offsetTop - box.clientHeight / 2;
-      box.scrollTop = Math.max(0, top);
+    page.images.forEach(markInImage);
+    page.rows.forEach((row, i) => row.classList.toggle("chosen", i === index));
+    const row = page.rows.get(index);
+    if (row) {
+      const box = row.closest(".scroll");
+      box.scrollTop = Math.max(0, row.offsetTop - box.clientHeight / 2);
     }
   }
 
@@ -384,15 +384,27 @@ const ReportPage = (() => {
     ["Diameter measured at", (edge) => edge.strips, (edge) => counted(edge.strips, "place")],
   ];
 
+  function rowOf(edge, index) {
+    return element("tr", {}, ...CURVE_COLUMNS.map(([, , text], column) => {
+      if (column > 0) return element("td", { class: "number" }, text(edge, index));
+      return element("td", {}, element("button", {
+        type: "button", "aria-label": `Choose curve ${index + 1}`, onclick: () => select(index),
+      }, text(edge, index)));
+    }));
+  }
+
   function showCurves(data) {
     const edges = data.report.skeleton.per_edge;
     byId("curves-section").hidden = edges.length === 0;
-    page.rows = edges.map((edge, i) => element("tr", {}, ...CURVE_COLUMNS.map(([, , text], column) =>
-      column === 0
-        ? element("td", {}, element("button", {
-          type: "button", "aria-label": `Choose curve ${i + 1}`, onclick: () => select(i) }, text(edge, i)))
-        : element("td", { class: "number" }, text(edge, i)))));
-    const body = element("tbody", {}, ...page.rows);
+    const listed = edges.map((_, i) => i);
+    if (listed.length > MOST_ROWS) {
+      listed.sort((a, b) => edges[b].length - edges[a].length).length = MOST_ROWS;
+      listed.sort((a, b) => a - b);
+    }
+    byId("curves-left-out").textContent = listed.length === edges.length ? ""
+      : `These are the ${grouped(MOST_ROWS)} longest of ${grouped(edges.length)}; report.json lists all.`;
+    page.rows = new Map(listed.map((i) => [i, rowOf(edges[i], i)]));
+    const body = element("tbody", {}, ...page.rows.values());
     let sorted = { column: 0, descending: false };
     const heads = CURVE_COLUMNS.map(([title], column) => element("th", {
       scope: "col", class: column ? "number" : "" },
@@ -403,9 +415,9 @@ const ReportPage = (() => {
         const value = CURVE_COLUMNS[column][1](edges[i], i);
         return isNumber(value) ? value : -1;
       };
-      const order = edges.map((_, i) => i).sort((a, b) =>
+      const order = [...listed].sort((a, b) =>
         (sorted.descending ? key(b) - key(a) : key(a) - key(b)) || a - b);
-      body.replaceChildren(...order.map((i) => page.rows[i]));
+      body.replaceChildren(...order.map((i) => page.rows.get(i)));
       markSorted();
     }
     function markSorted() {
@@ -424,35 +436,53 @@ const ReportPage = (() => {
     return { u: (frame.fx * u) / w + frame.cx, v: (frame.fy * v) / w + frame.cy, depth: w };
   }
 
+  // As thick as the wire; a line begins anew where the thickness has changed by a sixth.
   function drawCurve(context, frame, edge, colour, extra) {
     let before = null;
+    let width = 0;
     context.strokeStyle = colour;
+    context.beginPath();
     for (let i = 0; i < edge.points.length; i += 3) {
       const at = pixelIn(frame, edge.points[i], edge.points[i + 1], edge.points[i + 2]);
       if (before && at) {
         const radius = edge.radii[i / 3] || edge.radii[0] || 0;
-        context.lineWidth = Math.max(1.6, (2 * radius * frame.fx) / at.depth) + extra;
-        context.beginPath();
+        const wanted = Math.max(1.6, (2 * radius * frame.fx) / at.depth) + extra;
+        if (Math.abs(wanted - width) > wanted / 6) {
+          context.stroke();
+          context.beginPath();
+          context.lineWidth = width = wanted;
+        }
         // Pixel (0, 0) of a frame is the centre of its first pixel.
         context.moveTo(before.u + 0.5, before.v + 0.5);
         context.lineTo(at.u + 0.5, at.v + 0.5);
-        context.stroke();
       }
       before = at;
     }
+    context.stroke();
   }
 
-  function drawOverlays() {
-    const { data, chosen, images } = page;
-    const all = [...data.curves.edges, ...data.uncertain.edges];
-    for (const { frame, canvas, image } of images) {
-      const context = canvas.getContext("2d");
-      context.drawImage(image, 0, 0, frame.width, frame.height);
-      context.lineCap = "butt";
-      if (byId("overlay").checked) {
-        for (const edge of data.curves.edges) drawCurve(context, frame, edge, OVERLAY_LINE, 0);
-      }
-      if (chosen !== null) drawCurve(context, frame, all[chosen], SELECTED_LINE, 2);
+  // An image with all curves, which stays as it is whatever curve is chosen.
+  function drawAllCurves({ frame, image, drawn }) {
+    const context = drawn.getContext("2d");
+    context.drawImage(image, 0, 0, frame.width, frame.height);
+    if (!byId("overlay").checked) return;
+    for (const edge of page.data.curves.edges) drawCurve(context, frame, edge, OVERLAY_LINE, 0);
+  }
+
+  function markInImage({ frame, canvas, drawn }) {
+    const { data, chosen } = page;
+    const context = canvas.getContext("2d");
+    context.drawImage(drawn, 0, 0);
+    const proven = data.curves.edges.length;
+    if (chosen === null) return;
+    const edge = chosen < proven ? data.curves.edges[chosen] : data.uncertain.edges[chosen - proven];
+    drawCurve(context, frame, edge, SELECTED_LINE, 2);
+  }
+
+  function redrawImages() {
+    for (const shown of page.images) {
+      drawAllCurves(shown);
+      markInImage(shown);
     }
   }
 
@@ -471,8 +501,11 @@ const ReportPage = (() => {
                                          "aria-label": `Frame ${frame.name} of the scan` });
       const image = new Image();
       image.onload = () => {
-        page.images.push({ frame, canvas, image });
-        drawOverlays();
+        const drawn = element("canvas", { width: frame.width, height: frame.height });
+        const shown = { frame, canvas, image, drawn };
+        page.images.push(shown);
+        drawAllCurves(shown);
+        markInImage(shown);
       };
       image.src = frame.image;
       const look = page.viewer && element("button", { type: "button", onclick: () => {
@@ -576,7 +609,7 @@ const ReportPage = (() => {
       }));
     byId("reset").addEventListener("click", () => page.viewer.reset());
     byId("fit-camera").addEventListener("click", () => page.viewer.fitCameraPath());
-    byId("overlay").addEventListener("change", drawOverlays);
+    byId("overlay").addEventListener("change", redrawImages);
     byId("canvas").addEventListener("keydown", (event) => {
       const actions = { n: () => step(1), p: () => step(-1), escape: () => select(null) };
       const action = actions[event.key.toLowerCase()];
@@ -598,7 +631,7 @@ const ReportPage = (() => {
   // Shows a result in place of the one before, if there is one.
   function show(data) {
     if (page === null) {
-      page = { viewer: null, chosen: null, rows: [], images: [] };
+      page = { viewer: null, chosen: null, rows: new Map(), images: [] };
       wireControls();
     }
     page.data = data;
