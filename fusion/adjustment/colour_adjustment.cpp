@@ -159,10 +159,11 @@ ColorShift UseDepth(const Sequence& sequence, const ColourFrames& frames,
 
 // Runs all rounds from `state` on; how the colour images lie.
 ColorShift RunRounds(const Sequence& sequence, const CurveVertices& curves, ColourFrames& frames,
-                     const ColourAdjustmentOptions& options, CurvePoseProblem& problem,
-                     CurvePoseState& state, ColourAdjustment& result) {
+                     const ColourAdjustmentOptions& options, WireDepth depth,
+                     CurvePoseProblem& problem, CurvePoseState& state, ColourAdjustment& result) {
   ColorShift color_shift;
   color_shift.of_frames_px.assign(frames.size(), Vec2::Zero());
+  color_shift.frame_sigmas_px.assign(frames.size(), Vec2::Zero());
   LearnColours(ExpectStrips(curves, problem, state), curves, frames);
   for (const AdjustmentRound& round : kRounds) {
     const std::vector<FrameStrips> strips =
@@ -174,7 +175,7 @@ ColorShift RunRounds(const Sequence& sequence, const CurveVertices& curves, Colo
           Observations(TrackEdges(curves, problem, state, frames, round.search_px, strips),
                        color_shift.of_frames_px);
     }
-    if (round.measures_depth) {
+    if (round.measures_depth && depth == WireDepth::kShown) {
       color_shift =
           UseDepth(sequence, frames, curves, state, strips, options.axis_depth, problem, result);
     }
@@ -301,7 +302,7 @@ void VisitOptions(ColourAdjustmentOptions& options, OptionVisitor& visitor) {
 
 ColourAdjustment AdjustToColours(const SkeletonGraph& skeleton, const Sequence& sequence,
                                  const std::vector<RigidTransform>& T_world_given,
-                                 const ColourAdjustmentOptions& options) {
+                                 const ColourAdjustmentOptions& options, WireDepth depth) {
   ColourAdjustment result;
   result.skeleton = skeleton;
   for (const SequenceFrame& frame : sequence.frames) {
@@ -321,7 +322,7 @@ ColourAdjustment AdjustToColours(const SkeletonGraph& skeleton, const Sequence& 
   CurvePoseProblem problem = MakeProblem(sequence, curves, frames.indices, T_world_given, is_video);
   CurvePoseState state = problem.start;
   const ColorShift color_shift =
-      RunRounds(sequence, curves, frames, options, problem, state, result);
+      RunRounds(sequence, curves, frames, options, depth, problem, state, result);
   result.frames = std::move(frames.indices);
   result.posteriors = std::move(frames.posteriors);
   result.skipped = ReasonToSkip(result);
@@ -343,7 +344,9 @@ ColourAdjustment AdjustToColours(const SkeletonGraph& skeleton, const Sequence& 
   }
   std::vector<RigidTransform> T_world_adjusted =
       InterpolateCorrections(T_world_given, result.frames, poses);
-  const std::vector<int> held_out = HeldOutFrames(sequence.frame_count(), result.frames);
+  const std::vector<int> held_out = depth == WireDepth::kShown
+                                        ? HeldOutFrames(sequence.frame_count(), result.frames)
+                                        : std::vector<int>{};
   const auto before = DepthDisagreement(sequence, curves, curves.positions, result.T_world_camera,
                                         held_out, options.axis_depth);
   const auto after = DepthDisagreement(sequence, curves, moved.positions, T_world_adjusted,

@@ -21,6 +21,9 @@ struct ColourAdjustmentOptions {
 };
 void VisitOptions(ColourAdjustmentOptions& options, OptionVisitor& visitor);
 
+/// Whether depth images show wires where they are. Where they do not, colour images alone count.
+enum class WireDepth { kShown, kNotShown };
+
 /// What an adjustment came to. Where it could not help (`skipped` tells why), skeleton and poses
 /// are those that were given.
 struct ColourAdjustment {
@@ -49,6 +52,7 @@ struct ColourAdjustment {
 /// decoded. Cost: .1 s a frame used for 3 m of wire.
 ColourAdjustment AdjustToColours(const SkeletonGraph& skeleton, const Sequence& sequence,
                                  const std::vector<RigidTransform>& T_world_given,
-                                 const ColourAdjustmentOptions& options);
+                                 const ColourAdjustmentOptions& options,
+                                 WireDepth depth = WireDepth::kShown);
 
 }  // namespace curvefusion

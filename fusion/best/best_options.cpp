@@ -32,6 +32,13 @@ BestOptions DefaultBestOptions() {
   return options;
 }
 
+void VisitOptions(ColourStartOptions& options, OptionVisitor& visitor) {
+  visitor.Visit({"always", "", 0, 1,
+                 "Deviation: curves come from colour images alone wherever these show any; "
+                 "otherwise only where depth's do not fit them."},
+                options.always);
+}
+
 void VisitOptions(BestOptions& options, OptionVisitor& visitor) {
   visitor.BeginSection("volume");
   VisitOptions(options.volume, visitor);
@@ -67,6 +74,8 @@ void VisitOptions(BestOptions& options, OptionVisitor& visitor) {
   VisitOptions(options.completion, visitor);
   visitor.BeginSection("colour_adjustment");
   VisitOptions(options.colour_adjustment, visitor);
+  visitor.BeginSection("colour_start");
+  VisitOptions(options.colour_start, visitor);
   visitor.BeginSection("silhouettes");
   VisitOptions(options.silhouettes, visitor);
   visitor.BeginSection("evidence");

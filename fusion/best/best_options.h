@@ -15,6 +15,12 @@
 
 namespace curvefusion {
 
+/// When curves come from colour images alone.
+struct ColourStartOptions {
+  bool always = false;
+};
+void VisitOptions(ColourStartOptions& options, OptionVisitor& visitor);
+
 /// The options of every stage of the best profile.
 struct BestOptions {
   TsdfOptions volume;
@@ -30,6 +36,7 @@ struct BestOptions {
   RadiusOptions radius;
   WireCompletionOptions completion;
   ColourAdjustmentOptions colour_adjustment;
+  ColourStartOptions colour_start;
   SilhouetteOptions silhouettes;
   ViewEvidenceOptions evidence;
 };

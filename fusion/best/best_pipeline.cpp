@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "fusion/best/best_plan.h"
+#include "fusion/best/colour_fit.h"
 #include "fusion/best/colour_stages.h"
 #include "fusion/best/weak_colour.h"
 #include "fusion/registration/axis_correction.h"

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "capture/frame_stream.h"
+#include "fusion/best/colour_fit.h"
+#include "fusion/best/colour_start.h"
 #include "fusion/curve_graph/candidate_curves.h"
 #include "fusion/curve_graph/colour_candidates.h"
 #include "fusion/curve_graph/selection.h"
@@ -25,21 +27,15 @@ constexpr const char* kImagesDoNotTell =
 // Chosen: before poses and curves are adjusted to colours more is given the benefit of the doubt.
 constexpr double kHardlyAWire = 0.4;  // times evidence.min_probability
 
-void AssignMeasuredRadii(double row_diameter, const RadiusOptions& options,
-                         const StageReporter& reporter, Reconstruction& result) {
-  result.radii = MeasureRadii(result.skeleton, result.sequence, row_diameter, options, reporter);
-  AssignRadii(result.radii, result.skeleton);
-}
-
-// Thin by proof: what is a wire with less than `min_probability` leaves the result. Radii come
-// before. Whether any wire left: then edges were cut, and radii are to be measured again.
-bool KeepProvenWires(const std::string& name, double min_probability,
-                     const ViewEvidenceOptions& options, const StageReporter& reporter,
-                     Reconstruction& result) {
+// Thin by proof: what is a wire with less than `min_probability` leaves the result, by so many
+// depth images at most and the strips of all radii, which come before. Whether any wire left: then
+// edges were cut, and radii are to be measured again.
+bool KeepProvenWires(const std::string& name, double min_probability, int depth_images,
+                     const StageReporter& reporter, Reconstruction& result) {
   const StageLog::Timer timer = reporter.Begin("evidence");
   const double uncertain = result.uncertain.lengths.Sum();
   const std::vector<StretchEvidence> evidence =
-      CollectEvidence(result.skeleton, result.radii, result.sequence, options.max_frames);
+      CollectEvidence(result.skeleton, result.radii, result.sequence, depth_images);
   reporter.observer.OnEvidence(name, result.skeleton, evidence);
   result.trust.wire_length = KeepProven(evidence, ProveWires(result.skeleton, evidence),
                                         min_probability, result.skeleton, result.uncertain);
@@ -48,22 +44,10 @@ bool KeepProvenWires(const std::string& name, double min_probability,
   return result.uncertain.lengths.Sum() > uncertain;
 }
 
-void ReportAdjustment(const ColourAdjustment& adjusted, StageLog& log) {
-  const char* stage = "colour adjustment";
-  log.Count(stage, "frames", static_cast<double>(adjusted.frames.size()));
-  log.Count(stage, "strips", adjusted.strips);
-  log.Count(stage, "accepted share", adjusted.accepted_share);
-  log.Count(stage, "depths", adjusted.depths);
-  log.Count(stage, "residual before, px", adjusted.start_residual_px);
-  log.Count(stage, "residual, px", adjusted.residual_px);
-  log.Count(stage, "colour shift x, px", adjusted.color_shift_px.x());
-  log.Count(stage, "colour shift y, px", adjusted.color_shift_px.y());
-  if (!adjusted.skipped.empty()) log.Remark(stage, "skipped: " + adjusted.skipped);
-}
-
 // Deviation: what images look past is dropped, and what they show besides is added.
-void CorrectBySilhouettes(const ColourAdjustment& adjusted, const BestOptions& options,
-                          const StageReporter& reporter, Reconstruction& result) {
+void CorrectBySilhouettes(const ColourAdjustment& adjusted, WireDepth depth,
+                          const BestOptions& options, const StageReporter& reporter,
+                          Reconstruction& result) {
   if (options.silhouettes.max_frames == 0) return;
   const char* stage = "silhouettes";
   const StageLog::Timer timer = reporter.Begin(stage);
@@ -75,8 +59,11 @@ void CorrectBySilhouettes(const ColourAdjustment& adjusted, const BestOptions& o
   }
   // Two strands of noise that the adjustment has led into one wire.
   MergeParallelEdges(result.skeleton, 2 * result.radii.global_radius);
-  const std::vector<Vec3> shown_by_depth = PlacesShownByDepth(
-      CountViews(result.skeleton, result.sequence, options.evidence), result.skeleton);
+  std::vector<Vec3> shown_by_depth;
+  if (depth == WireDepth::kShown) {
+    shown_by_depth = PlacesShownByDepth(
+        CountViews(result.skeleton, result.sequence, options.evidence), result.skeleton);
+  }
   const SilhouetteChanges changes =
       CorrectTopology(silhouettes, options.silhouettes, shown_by_depth, result.skeleton);
   const int weak_wires =
@@ -117,32 +104,6 @@ bool AddWiresFromColour(const ColourAdjustment& adjusted, const RidgeOptions& op
   return true;
 }
 
-// Deviation: curves of known radius and poses as exact as the colour images show them. Nothing
-// where nothing was changed.
-std::optional<ColourAdjustment> AdjustCurvesAndPoses(const Sequence& given,
-                                                     const ColourAdjustmentOptions& options,
-                                                     const StageReporter& reporter,
-                                                     Reconstruction& result) {
-  if (!options.enabled || result.skeleton.empty()) return std::nullopt;
-  const StageLog::Timer timer = reporter.Begin("colour adjustment");
-  std::vector<RigidTransform> T_world_given;
-  for (const SequenceFrame& frame : given.frames) T_world_given.push_back(frame.T_world_camera);
-  ColourAdjustment adjusted =
-      AdjustToColours(result.skeleton, result.sequence, T_world_given, options);
-  result.skeleton = adjusted.skeleton;
-  for (size_t i = 0; i < result.sequence.frames.size(); ++i) {
-    result.sequence.frames[i].T_world_camera = adjusted.T_world_camera[i];
-  }
-  result.sequence.color_camera.cx += adjusted.color_shift_px.x();
-  result.sequence.color_camera.cy += adjusted.color_shift_px.y();
-  ReportAdjustment(adjusted, reporter.log);
-  result.trust.adjusted = adjusted.skipped.empty();
-  result.trust.residual_before_px = adjusted.start_residual_px;
-  result.trust.residual_px = adjusted.residual_px;
-  reporter.observer.OnGraph("adjusted", result.skeleton);
-  return adjusted.skipped.empty() ? std::optional(std::move(adjusted)) : std::nullopt;
-}
-
 // Deviation: wires that depth has missed and colour images show.
 void AddMissedWires(const WireCompletionOptions& options, const StageReporter& reporter,
                     Reconstruction& result) {
@@ -174,6 +135,12 @@ void PruneUnadjusted(const WireColours& colours, const SilhouetteOptions& option
   reporter.observer.OnGraph("corrected", result.skeleton);
 }
 
+// Where depth shows no wire at all there is none that colour images might show better.
+bool UsesColourStart(const BestOptions& options, bool is_adjusted, const Reconstruction& result) {
+  if (!options.colour_adjustment.enabled) return false;
+  return options.colour_start.always || (!is_adjusted && !result.skeleton.empty());
+}
+
 // In how many images every place of the result was looked for and seen.
 void LookForEvidence(const ViewEvidenceOptions& options, const StageReporter& reporter,
                      Reconstruction& result) {
@@ -185,37 +152,35 @@ void LookForEvidence(const ViewEvidenceOptions& options, const StageReporter& re
 
 }  // namespace
 
-RadiusEstimate MeasureRadii(const SkeletonGraph& skeleton, const Sequence& sequence,
-                            double row_diameter, const RadiusOptions& options,
-                            const StageReporter& reporter) {
-  const StageLog::Timer timer = reporter.Begin("radius");
-  RadiusEstimate estimate = EstimateRadius(skeleton, sequence, AllFrames(sequence), options);
-  // Strips of wires so close that none stands alone are not measured one by one.
-  if (estimate.global_radius == 0) {
-    estimate.global_radius = estimate.unmeasured_radius = 0.5 * row_diameter;
-  }
-  reporter.log.Count("radius", "strips", static_cast<double>(estimate.strips.size()));
-  return estimate;
-}
-
 void RefineByColour(const Sequence& given, const SegmentationModel& model,
                     const BestOptions& options, const StageReporter& reporter,
                     Reconstruction& result) {
   const auto measure_radii = [&] {
     AssignMeasuredRadii(model.row_diameter, options.radius, reporter, result);
   };
+  WireDepth depth = WireDepth::kShown;
   const auto keep_proven = [&](const std::string& name, double share) {
     const double min_probability = share * options.evidence.min_probability;
-    if (KeepProvenWires(name, min_probability, options.evidence, reporter, result)) measure_radii();
+    // Depth that does not show wires says nothing for or against them.
+    const int depth_images = depth == WireDepth::kShown ? options.evidence.max_frames : 0;
+    if (KeepProvenWires(name, min_probability, depth_images, reporter, result)) measure_radii();
   };
   measure_radii();
   // Nothing is to be added to what is hardly a wire.
   keep_proven("evidence_before_colour", kHardlyAWire);
   AddMissedWires(options.completion, reporter, result);
-  const std::optional<ColourAdjustment> adjusted =
-      AdjustCurvesAndPoses(given, options.colour_adjustment, reporter, result);
+  std::optional<ColourAdjustment> adjusted =
+      AdjustCurvesAndPoses(given, depth, options.colour_adjustment, reporter, result);
+  if (UsesColourStart(options, adjusted.has_value(), result)) {
+    std::optional<ColourAdjustment> from_colour =
+        StartFromColour(given, model.colours, options, reporter, result);
+    if (from_colour) {
+      adjusted = std::move(from_colour);
+      depth = WireDepth::kNotShown;
+    }
+  }
   if (adjusted) {
-    CorrectBySilhouettes(*adjusted, options, reporter, result);
+    CorrectBySilhouettes(*adjusted, depth, options, reporter, result);
   } else {
     PruneUnadjusted(model.colours, options.silhouettes, reporter, result);
   }

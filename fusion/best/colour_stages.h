@@ -10,13 +10,6 @@
 
 namespace curvefusion {
 
-/// The wires' radii in all colour images (CurveFusion 3.3, "Wire radius estimation"); those of
-/// close rows (`row_diameter`, metres) where no strip can be measured for itself. Throws
-/// Error(kBadInput) for an image that cannot be read.
-RadiusEstimate MeasureRadii(const SkeletonGraph& skeleton, const Sequence& sequence,
-                            double row_diameter, const RadiusOptions& options,
-                            const StageReporter& reporter);
-
 /// What colour images tell of contracted curves: radii, wires that depth has missed, exact curves
 /// and poses, which curves are false or missing, and where they were seen. `given` are the poses of
 /// the input, which the adjustment's drift is counted from; `model` what the segmentation learned

@@ -20,18 +20,20 @@ constexpr double kCoarseEvidence = 1;   // least log-likelihood ratio
 constexpr double kFineEvidence = 3.5;
 constexpr double kAmbiguous = 1.5;     // less of it between two places of one line of sight
 constexpr double kMinBaseline = 0.02;  // metres
-constexpr double kMaxPeak = 0.015;     // metres; longer stretches tell no place
+constexpr double kSamePlace = 0.015;   // metres; places nearer to each other are one wire
+constexpr size_t kMaxRays = 20000;     // more tell the same again
 constexpr int kMinFirstLooks = 2;
 constexpr int kMinLooks = 8;
 constexpr double kNearest = 0.05;  // metres before a camera
 
 using View = StripViews::View;
+using Ray = std::pair<const View*, Eigen::Vector2i>;  // of a pixel
 
 // A place of a line of sight where a wire may be.
-struct Peak {
+struct Place {
   Vec3 position;
+  double distance = 0;  // metres along the line of sight
   StripAgreement agreement;
-  double first = 0, last = 0;  // of the stretch that agrees, metres along the line of sight
 };
 
 class CandidateSearch {
@@ -39,14 +41,15 @@ class CandidateSearch {
   explicit CandidateSearch(const StripViews& views) : views_(views) {}
 
   ObservedPoints Find() const {
-    std::vector<std::pair<const View*, Eigen::Vector2i>> rays;
+    std::vector<Ray> rays;
     for (size_t i = 0; i < views_.views().size(); i += kReferenceStride) {
       const View& view = views_.views()[i];
       for (const Eigen::Vector2i& pixel : view.unexplained) {
         if (!view.explained(pixel.x(), pixel.y())) rays.emplace_back(&view, pixel);
       }
     }
-    std::vector<std::optional<Peak>> places(rays.size());
+    rays = Thinned(std::move(rays));
+    std::vector<std::optional<Place>> places(rays.size());
     ParallelFor(0, static_cast<int64_t>(rays.size()), 16,
                 [&](int64_t i) { places[i] = PlaceOn(*rays[i].first, rays[i].second); });
     ObservedPoints points;
@@ -60,6 +63,13 @@ class CandidateSearch {
   }
 
  private:
+  static std::vector<Ray> Thinned(std::vector<Ray> rays) {
+    if (rays.size() <= kMaxRays) return rays;
+    std::vector<Ray> some(kMaxRays);
+    for (size_t i = 0; i < kMaxRays; ++i) some[i] = rays[i * rays.size() / kMaxRays];
+    return some;
+  }
+
   // The greatest distance of another camera from a line of sight, metres; not zero.
   double Baseline(const View& view, const Vec3& ray) const {
     double most = kMinBaseline;
@@ -74,36 +84,28 @@ class CandidateSearch {
     return pixels * distance * distance / (views_.color_camera().fx * baseline);
   }
 
-  // The best place within a stretch of a line of sight.
-  Peak Refined(const View& view, const Vec3& ray, double baseline, double from, double to) const {
-    Peak peak;
+  // Adds the places of a stretch of a line of sight that agree.
+  void AddPlaces(const View& view, const Vec3& ray, double baseline, double from, double to,
+                 std::vector<Place>& places) const {
     const double step = Step(0.5 * (from + to), baseline, kFinePx);
-    double best = -1;
-    peak.first = to;
     for (double at = from; at <= to; at += step) {
       const Vec3 p = view.center + at * ray;
+      if (views_.QuickLook(p).evidence < 0) continue;
       const StripAgreement agreement = views_.CloseLook(p);
       if (agreement.evidence < kFineEvidence || agreement.looked < kMinLooks) continue;
-      peak.first = std::min(peak.first, at);
-      peak.last = at;
-      const double score = agreement.evidence + agreement.middle_evidence;
-      if (score <= best) continue;
-      best = score;
-      peak.position = p;
-      peak.agreement = agreement;
+      places.push_back({p, at, agreement});
     }
-    return peak;
   }
 
-  // The place of the wire that a pixel shows, and how many images show it.
-  std::optional<Peak> PlaceOn(const View& view, const Eigen::Vector2i& pixel) const {
+  // All places of the line of sight of a pixel where a wire may be.
+  std::vector<Place> PlacesOn(const View& view, const Eigen::Vector2i& pixel) const {
     const RigidTransform T_world_color = view.T_color_world.inverse();
     const Vec3 in_camera = views_.color_camera().Unproject(pixel.x(), pixel.y(), 1);
     const Vec3 ray = (T_world_color.linear() * in_camera).normalized();
     const auto range = RangeWithin(view.center, ray);
-    if (!range) return std::nullopt;
+    if (!range) return {};
     const double baseline = Baseline(view, ray);
-    std::vector<Peak> peaks;
+    std::vector<Place> places;
     double begin = -1;  // of a stretch that agrees roughly
     for (double at = range->first; at <= range->second;) {
       const Vec3 p = view.center + at * ray;
@@ -113,27 +115,29 @@ class CandidateSearch {
       const bool agrees = look.evidence >= kCoarseEvidence && look.looked >= kMinFirstLooks;
       if (agrees && begin < 0) begin = at - step;
       if (!agrees && begin >= 0) {
-        AddPeak(Refined(view, ray, baseline, begin, at), peaks);
+        AddPlaces(view, ray, baseline, begin, at, places);
         begin = -1;
       }
       at += step;
     }
-    if (begin >= 0) AddPeak(Refined(view, ray, baseline, begin, range->second), peaks);
-    if (peaks.empty()) return std::nullopt;
-    std::sort(peaks.begin(), peaks.end(), [](const Peak& a, const Peak& b) {
-      return a.agreement.evidence > b.agreement.evidence;
-    });
-    const Peak& best = peaks.front();
-    const bool is_ambiguous =
-        peaks.size() > 1 && peaks[1].agreement.evidence > best.agreement.evidence - kAmbiguous;
-    if (is_ambiguous || best.last - best.first > kMaxPeak || !views_.IsFree(best.position)) {
-      return std::nullopt;
-    }
-    return best;
+    if (begin >= 0) AddPlaces(view, ray, baseline, begin, range->second, places);
+    return places;
   }
 
-  static void AddPeak(const Peak& peak, std::vector<Peak>& peaks) {
-    if (peak.agreement.seen > 0) peaks.push_back(peak);
+  // The place of the wire that a pixel shows, where it is the only one and depth does not
+  // contradict.
+  std::optional<Place> PlaceOn(const View& view, const Eigen::Vector2i& pixel) const {
+    const std::vector<Place> places = PlacesOn(view, pixel);
+    if (places.empty()) return std::nullopt;
+    const Place& best = *std::max_element(
+        places.begin(), places.end(),
+        [](const Place& a, const Place& b) { return a.agreement.Sum() < b.agreement.Sum(); });
+    const bool is_ambiguous = std::any_of(places.begin(), places.end(), [&](const Place& place) {
+      return std::abs(place.distance - best.distance) > kSamePlace &&
+             place.agreement.Sum() > best.agreement.Sum() - kAmbiguous;
+    });
+    if (is_ambiguous || !views_.IsFree(best.position)) return std::nullopt;
+    return best;
   }
 
   // Where a line enters and leaves the bounds, metres from its start.

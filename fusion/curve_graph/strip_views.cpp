@@ -20,7 +20,7 @@ constexpr int kViews = 90;                  // images that are asked, at most
 constexpr int kPixelStride = 2;             // every so many-th pixel of strips' middles
 constexpr double kExplainedPx = 1.2;        // curves cover so much beside their outline
 constexpr double kReachPx[2] = {3.5, 1.4};  // from a strip's middle: first look, close look
-constexpr int kStride[2] = {5, 1};          // of images
+constexpr double kLargestFocal = 900;       // pixels; images beyond it are halved
 constexpr double kSeen = 0.8;               // of the images that look at a wire show a strip there
 constexpr double kMinChance = 0.02;         // that a strip lies there by chance, at least
 constexpr double kCorrelation = 0.3;        // neighbouring images tell the same
@@ -96,12 +96,27 @@ Image<Pixel> Crop(const Image<Pixel>& image, const cv::Rect& region) {
   return crop;
 }
 
-// The middles of strips in the part of an image that `color` holds.
-MaskImage MiddlesWithin(const cv::Rect& region, const ColorImage& color,
-                        const PosteriorImage& posterior, const MaskImage& explained) {
+template <typename Pixel>
+Image<Pixel> Shrunk(const Image<Pixel>& image, const PinholeCamera& camera, int type) {
+  if (image.width() == camera.width && image.height() == camera.height) return image;
+  Image<Pixel> small(camera.width, camera.height);
+  const cv::Mat from(image.height(), image.width(), type, const_cast<Pixel*>(image.data()));
+  cv::Mat to(small.height(), small.width(), type, small.data());
+  cv::resize(from, to, to.size(), 0, 0, cv::INTER_AREA);
+  return small;
+}
+
+// What is looked at of an image: the part around the object.
+struct Part {
+  ColorImage color;
+  PosteriorImage posterior;
+};
+
+// The middles of strips in a part of an image.
+MaskImage MiddlesWithin(const cv::Rect& region, const Part& part, const MaskImage& explained) {
   MaskImage middles(explained.width(), explained.height(), 0);
   if (region.empty()) return middles;
-  const MaskImage found = StripMiddles(color, Crop(posterior, region), Crop(explained, region));
+  const MaskImage found = StripMiddles(part.color, part.posterior, Crop(explained, region));
   for (int v = 0; v < region.height; ++v)
     std::copy(found.row(v), found.row(v) + region.width, middles.row(region.y + v) + region.x);
   return middles;
@@ -111,8 +126,12 @@ MaskImage MiddlesWithin(const cv::Rect& region, const ColorImage& color,
 
 StripViews::StripViews(const SkeletonGraph& skeleton, const Sequence& sequence,
                        const std::vector<int>& frames,
-                       const std::vector<PosteriorImage>& posteriors)
-    : depth_camera_(sequence.depth_camera), color_camera_(sequence.color_camera) {
+                       const std::vector<PosteriorImage>& posteriors,
+                       const Eigen::AlignedBox3d& around)
+    : depth_camera_(sequence.depth_camera),
+      color_camera_(sequence.color_camera.fx > kLargestFocal ? sequence.color_camera.Scaled(0.5)
+                                                             : sequence.color_camera),
+      bounds_(around) {
   for (const EdgeId id : skeleton.Edges())
     for (const Vec3& p : skeleton.edge(id).points) bounds_.extend(p);
   if (bounds_.isEmpty()) return;
@@ -120,22 +139,24 @@ StripViews::StripViews(const SkeletonGraph& skeleton, const Sequence& sequence,
   bounds_.min() -= margin;
   bounds_.max() += margin;
   const std::vector<int> used = EvenlyThinned(frames, kViews);
-  std::vector<ColorImage> parts;  // of the images, around the curves
+  std::vector<Part> parts;
   ForEachFrame(sequence, used, {.depth = true, .color = true}, [&](const DecodedFrame& frame) {
     View& view = views_.emplace_back();
     view.T_depth_world = sequence.frames[frame.index].T_world_camera.inverse();
     view.T_color_world = sequence.T_color_depth * view.T_depth_world;
     view.center = view.T_color_world.inverse().translation();
     view.farthest = FarthestInCells(frame.depth);
-    parts.push_back(Crop(frame.color, RegionIn(view)));
+    const auto place = std::lower_bound(frames.begin(), frames.end(), frame.index) - frames.begin();
+    const cv::Rect region = RegionIn(view);
+    parts.push_back({Crop(Shrunk(frame.color, color_camera_, CV_8UC3), region),
+                     Crop(Shrunk(posteriors[place], color_camera_, CV_8U), region)});
   });
   ParallelFor(0, static_cast<int64_t>(views_.size()), 1, [&](int64_t i) {
     View& view = views_[i];
     view.explained = MaskImage(color_camera_.width, color_camera_.height, 0);
     for (const EdgeId id : skeleton.Edges())
       ExplainIn(view, skeleton.edge(id).points, skeleton.edge(id).radii);
-    const auto place = std::lower_bound(frames.begin(), frames.end(), used[i]) - frames.begin();
-    FindStrips(MiddlesWithin(RegionIn(view), parts[i], posteriors[place], view.explained), view);
+    FindStrips(MiddlesWithin(RegionIn(view), parts[i], view.explained), view);
   });
 }
 
@@ -208,9 +229,9 @@ bool StripViews::IsFree(const Vec3& p) const {
   return told > 0 && free >= kFreeShare * told;
 }
 
-StripAgreement StripViews::AgreementAt(const Vec3& p, int look) const {
+StripAgreement StripViews::AgreementAt(const Vec3& p, int look, int stride) const {
   StripAgreement agreement;
-  for (size_t i = 0; i < views_.size(); i += static_cast<size_t>(kStride[look])) {
+  for (size_t i = 0; i < views_.size(); i += static_cast<size_t>(stride)) {
     const View& view = views_[i];
     const Vec3 p_color = view.T_color_world * p;
     if (p_color.z() < kNearest) continue;
@@ -223,7 +244,7 @@ StripAgreement StripViews::AgreementAt(const Vec3& p, int look) const {
     const Image<float>& told = seen ? view.seen[look] : view.not_seen[look];
     ++agreement.looked;
     agreement.seen += seen;
-    agreement.evidence += kStride[look] * told(at.x() / kCellPx, at.y() / kCellPx);
+    agreement.evidence += stride * told(at.x() / kCellPx, at.y() / kCellPx);
     const double off = distance / kMiddlePx;
     if (seen) agreement.middle_evidence += kAtMiddle - 0.5 * off * off;
   }

@@ -19,6 +19,8 @@ struct StripAgreement {
   int seen = 0;
   double evidence = 0;         // logarithm of how much likelier that is for a wire than by chance
   double middle_evidence = 0;  // likewise, of how near the strips' middles are
+
+  double Sum() const { return evidence + middle_evidence; }
 };
 
 /// Colour images in which strips stand out that no known curve explains, and what depth shows of
@@ -36,13 +38,16 @@ class StripViews {
     Image<float> seen[2], not_seen[2];  // evidence, in cells: of a first look, of a close one
   };
 
-  /// `frames` are those whose images of how likely pixels show wire are in `posteriors`.
+  /// `frames` are those whose images of how likely pixels show wire are in `posteriors`. The object
+  /// is where the curves are, and where `around` is. Images much larger than 640 x 480 are looked
+  /// at in half their size.
   StripViews(const SkeletonGraph& skeleton, const Sequence& sequence,
-             const std::vector<int>& frames, const std::vector<PosteriorImage>& posteriors);
+             const std::vector<int>& frames, const std::vector<PosteriorImage>& posteriors,
+             const Eigen::AlignedBox3d& around = {});
 
   const std::vector<View>& views() const { return views_; }
 
-  /// Around the curves: a quarter of their extent farther to all sides. Strips elsewhere are not
+  /// Around the object: a quarter of its extent farther to all sides. Strips elsewhere are not
   /// looked for.
   const Eigen::AlignedBox3d& bounds() const { return bounds_; }
   const PinholeCamera& color_camera() const { return color_camera_; }
@@ -51,10 +56,13 @@ class StripViews {
   void Explain(const Polyline& points, const std::vector<double>& radii);
 
   /// By every fifth image and strips within 3.5 pixels: a first look.
-  StripAgreement FirstLook(const Vec3& p) const { return AgreementAt(p, 0); }
+  StripAgreement FirstLook(const Vec3& p) const { return AgreementAt(p, 0, kFew); }
+
+  /// By every fifth image and strips within 1.4 pixels: whether a close look is worth its time.
+  StripAgreement QuickLook(const Vec3& p) const { return AgreementAt(p, 1, kFew); }
 
   /// By all images and strips within 1.4 pixels.
-  StripAgreement CloseLook(const Vec3& p) const { return AgreementAt(p, 1); }
+  StripAgreement CloseLook(const Vec3& p) const { return AgreementAt(p, 1, 1); }
 
   /// Whether depth of a view shows only what is nearer than a place.
   bool Hides(const View& view, const Vec3& p) const;
@@ -63,13 +71,15 @@ class StripViews {
   bool IsFree(const Vec3& p) const;
 
  private:
-  StripAgreement AgreementAt(const Vec3& p, int look) const;
+  static constexpr int kFew = 5;  // every so many-th image
+
+  StripAgreement AgreementAt(const Vec3& p, int look, int stride) const;
   float BehindIn(const View& view, const Vec3& p) const;
   cv::Rect RegionIn(const View& view) const;
   void ExplainIn(View& view, const Polyline& points, const std::vector<double>& radii) const;
 
   PinholeCamera depth_camera_;
-  PinholeCamera color_camera_;
+  PinholeCamera color_camera_;  // of images as they are looked at
   Eigen::AlignedBox3d bounds_;
   std::vector<View> views_;
 };

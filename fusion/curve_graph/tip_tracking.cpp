@@ -105,7 +105,7 @@ class TipTracker {
  private:
   double Gain(const Vec3& p, double bend) const {
     const StripAgreement look = views_.CloseLook(p);
-    double evidence = look.evidence + look.middle_evidence;
+    double evidence = look.Sum();
     if (!views_.IsFree(p)) evidence = std::min(evidence, kNotFree);
     const double told = std::min(1.0, look.looked / kManyLooks);
     const double cost = kBlindCost + (kCost - kBlindCost) * told + kBendCost * bend * bend;

@@ -26,6 +26,7 @@ class SilhouetteScan {
   SilhouetteScan(const SilhouetteScan&) = delete;
   SilhouetteScan& operator=(const SilhouetteScan&) = delete;
 
+  const Sequence& sequence() const { return sequence_; }
   WireSilhouettes Silhouettes() const;
 
   /// Strips of the same images in colour, dark wires before something bright.

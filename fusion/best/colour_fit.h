@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+
+#include "capture/sequence.h"
+#include "fusion/adjustment/colour_adjustment.h"
+#include "fusion/reconstruction.h"
+#include "fusion/stage_reporter.h"
+#include "fusion/strips/radius.h"
+#include "graph/skeleton_graph.h"
+
+namespace curvefusion {
+
+/// The wires' radii in all colour images (CurveFusion 3.3, "Wire radius estimation"); those of
+/// close rows (`row_diameter`, metres) where no strip can be measured for itself. Throws
+/// Error(kBadInput) for an image that cannot be read.
+RadiusEstimate MeasureRadii(const SkeletonGraph& skeleton, const Sequence& sequence,
+                            double row_diameter, const RadiusOptions& options,
+                            const StageReporter& reporter);
+
+/// Measures the radii of the result's curves and sets them. Throws like MeasureRadii.
+void AssignMeasuredRadii(double row_diameter, const RadiusOptions& options,
+                         const StageReporter& reporter, Reconstruction& result);
+
+/// Deviation: curves of known radius and poses of the result as exact as the colour images show
+/// them; `given` has the poses of the input, which drift is counted from. Nothing where nothing was
+/// changed. Throws like MeasureRadii.
+std::optional<ColourAdjustment> AdjustCurvesAndPoses(const Sequence& given, WireDepth depth,
+                                                     const ColourAdjustmentOptions& options,
+                                                     const StageReporter& reporter,
+                                                     Reconstruction& result);
+
+}  // namespace curvefusion

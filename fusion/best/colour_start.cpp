@@ -1,0 +1,124 @@
+#include "fusion/best/colour_start.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "capture/frame_stream.h"
+#include "fusion/appearance/wire_posterior.h"
+#include "fusion/best/colour_fit.h"
+#include "fusion/curve_graph/colour_candidates.h"
+#include "fusion/curve_graph/strip_views.h"
+#include "fusion/silhouettes/wire_silhouettes.h"
+#include "graph/contraction/ridge_skeleton.h"
+
+namespace curvefusion {
+
+namespace {
+
+constexpr int kImages = 90;           // chosen: as many as StripViews looks at
+constexpr int kRounds = 2;            // chosen: the second has the poses of the first
+constexpr double kStep = 0.003;       // metres, between the places that images are asked about
+constexpr double kShownAsWire = 0.9;  // of the images
+constexpr const char* kStage = "wires from colour";
+
+// Images and how likely their pixels show wire.
+struct WireImages {
+  std::vector<int> frames;
+  std::vector<PosteriorImage> posteriors;
+};
+
+WireImages LookForColours(const Sequence& sequence, const WireColours& colours) {
+  WireImages images{EvenlyThinned(AllFrames(sequence), kImages), {}};
+  ForEachFrame(
+      sequence, images.frames, {.depth = false, .color = true}, [&](const DecodedFrame& frame) {
+        images.posteriors.push_back(ApplyPosterior(BinColours(frame.color), colours.posterior));
+      });
+  return images;
+}
+
+// Metres of curve, and how many of them the images show as wire.
+struct ShownCurves {
+  double length = 0;
+  double shown = 0;
+
+  bool IsBetterThan(const ShownCurves& other) const {
+    return shown > other.shown && shown * other.length > other.shown * length;
+  }
+};
+
+ShownCurves CountShown(const Sequence& sequence, const WireImages& images,
+                       const SkeletonGraph& skeleton) {
+  const WireSilhouettes silhouettes(sequence, images.frames, images.posteriors, kImages);
+  ShownCurves curves;
+  for (const EdgeId id : skeleton.Edges()) {
+    const Polyline points = Resample(skeleton.edge(id).points, kStep);
+    const std::vector<double> shares = silhouettes.SharesAlong(points);
+    const auto shown = std::count_if(shares.begin(), shares.end(),
+                                     [](double share) { return share >= kShownAsWire; });
+    curves.length += Length(points);
+    curves.shown +=
+        Length(points) * static_cast<double>(shown) / static_cast<double>(shares.size());
+  }
+  return curves;
+}
+
+void ContractPlacesThatImagesAgreeOn(const WireImages& images, const Eigen::AlignedBox3d& around,
+                                     const RidgeOptions& options, const StageReporter& reporter,
+                                     Reconstruction& colour) {
+  const StageLog::Timer timer = reporter.Begin(kStage);
+  const StripViews views({}, colour.sequence, images.frames, images.posteriors, around);
+  colour.points = FindColourCandidates(views);
+  colour.skeleton = ExtractRidgeSkeleton(colour.points, options);
+  reporter.log.Count(kStage, "places", static_cast<double>(colour.points.size()));
+  reporter.log.Count(kStage, "length, m", colour.skeleton.TotalLength());
+  reporter.observer.OnPoints("colour_places", colour.points);
+  reporter.observer.OnGraph("from_colour", colour.skeleton);
+}
+
+}  // namespace
+
+std::optional<ColourAdjustment> StartFromColour(const Sequence& given, const WireColours& colours,
+                                                const BestOptions& options,
+                                                const StageReporter& reporter,
+                                                Reconstruction& result) {
+  if (colours.posterior.empty() || result.points.empty()) return std::nullopt;
+  Eigen::AlignedBox3d around;
+  for (const Vec3& p : result.points.positions) around.extend(p);
+  Reconstruction colour;
+  colour.sequence = given;
+  WireImages images = LookForColours(given, colours);
+  const ShownCurves before = CountShown(result.sequence, images, result.skeleton);
+  std::optional<ColourAdjustment> adjusted;
+  for (int round = 0; round < kRounds; ++round) {
+    ContractPlacesThatImagesAgreeOn(images, around, options.ridge, reporter, colour);
+    if (colour.skeleton.empty()) return std::nullopt;
+    AssignMeasuredRadii(0, options.radius, reporter, colour);
+    adjusted = AdjustCurvesAndPoses(given, WireDepth::kNotShown, options.colour_adjustment,
+                                    reporter, colour);
+    if (!adjusted) return std::nullopt;
+    images = {adjusted->frames, adjusted->posteriors};
+  }
+  const ShownCurves after = CountShown(colour.sequence, images, colour.skeleton);
+  reporter.log.Count(kStage, "of depth shown as wire, m", before.shown);
+  reporter.log.Count(kStage, "shown as wire, m", after.shown);
+  if (!options.colour_start.always && !after.IsBetterThan(before)) return std::nullopt;
+  result.sequence = std::move(colour.sequence);
+  result.points = std::move(colour.points);
+  result.skeleton = std::move(colour.skeleton);
+  result.radii = std::move(colour.radii);
+  result.uncertain = {};
+  result.trust.adjusted = true;
+  result.trust.residual_before_px = colour.trust.residual_before_px;
+  result.trust.residual_px = colour.trust.residual_px;
+  result.warnings.push_back(
+      fmt::format("depth does not show the wires where colour images show them ({:.2f} of {:.2f} "
+                  "m); the curves "
+                  "come from the colour images alone, and their scale from the poses",
+                  before.shown, before.length));
+  return adjusted;
+}
+
+}  // namespace curvefusion

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <optional>
+
+#include "capture/sequence.h"
+#include "fusion/adjustment/colour_adjustment.h"
+#include "fusion/best/best_options.h"
+#include "fusion/reconstruction.h"
+#include "fusion/segmentation/colour_gate.h"
+#include "fusion/stage_reporter.h"
+
+namespace curvefusion {
+
+/// Deviation: curves and poses from colour images alone, for cameras whose depth shows wires in
+/// wrong places. Depth still tells where the object is (result.points), what stands before or
+/// behind a place (FindColourCandidates), and by its thin pixels the wires' colours (`colours`).
+/// Places that images agree on are contracted, and curves and poses adjusted to the images (`given`
+/// has the poses of the input, which are started from); with these poses and the colours then
+/// learned all of that once more. Scale is that of the poses.
+///
+/// Replaces curves, points, radii and poses of the result where the images show more metres of the
+/// new curves as wire than of those that were there, and a greater share of them; with
+/// options.colour_start.always wherever there are any. Nothing otherwise. Throws Error(kBadInput)
+/// for an image that cannot be read. Costs about .1 s an image, at most 90 of them.
+std::optional<ColourAdjustment> StartFromColour(const Sequence& given, const WireColours& colours,
+                                                const BestOptions& options,
+                                                const StageReporter& reporter,
+                                                Reconstruction& result);
+
+}  // namespace curvefusion

@@ -1,0 +1,108 @@
+#include "fusion/best/colour_start.h"
+
+#include <gtest/gtest.h>
+
+#include "capture/frame_stream.h"
+#include "fusion/appearance/wire_posterior.h"
+#include "kernel/quantile.h"
+#include "tests/fusion/silhouettes/silhouette_scan.h"
+
+namespace curvefusion {
+namespace {
+
+constexpr double kBehind = 1.2;  // metres to what stands behind
+
+const std::vector<Polyline> kWires = {TestLine({-0.05, 0.08, 0}, {-0.05, -0.08, 0.02}),
+                                      TestLine({-0.05, -0.02, 0.012}, {0.06, 0.05, 0.03}),
+                                      TestLine({0.06, 0.05, 0.03}, {0.04, -0.07, -0.02})};
+
+// What a camera shows whose depth is off along its line of sight.
+SkeletonGraph WiresOffBy(double depth) {
+  SkeletonGraph graph;
+  for (Polyline wire : kWires) {
+    for (Vec3& p : wire) p.z() += depth;
+    AddTestEdge(graph, wire);
+  }
+  return graph;
+}
+
+WireColours ColoursOf(const Sequence& sequence) {
+  constexpr uint8_t kDark = 100;
+  WireColourModel model;
+  ForEachFrame(sequence, {0}, {.depth = false, .color = true}, [&](const DecodedFrame& frame) {
+    const ColourBins bins = BinColours(frame.color);
+    for (size_t i = 0; i < bins.size(); ++i) {
+      if (frame.color.data()[i][0] < kDark) {
+        model.AddWire(bins.data()[i]);
+      } else {
+        model.AddBackground(bins.data()[i]);
+      }
+    }
+  });
+  return {.posterior = model.Posterior()};
+}
+
+class ColourStart : public testing::Test {
+ protected:
+  // Starts with curves of depth that are off by so much.
+  std::optional<ColourAdjustment> Start(double depth, const BestOptions& options = {}) {
+    result_.sequence = scan_.sequence();
+    result_.skeleton = WiresOffBy(depth);
+    for (const EdgeId id : result_.skeleton.Edges()) {
+      for (const Vec3& p : result_.skeleton.edge(id).points) result_.points.Add(p, Vec3::UnitZ(), 1);
+    }
+    return StartFromColour(scan_.sequence(), ColoursOf(scan_.sequence()), options,
+                           StageReporter{observer_, log_}, result_);
+  }
+
+  double MedianDistance() const {
+    std::vector<double> distances;
+    for (const EdgeId id : result_.skeleton.Edges()) {
+      for (const Vec3& p : result_.skeleton.edge(id).points) {
+        double nearest = 1;
+        for (const Polyline& wire : kWires) nearest = std::min(nearest, Project(wire, p).distance);
+        distances.push_back(nearest);
+      }
+    }
+    return Median(distances);
+  }
+
+  SilhouetteScan scan_{kWires, {}, kBehind};
+  PipelineObserver observer_;
+  StageLog log_;
+  Reconstruction result_;
+};
+
+TEST_F(ColourStart, FindsWiresThatDepthShowsInWrongPlaces) {
+  ASSERT_TRUE(Start(0.04).has_value());
+  EXPECT_LT(MedianDistance(), 0.001);
+  double length = 0;
+  for (const Polyline& wire : kWires) length += Length(wire);
+  EXPECT_NEAR(result_.skeleton.TotalLength(), length, 0.15 * length);
+  EXPECT_EQ(result_.warnings.size(), 1u);
+}
+
+TEST_F(ColourStart, LeavesCurvesThatTheImagesShow) {
+  EXPECT_FALSE(Start(0).has_value());
+  EXPECT_EQ(result_.skeleton.edge_count(), 3);
+  EXPECT_TRUE(result_.warnings.empty());
+}
+
+TEST_F(ColourStart, ReplacesThemWhereItIsToldTo) {
+  BestOptions options;
+  options.colour_start.always = true;
+  EXPECT_TRUE(Start(0, options).has_value());
+  EXPECT_LT(MedianDistance(), 0.001);
+}
+
+TEST_F(ColourStart, NeedsColoursAndAPlaceToLookAt) {
+  result_.sequence = scan_.sequence();
+  const StageReporter reporter{observer_, log_};
+  EXPECT_FALSE(StartFromColour(scan_.sequence(), ColoursOf(scan_.sequence()), {}, reporter, result_)
+                   .has_value());
+  result_.points.Add(Vec3::Zero(), Vec3::UnitZ(), 1);
+  EXPECT_FALSE(StartFromColour(scan_.sequence(), {}, {}, reporter, result_).has_value());
+}
+
+}  // namespace
+}  // namespace curvefusion
