@@ -116,8 +116,8 @@ void AddMissedWires(const WireCompletionOptions& options, const StageReporter& r
   reporter.observer.OnGraph("completed", result.skeleton);
 }
 
-// Deviation: without an adjustment, what the images look past is dropped by the colours first
-// learned.
+// Deviation: rows of close wires have no strips to be adjusted to; what the images look past
+// between them is dropped by the colours first learned.
 void PruneUnadjusted(const WireColours& colours, const SilhouetteOptions& options,
                      const StageReporter& reporter, Reconstruction& result) {
   const bool is_told = !colours.posterior.empty() && !result.skeleton.empty();
@@ -181,7 +181,7 @@ void RefineByColour(const Sequence& given, const SegmentationModel& model,
   }
   if (adjusted) {
     CorrectBySilhouettes(*adjusted, depth, options, reporter, result);
-  } else {
+  } else if (model.row_spacing > 0) {
     PruneUnadjusted(model.colours, options.silhouettes, reporter, result);
   }
   measure_radii();

@@ -93,14 +93,19 @@ std::optional<ColourAdjustment> StartFromColour(const Sequence& given, const Wir
   const ShownCurves before = CountShown(result.sequence, images, result.skeleton);
   std::optional<ColourAdjustment> adjusted;
   for (int round = 0; round < kRounds; ++round) {
-    ContractPlacesThatImagesAgreeOn(images, around, options.ridge, reporter, colour);
-    if (colour.skeleton.empty()) return std::nullopt;
-    AssignMeasuredRadii(0, options.radius, reporter, colour);
-    adjusted = AdjustCurvesAndPoses(given, WireDepth::kNotShown, options.colour_adjustment,
-                                    reporter, colour);
-    if (!adjusted) return std::nullopt;
+    Reconstruction next;
+    next.sequence = colour.sequence;
+    ContractPlacesThatImagesAgreeOn(images, around, options.ridge, reporter, next);
+    if (next.skeleton.empty()) break;
+    AssignMeasuredRadii(0, options.radius, reporter, next);
+    std::optional<ColourAdjustment> again = AdjustCurvesAndPoses(
+        given, WireDepth::kNotShown, options.colour_adjustment, reporter, next);
+    if (!again) break;  // also where the curves are as exact already
+    adjusted = std::move(again);
     images = {adjusted->frames, adjusted->posteriors};
+    colour = std::move(next);
   }
+  if (!adjusted) return std::nullopt;
   const ShownCurves after = CountShown(colour.sequence, images, colour.skeleton);
   reporter.log.Count(kStage, "of depth shown as wire, m", before.shown);
   reporter.log.Count(kStage, "shown as wire, m", after.shown);

@@ -77,8 +77,8 @@ const std::map<std::string, std::map<std::string, std::set<std::string>>> kRooms
       {"tracking", {"volume"}},
       {"paper", {"", "segmentation", "strips", "volume"}},
       {"best",
-       {"", "adjustment", "curve_graph", "registration", "segmentation", "silhouettes", "strips",
-        "volume"}},
+       {"", "adjustment", "appearance", "curve_graph", "registration", "segmentation",
+        "silhouettes", "strips", "volume"}},
       {"", {"best", "curve_graph", "paper", "silhouettes", "strips", "volume"}}}},
 };
 

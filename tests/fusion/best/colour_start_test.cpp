@@ -45,11 +45,13 @@ WireColours ColoursOf(const Sequence& sequence) {
 class ColourStart : public testing::Test {
  protected:
   // Starts with curves of depth that are off by so much.
-  std::optional<ColourAdjustment> Start(double depth, const BestOptions& options = {}) {
+  std::optional<ColourAdjustment> Start(double depth,
+                                        const BestOptions& options = DefaultBestOptions()) {
     result_.sequence = scan_.sequence();
     result_.skeleton = WiresOffBy(depth);
     for (const EdgeId id : result_.skeleton.Edges()) {
-      for (const Vec3& p : result_.skeleton.edge(id).points) result_.points.Add(p, Vec3::UnitZ(), 1);
+      for (const Vec3& p : result_.skeleton.edge(id).points)
+        result_.points.Add(p, Vec3::UnitZ(), 1);
     }
     return StartFromColour(scan_.sequence(), ColoursOf(scan_.sequence()), options,
                            StageReporter{observer_, log_}, result_);
@@ -89,7 +91,7 @@ TEST_F(ColourStart, LeavesCurvesThatTheImagesShow) {
 }
 
 TEST_F(ColourStart, ReplacesThemWhereItIsToldTo) {
-  BestOptions options;
+  BestOptions options = DefaultBestOptions();
   options.colour_start.always = true;
   EXPECT_TRUE(Start(0, options).has_value());
   EXPECT_LT(MedianDistance(), 0.001);
