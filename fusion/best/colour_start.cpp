@@ -115,14 +115,11 @@ std::optional<ColourAdjustment> StartFromColour(const Sequence& given, const Wir
   result.skeleton = std::move(colour.skeleton);
   result.radii = std::move(colour.radii);
   result.uncertain = {};
-  result.trust.adjusted = true;
-  result.trust.residual_before_px = colour.trust.residual_before_px;
-  result.trust.residual_px = colour.trust.residual_px;
-  result.warnings.push_back(
-      fmt::format("depth does not show the wires where colour images show them ({:.2f} of {:.2f} "
-                  "m); the curves "
-                  "come from the colour images alone, and their scale from the poses",
-                  before.shown, before.length));
+  result.trust = colour.trust;
+  result.warnings.push_back(fmt::format(
+      "the curves come from the colour images alone, and their scale from the poses: the "
+      "images show {:.2f} m of them as wire, and {:.2f} of {:.2f} m of depth's",
+      after.shown, before.shown, before.length));
   return adjusted;
 }
 
