@@ -177,7 +177,7 @@ is opened without.
 Parameters
 ----------
 folder : path
-    One of the layouts of docs/formats.md.
+    One of the layouts of docs/formats_input.md.
 
 Returns
 -------
