@@ -69,17 +69,27 @@ struct Format {
   Reader read_images;
 };
 
-constexpr std::array<Format, 4> kFormats = {{
+constexpr std::array<Format, 7> kFormats = {{
+    {"icl-nuim", LooksLikeIclNuim, LooksLikeIclNuim, ReadIclNuim, ReadIclNuimImages},
     {"tum", LooksLikeTum, HasTumTrajectory, ReadTum, ReadTumImages},
     {"redwood", LooksLikeRedwood, HasTrajectoryLog, ReadRedwood, ReadRedwoodImages},
     {"per-frame poses", LooksLikePerFramePoses, HasPoseFolder, ReadPerFramePoses,
      ReadPerFrameImages},
     {"7-scenes", LooksLikeSevenScenes, HasPoseFiles, ReadSevenScenes, ReadSevenScenesImages},
+    {"nerfstudio", HasTransforms, HasTransforms, ReadNerfstudio, ReadNerfstudioImages},
+    {"colmap", HasColmapModel, HasColmapModel, ReadColmap, ReadColmapImages},
 }};
 
-bool LooksLikeSequence(const fs::path& folder) {
-  return std::any_of(kFormats.begin(), kFormats.end(),
-                     [&](const Format& format) { return format.matches(folder); });
+// The first that matches and has poses, or else the first that matches: a folder may hold the files
+// of several. Null where none does.
+const Format* FormatOf(const fs::path& folder) {
+  const auto matches = [&](const Format& format) { return format.matches(folder); };
+  const auto complete = [&](const Format& format) {
+    return format.matches(folder) && format.has_poses(folder);
+  };
+  auto found = std::find_if(kFormats.begin(), kFormats.end(), complete);
+  if (found == kFormats.end()) found = std::find_if(kFormats.begin(), kFormats.end(), matches);
+  return found == kFormats.end() ? nullptr : &*found;
 }
 
 // The first scans, by name, among the folders inside a folder. Those that cannot be read are not.
@@ -88,7 +98,7 @@ std::vector<std::string> ScansInside(const fs::path& folder) {
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
     try {
-      if (entry.is_directory() && LooksLikeSequence(entry.path())) {
+      if (entry.is_directory() && FormatOf(entry.path()) != nullptr) {
         scans.push_back(entry.path().string());
       }
     } catch (const fs::filesystem_error&) {
@@ -116,7 +126,10 @@ std::vector<std::string> ScansInside(const fs::path& folder) {
           "trajectory.txt (TUM); color/ (or rgb/, image/), depth/, intrinsics.json and pose/ "
           "(per-frame poses); "
           "color/, depth/ and "
-          "trajectory.log (Open3D, Redwood); frame-000000.depth.png and so on (7-Scenes)",
+          "trajectory.log (Open3D, Redwood); frame-000000.depth.png and so on (7-Scenes); "
+          "transforms.json (nerfstudio, instant-ngp); images/, depth/ and cameras.txt or .bin in "
+          "it "
+          "or in sparse/0 (COLMAP)",
           folder.string()));
 }
 
@@ -162,18 +175,16 @@ void RequireFolder(const fs::path& folder) {
 
 Sequence ReadSequence(const fs::path& folder, PoseUse use, const FindingHandler& on_finding) {
   RequireFolder(folder);
-  for (const Format& format : kFormats) {
-    if (!format.matches(folder)) continue;
-    const bool with_poses =
-        use == PoseUse::kNeeded || (use == PoseUse::kIfGiven && format.has_poses(folder));
-    Sequence sequence = (with_poses ? format.read : format.read_images)(folder, on_finding);
-    sequence.has_poses = with_poses;
-    sequence.format = format.name;
-    sequence.folder = folder;
-    ReportDroppedFrames(sequence, on_finding);
-    return sequence;
-  }
-  FailUnknownFormat(folder);
+  const Format* format = FormatOf(folder);
+  if (format == nullptr) FailUnknownFormat(folder);
+  const bool with_poses =
+      use == PoseUse::kNeeded || (use == PoseUse::kIfGiven && format->has_poses(folder));
+  Sequence sequence = (with_poses ? format->read : format->read_images)(folder, on_finding);
+  sequence.has_poses = with_poses;
+  sequence.format = format->name;
+  sequence.folder = folder;
+  ReportDroppedFrames(sequence, on_finding);
+  return sequence;
 }
 
 }  // namespace curvefusion

@@ -143,13 +143,8 @@ const std::vector<std::string>& KnownKeys() {
 
 }  // namespace
 
-Distortion ParseDistortion(const json& object, const PinholeCamera& camera,
-                           const std::string& where) {
-  RequireKnownCoefficients(object, where);
-  if (HasCoefficients(object) || IsFisheye(object)) RequireKnownModel(object, where);
-  const Distortion distortion = object.contains("distortion")
-                                    ? FromList(object["distortion"], where)
-                                    : FromKeys(object, where);
+void RequireUnfolded(const PinholeCamera& camera, const Distortion& distortion,
+                     const std::string& where) {
   const double corner = CornerRadius(camera);
   if (!(distortion.ValidRadius(corner) >= kMinValidShare * corner &&
         LargestShift(camera, distortion) <= kMaxShiftShare * camera.width)) {
@@ -159,6 +154,16 @@ Distortion ParseDistortion(const json& object, const PinholeCamera& camera,
         "in the order k1, k2, p1, p2, k3",
         where, distortion.k1, distortion.k2, distortion.p1, distortion.p2, distortion.k3));
   }
+}
+
+Distortion ParseDistortion(const json& object, const PinholeCamera& camera,
+                           const std::string& where) {
+  RequireKnownCoefficients(object, where);
+  if (HasCoefficients(object) || IsFisheye(object)) RequireKnownModel(object, where);
+  const Distortion distortion = object.contains("distortion")
+                                    ? FromList(object["distortion"], where)
+                                    : FromKeys(object, where);
+  RequireUnfolded(camera, distortion, where);
   return distortion;
 }
 

@@ -16,6 +16,10 @@ namespace curvefusion {
 Distortion ParseDistortion(const nlohmann::json& object, const PinholeCamera& camera,
                            const std::string& where);
 
+/// Throws Error(kBadInput), naming `where`, for coefficients that fold the image over.
+void RequireUnfolded(const PinholeCamera& camera, const Distortion& distortion,
+                     const std::string& where);
+
 /// Warns ("unknown-key") of keys of a camera in intrinsics.json that are not known and whose values
 /// are numbers, lists or objects; text and flags are taken for remarks.
 void ReportUnknownKeys(const nlohmann::json& object, const std::string& where,

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "capture/distortion_keys.h"
+#include "capture/json_fields.h"
 #include "capture/trajectory.h"
 #include "kernel/error.h"
 #include "kernel/json_input.h"
@@ -33,77 +34,26 @@ json ParseJsonObject(const std::filesystem::path& path) {
   return object;
 }
 
-double Number(const json& object, const char* key, const std::string& where) {
-  const auto value = object.find(key);
-  if (value == object.end()) Fail(fmt::format("{}: '{}' is missing", where, key));
-  if (!value->is_number()) {
-    Fail(fmt::format("{}: '{}' is {}, a number is needed", where, key, value->dump()));
-  }
-  return value->get<double>();
-}
-
-// The size of an image; RequirePlausible refuses what is not positive.
-int Pixels(const json& object, const char* key, const std::string& where) {
-  constexpr double kMaxPixels = 65536;
-  const double value = Number(object, key, where);
-  if (!(std::abs(value) <= kMaxPixels)) {
-    Fail(fmt::format("{}: '{}' is {}; an image has at most {} pixels a side", where, key, value,
-                     kMaxPixels));
-  }
-  return static_cast<int>(value);
-}
-
-void RequirePlausible(const PinholeCamera& camera, const std::string& where) {
-  if (camera.width <= 0 || camera.height <= 0) {
-    Fail(fmt::format("{}: the image size is {}x{}; width and height must be positive", where,
-                     camera.width, camera.height));
-  }
-  if (!(camera.fx > 0 && camera.fy > 0)) {
-    Fail(fmt::format("{}: fx = {}, fy = {}; focal lengths in pixels must be positive", where,
-                     camera.fx, camera.fy));
-  }
-  if (!camera.Contains({camera.cx, camera.cy})) {
-    Fail(
-        fmt::format("{}: the principal point ({}, {}) lies outside the {}x{} image; it is given in "
-                    "pixels of the full image",
-                    where, camera.cx, camera.cy, camera.width, camera.height));
-  }
-}
-
 PinholeCamera ParseCamera(const json& object, const std::string& where) {
   PinholeCamera camera;
-  camera.width = Pixels(object, "width", where);
-  camera.height = Pixels(object, "height", where);
-  camera.fx = Number(object, "fx", where);
-  camera.fy = Number(object, "fy", where);
-  camera.cx = Number(object, "cx", where);
-  camera.cy = Number(object, "cy", where);
+  camera.width = JsonPixels(object, "width", where);
+  camera.height = JsonPixels(object, "height", where);
+  camera.fx = JsonNumber(object, "fx", where);
+  camera.fy = JsonNumber(object, "fy", where);
+  camera.cx = JsonNumber(object, "cx", where);
+  camera.cy = JsonNumber(object, "cy", where);
   RequirePlausible(camera, where);
   return camera;
 }
 
-void AppendNumbers(const json& value, std::vector<double>& numbers) {
-  if (value.is_number()) numbers.push_back(value.get<double>());
-  if (!value.is_array()) return;
-  for (const json& entry : value) AppendNumbers(entry, numbers);
-}
-
 RigidTransform ParseTransform(const json& value, const std::string& where) {
-  std::vector<double> numbers;
-  AppendNumbers(value, numbers);
-  if (numbers.size() != 16) {
-    Fail(fmt::format("{}: a 4x4 matrix of 16 numbers is needed, {} are there", where,
-                     numbers.size()));
-  }
-  const Eigen::Matrix4d matrix =
-      Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(numbers.data());
-  return *RigidFromMatrix(matrix, where,
+  return *RigidFromMatrix(JsonMatrix(value, where), where,
                           [](const CheckFinding& finding) { Fail(finding.message); });
 }
 
 std::optional<double> ParseDepthScale(const json& object, const std::string& where) {
   if (!object.contains("depth_scale")) return std::nullopt;
-  const double scale = Number(object, "depth_scale", where);
+  const double scale = JsonNumber(object, "depth_scale", where);
   if (!(scale > 0)) {
     Fail(
         fmt::format("{}: depth_scale is {}; it is the number of depth units in a metre, 1000 for "
@@ -159,8 +109,12 @@ Intrinsics ParseRedwoodIntrinsics(const std::filesystem::path& path,
                     where));
   }
   Intrinsics intrinsics;
-  intrinsics.depth_camera = {
-      Pixels(object, "width", where), Pixels(object, "height", where), m[0], m[4], m[6], m[7]};
+  intrinsics.depth_camera = {JsonPixels(object, "width", where),
+                             JsonPixels(object, "height", where),
+                             m[0],
+                             m[4],
+                             m[6],
+                             m[7]};
   RequirePlausible(intrinsics.depth_camera, where);
   intrinsics.depth_distortion = ParseDistortion(object, intrinsics.depth_camera, where);
   intrinsics.depth_scale = ParseDepthScale(object, where);

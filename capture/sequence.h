@@ -23,7 +23,7 @@ struct SequenceFrame {
 
 /// An RGB-D sequence whose images are decoded when asked for. Open it with OpenSequence.
 struct Sequence {
-  std::string format;  ///< "tum", "per-frame poses", "redwood" or "7-scenes"
+  std::string format;  ///< its name in docs/formats_input.md, such as "tum"
   std::filesystem::path folder;
   PinholeCamera depth_camera;
   PinholeCamera color_camera;
@@ -48,7 +48,7 @@ enum class PoseUse {
   kIgnored,  ///< every frame with both images is there, Sequence::has_poses is false
 };
 
-/// Detects the format of a folder (DESIGN: TUM, per-frame poses, Open3D/Redwood, 7-Scenes) and
+/// Detects the format of a folder (docs/formats_input.md) and
 /// reads everything but the images, of which it looks at the headers and at the depths of a few
 /// frames. Throws Error(kBadInput) naming file, line or frame, value and remedy at the first defect
 /// that would spoil a reconstruction; capture/check.h finds all of them. Well under a second.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
@@ -48,10 +49,25 @@ ordered_json CameraJson(const PinholeCamera& camera) {
           {"fy", camera.fy},       {"cx", camera.cx},         {"cy", camera.cy}};
 }
 
+ordered_json LensJson(const PinholeCamera& camera, const Distortion& d) {
+  ordered_json lens = CameraJson(camera);
+  if (!d.IsZero()) lens["distortion"] = {d.k1, d.k2, d.p1, d.p2, d.k3};
+  return lens;
+}
+
 // The keys of the sequence's own file, where it has one.
 ordered_json GivenIntrinsics(const Sequence& sequence) {
   const fs::path path = sequence.folder / "intrinsics.json";
-  if (!fs::exists(path)) return CameraJson(sequence.depth_camera);
+  if (!fs::exists(path)) {
+    ordered_json cameras = LensJson(sequence.depth_camera, sequence.depth_distortion);
+    cameras["color_camera"] = LensJson(sequence.color_camera, sequence.color_distortion);
+    const Eigen::Matrix4d matrix = sequence.T_color_depth.matrix();
+    for (int row = 0; row < 4; ++row) {
+      cameras["T_color_depth"].push_back(
+          {matrix(row, 0), matrix(row, 1), matrix(row, 2), matrix(row, 3)});
+    }
+    return cameras;
+  }
   return ordered_json(ParseJson(ReadFile(path), path.string()));
 }
 
@@ -73,6 +89,13 @@ struct Layout {
     return is_seven_scenes ? frame.name + ".pose.txt" : "pose/" + frame.name + ".txt";
   }
 };
+
+// Formats whose names of images need not hold different numbers: by the number of the frame.
+void NameByNumber(SequenceCorrection& correction) {
+  for (SequenceFrame& frame : correction.sequence.frames) {
+    frame.name = fmt::format("{:06}", std::llround(frame.timestamp));
+  }
+}
 
 void WriteText(const fs::path& path, const std::string& text) {
   WriteStreamAtomically(path, [&](std::ostream& stream) { stream << text; });
@@ -122,8 +145,10 @@ void WritePoseFiles(const SequenceCorrection& correction, const Layout& layout,
 
 }  // namespace
 
-void WriteRepairedSequence(const SequenceCorrection& correction, const fs::path& folder) {
+void WriteRepairedSequence(const SequenceCorrection& given, const fs::path& folder) {
+  SequenceCorrection correction = given;
   const Sequence& sequence = correction.sequence;
+  if (sequence.format == "nerfstudio" || sequence.format == "colmap") NameByNumber(correction);
   const Layout layout{sequence.format == "tum", sequence.format == "7-scenes"};
   ordered_json intrinsics = GivenIntrinsics(sequence);
   intrinsics["depth_scale"] = sequence.depth_scale;

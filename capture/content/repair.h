@@ -11,7 +11,6 @@ namespace curvefusion {
 /// associations.txt; the others become one pose a frame, or 7-Scenes where they were. The folder
 /// gets its name when it is complete. Throws Error(kUsage) where it is there and not empty,
 /// Error(kResource) where it cannot be written.
-void WriteRepairedSequence(const SequenceCorrection& correction,
-                           const std::filesystem::path& folder);
+void WriteRepairedSequence(const SequenceCorrection& given, const std::filesystem::path& folder);
 
 }  // namespace curvefusion

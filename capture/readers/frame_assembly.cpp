@@ -4,14 +4,19 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <optional>
 #include <string>
 
+#include "capture/image_file.h"
 #include "kernel/error.h"
 
 namespace curvefusion {
 
 namespace {
+
+// Chosen: a pixel of 100; 256x192 of 1920x1440 is exact, 640x360 of 640x480 is far off.
+constexpr double kMaxProportionChange = 0.01;
 
 std::optional<long long> FrameNumber(const std::string& name) {
   const size_t begin = name.find_first_of("0123456789");
@@ -27,6 +32,32 @@ bool IsImageName(const std::string& name, const std::string& kind) {
     if (name.ends_with(kind + extension)) return true;
   }
   return false;
+}
+
+// As text, but numbers by value.
+bool ComesBefore(const std::string& a, const std::string& b) {
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  size_t i = 0;
+  size_t j = 0;
+  while (i < a.size() && j < b.size()) {
+    if (!is_digit(a[i]) || !is_digit(b[j])) {
+      if (a[i] != b[j]) return a[i] < b[j];
+      ++i;
+      ++j;
+      continue;
+    }
+    const auto number = [&](const std::string& text, size_t& at) {
+      while (at < text.size() && text[at] == '0') ++at;
+      const size_t begin = at;
+      while (at < text.size() && is_digit(text[at])) ++at;
+      return text.substr(begin, at - begin);
+    };
+    const std::string x = number(a, i);
+    const std::string y = number(b, j);
+    if (x != y) return x.size() != y.size() ? x.size() < y.size() : x < y;
+  }
+  if (i < a.size() || j < b.size()) return j < b.size();
+  return a < b;  // "01" and "1"
 }
 
 }  // namespace
@@ -87,6 +118,37 @@ void AddFrames(NumberedImages color, const NumberedImages& depth, const PoseLook
     }
   }
   sequence.frames_without_partner += static_cast<int>(color.size());
+}
+
+PinholeCamera RegisteredDepthCamera(const PinholeCamera& color,
+                                    const std::filesystem::path& depth_image) {
+  const ImageHeader header = ReadImageHeader(depth_image);
+  if (header.width <= 0 || header.height <= 0 || color.width <= 0) return color;
+  const double scale_x = static_cast<double>(header.width) / color.width;
+  const double scale_y = static_cast<double>(header.height) / color.height;
+  if (std::abs(scale_x / scale_y - 1) > kMaxProportionChange) {
+    throw Error(
+        ErrorKind::kBadInput,
+        fmt::format("{}: is {}x{}, the colour camera {}x{}; depth must show the view of "
+                    "colour, in any size of the same proportion",
+                    depth_image.string(), header.width, header.height, color.width, color.height));
+  }
+  return {header.width,
+          header.height,
+          color.fx * scale_x,
+          color.fy * scale_y,
+          (color.cx + 0.5) * scale_x - 0.5,
+          (color.cy + 0.5) * scale_y - 0.5};
+}
+
+void NumberByColorPath(Sequence& sequence) {
+  std::sort(sequence.frames.begin(), sequence.frames.end(),
+            [](const SequenceFrame& a, const SequenceFrame& b) {
+              return ComesBefore(a.color_path.string(), b.color_path.string());
+            });
+  for (size_t i = 0; i < sequence.frames.size(); ++i) {
+    sequence.frames[i].timestamp = static_cast<double>(i);
+  }
 }
 
 std::string FrameName(const std::filesystem::path& image) {

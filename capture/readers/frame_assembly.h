@@ -41,6 +41,17 @@ std::optional<RigidTransform> NoPose(int rank, const std::filesystem::path& dept
 void AddFrames(NumberedImages color, const NumberedImages& depth, const PoseLookup& find_pose,
                Sequence& sequence);
 
+/// The camera of depth images that are registered to the images of `color` but may be smaller, as
+/// the depth of phones is: the same view in the size of the image file. The camera itself where the
+/// file cannot be read, which the survey of images reports. Throws Error(kBadInput) where the sides
+/// have another proportion.
+PinholeCamera RegisteredDepthCamera(const PinholeCamera& color,
+                                    const std::filesystem::path& depth_image);
+
+/// Puts frames in the order of the paths of their colour images, as text but numbers by value ("2"
+/// before "10"), and numbers them from 0: formats that have neither times nor an order.
+void NumberByColorPath(Sequence& sequence);
+
 /// `name` up to its first dot: "frame-000007" of "frame-000007.depth.png".
 std::string FrameName(const std::filesystem::path& image);
 

@@ -7,7 +7,7 @@
 
 namespace curvefusion {
 
-/// The readers of the four formats (DESIGN "Formats"). Each reads everything but the images and
+/// The readers of the layouts (docs/formats_input.md). Each reads everything but the images and
 /// reports defects of intrinsics, stamps and poses; frames with a defect are left out. Each throws
 /// Error(kBadInput) where a file that it cannot do without is missing.
 
@@ -22,6 +22,15 @@ bool HasTumTrajectory(const std::filesystem::path& folder);
 
 /// The trajectory file of such a folder. Throws Error(kBadInput) where there is none.
 std::filesystem::path TumTrajectoryPath(const std::filesystem::path& folder);
+
+/// Whether the folder is of ICL-NUIM, TUM-compatible: associations.txt, and the poses in a file
+/// *.gt.freiburg instead of trajectory.txt or groundtruth.txt.
+bool LooksLikeIclNuim(const std::filesystem::path& folder);
+
+/// The same lists with numbers of frames for stamps and poses of a left-handed world. Without an
+/// intrinsics.json the camera is that of the data set.
+Sequence ReadIclNuim(const std::filesystem::path& folder, const FindingHandler& on_finding);
+Sequence ReadIclNuimImages(const std::filesystem::path& folder, const FindingHandler& on_finding);
 
 /// color/ (or colour/, rgb/, image/, images/), depth/ and pose/ with files of the same name;
 /// intrinsics.json. Millimetres unless it says otherwise.
@@ -45,5 +54,23 @@ Sequence ReadSevenScenes(const std::filesystem::path& folder, const FindingHandl
 /// The same images whatever their poses, which are the identity.
 Sequence ReadSevenScenesImages(const std::filesystem::path& folder,
                                const FindingHandler& on_finding);
+
+/// Whether the folder holds the transforms.json of nerfstudio and instant-ngp.
+bool HasTransforms(const std::filesystem::path& folder);
+
+/// transforms.json with colour, depth and pose of every frame: OpenGL camera axes, one camera for
+/// all frames, depth in 1 mm or depth_unit_scale_factor metres. Frames are put in the order of
+/// their colour files' names. Without poses they are the identity.
+Sequence ReadNerfstudio(const std::filesystem::path& folder, const FindingHandler& on_finding);
+Sequence ReadNerfstudioImages(const std::filesystem::path& folder,
+                              const FindingHandler& on_finding);
+
+/// Whether the folder, its sparse/0 or its sparse holds cameras and images of a COLMAP model.
+bool HasColmapModel(const std::filesystem::path& folder);
+
+/// A COLMAP model as text or binary, colour images in images/ (or color/, rgb/ ...) and 16-bit
+/// depth of the same names in depth/, millimetres. Warns that the model's scale need not be metres.
+Sequence ReadColmap(const std::filesystem::path& folder, const FindingHandler& on_finding);
+Sequence ReadColmapImages(const std::filesystem::path& folder, const FindingHandler& on_finding);
 
 }  // namespace curvefusion

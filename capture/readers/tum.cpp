@@ -20,6 +20,10 @@ namespace curvefusion {
 namespace {
 
 constexpr double kTumDepthUnits = 5000;
+// ICL-NUIM, of its site: rendered at 30 Hz by a camera whose y runs up, so fy is -480 there. Its
+// PNGs are stored from the top, as all are; the negative sign goes into the poses (Mirrored).
+constexpr PinholeCamera kIclNuimCamera = {640, 480, 481.2, 480, 319.5, 239.5};
+constexpr double kIclNuimFrameRate = 30;
 constexpr const char* kTrajectoryNames[] = {"trajectory.txt", "groundtruth.txt"};
 
 // A line "stamp path" of rgb.txt or depth.txt.
@@ -120,7 +124,65 @@ SequenceFrame FrameOf(const ImagePair& pair, const RigidTransform& T_world_camer
           pair.color.path,  pair.depth.path,      pair.color.timestamp - pair.depth.timestamp};
 }
 
+// The file of poses that ICL-NUIM ships, such as livingRoom1.gt.freiburg; empty where none is
+// there.
+std::filesystem::path FreiburgPath(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> paths;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() == ".freiburg") paths.push_back(entry.path());
+  }
+  return paths.empty() ? std::filesystem::path() : *std::min_element(paths.begin(), paths.end());
+}
+
+// Poses of ICL-NUIM are rotations between two left-handed frames, y up; here y is down in both.
+RigidTransform Mirrored(const RigidTransform& T_world_camera) {
+  const Eigen::DiagonalMatrix<double, 3> flip(1, -1, 1);
+  RigidTransform mirrored = RigidTransform::Identity();
+  mirrored.linear() = flip * T_world_camera.linear() * flip;
+  mirrored.translation() = flip * T_world_camera.translation();
+  return mirrored;
+}
+
+Sequence ReadIclNuimWith(const std::filesystem::path& folder, bool with_poses,
+                         const FindingHandler& on_finding) {
+  Sequence sequence;
+  Intrinsics intrinsics;
+  intrinsics.depth_camera = intrinsics.color_camera = kIclNuimCamera;
+  if (std::filesystem::exists(folder / "intrinsics.json")) {
+    intrinsics = ReadIntrinsics(folder / "intrinsics.json", on_finding);
+  }
+  UseIntrinsics(intrinsics, kTumDepthUnits, sequence);
+  const Trajectory trajectory =
+      with_poses ? ReadTumTrajectory(FreiburgPath(folder), on_finding) : Trajectory();
+  for (const ImagePair& pair : ReadPairs(folder, on_finding, sequence)) {
+    const StampedPose* pose = NearestPose(trajectory, pair.depth.timestamp);
+    if (with_poses && pose == nullptr) {
+      ++sequence.frames_without_pose;
+      continue;
+    }
+    sequence.frames.push_back(
+        FrameOf(pair, with_poses ? Mirrored(pose->T_world_camera) : RigidTransform::Identity()));
+    SequenceFrame& frame = sequence.frames.back();
+    frame.timestamp /= kIclNuimFrameRate;  // the stamps are numbers of frames
+    frame.color_delay = 0;
+  }
+  return sequence;
+}
+
 }  // namespace
+
+bool LooksLikeIclNuim(const std::filesystem::path& folder) {
+  return std::filesystem::exists(folder / "associations.txt") && !HasTumTrajectory(folder) &&
+         !FreiburgPath(folder).empty();
+}
+
+Sequence ReadIclNuim(const std::filesystem::path& folder, const FindingHandler& on_finding) {
+  return ReadIclNuimWith(folder, true, on_finding);
+}
+
+Sequence ReadIclNuimImages(const std::filesystem::path& folder, const FindingHandler& on_finding) {
+  return ReadIclNuimWith(folder, false, on_finding);
+}
 
 bool HasTumTrajectory(const std::filesystem::path& folder) {
   return std::any_of(std::begin(kTrajectoryNames), std::end(kTrajectoryNames),
