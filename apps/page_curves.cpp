@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "meshing/douglas_peucker.h"
+#include "kernel/douglas_peucker.h"
 
 namespace curvefusion {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "meshing/douglas_peucker.h"
+#include "kernel/douglas_peucker.h"
 
 namespace curvefusion {
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "meshing/douglas_peucker.h"
+#include "kernel/douglas_peucker.h"
 #include "meshing/tube_envelope.h"
 
 namespace curvefusion {

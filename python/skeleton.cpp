@@ -216,7 +216,8 @@ Parameters
 ----------
 path : path
     .json or .graphml (metres, bit for bit), .ply or .obj (metres), .swc
-    (micrometres, a forest), .dxf (millimetres, 3D polylines).
+    (micrometres, a forest), .dxf (millimetres, 3D polylines), .svg
+    (millimetres, three views), .usda (metres).
 
 Returns
 -------

@@ -80,7 +80,8 @@ void AddContractCommand(CLI::App& app, int& exit_code) {
   command->add_option("CLOUD", arguments->cloud, "PLY, PCD or XYZ file")->required();
   command
       ->add_option("-o,--output", arguments->output,
-                   "The skeleton to write, by extension: .json, .graphml, .swc, .ply, .obj or .dxf")
+                   "The skeleton to write, by extension: .json, .graphml, .swc, .ply, .obj, .dxf, "
+                   ".svg or .usda")
       ->required();
   command
       ->add_option("--scale", arguments->scale,

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "apps/output_guard.h"
 #include "graph/graph_figures.h"
 #include "graph/intersections.h"
+#include "graph/io/cut_list.h"
 #include "graph/io/graph_io.h"
 #include "graph/smoothing.h"
 #include "graph/validate.h"
@@ -30,6 +32,9 @@ struct GraphArguments {
   double smooth = 0;      // lambda; 0 = do not
   std::filesystem::path output;
   std::filesystem::path convert;
+  double fit_mm = 0;  // 0 = --convert writes polylines
+  std::filesystem::path cut_list;
+  double bend_tolerance_mm = 1;  // chosen: half the error of a wire's axis in a good scan
   RunOptions run;
 };
 
@@ -75,6 +80,25 @@ void Export(const std::filesystem::path& path, const SkeletonGraph& graph, bool 
   for (const std::string& loss : losses) fmt::print("  {}\n", loss);
 }
 
+void ExportFitted(const GraphArguments& arguments, const SkeletonGraph& graph) {
+  ThrowIfCancelled();
+  MakeFolderOf(arguments.convert);
+  const SplineFigures figures =
+      ExportSplines(arguments.convert, graph, arguments.fit_mm * kMillimetre);
+  if (arguments.run.quiet) return;
+  fmt::print(
+      "Wrote {}\n  {} cubic B-splines of {} control points for polylines of {} points, "
+      "within {:.3g} mm\n",
+      arguments.convert.string(), graph.edge_count(), figures.control_points,
+      figures.polyline_points, figures.deviation / kMillimetre);
+}
+
+void ExportCutList(const GraphArguments& arguments, const SkeletonGraph& graph) {
+  MakeFolderOf(arguments.cut_list);
+  WriteCutList(arguments.cut_list, graph, arguments.bend_tolerance_mm * kMillimetre);
+  if (!arguments.run.quiet) fmt::print("Wrote {}\n", arguments.cut_list.string());
+}
+
 void CheckUsage(const GraphArguments& arguments) {
   const bool changes = arguments.resolve_mm > 0 || arguments.smooth > 0;
   if (changes && arguments.output.empty())
@@ -84,7 +108,16 @@ void CheckUsage(const GraphArguments& arguments) {
         ErrorKind::kUsage,
         "-o takes the result of --resolve or --smooth; --convert writes the graph as it is");
   if (!arguments.output.empty()) CheckSkeletonFormat(arguments.output);
-  if (!arguments.convert.empty()) CheckSkeletonFormat(arguments.convert);
+  if (arguments.fit_mm > 0) {
+    CheckSplineFormat(arguments.convert);
+  } else if (!arguments.convert.empty()) {
+    CheckSkeletonFormat(arguments.convert);
+  }
+  if (!arguments.cut_list.empty() && arguments.cut_list.extension() != ".csv") {
+    throw Error(ErrorKind::kUsage,
+                fmt::format("{}: a cut list is a .csv file, not '{}'", arguments.cut_list.string(),
+                            arguments.cut_list.extension().string()));
+  }
 }
 
 int RunGraph(const GraphArguments& arguments) {
@@ -92,9 +125,14 @@ int RunGraph(const GraphArguments& arguments) {
   LimitThreads(arguments.run);
   RequireApart({arguments.graph}, arguments.convert);
   RequireApart({arguments.graph, arguments.convert}, arguments.output);
+  RequireApart({arguments.graph, arguments.convert, arguments.output}, arguments.cut_list);
   SkeletonGraph graph = ReadSkeleton(arguments.graph);
   const bool valid = !arguments.validate || PrintViolations(graph, arguments);
-  if (!arguments.convert.empty()) Export(arguments.convert, graph, arguments.run.quiet);
+  if (arguments.fit_mm > 0) {
+    ExportFitted(arguments, graph);
+  } else if (!arguments.convert.empty()) {
+    Export(arguments.convert, graph, arguments.run.quiet);
+  }
   if (arguments.resolve_mm > 0) ResolveIntersections(graph, arguments.resolve_mm * kMillimetre);
   if (arguments.smooth > 0) {
     SmoothingOptions options;
@@ -102,8 +140,9 @@ int RunGraph(const GraphArguments& arguments) {
     graph = SmoothGraph(graph, options);
   }
   if (!arguments.output.empty()) Export(arguments.output, graph, arguments.run.quiet);
-  const bool only_info =
-      !arguments.validate && arguments.convert.empty() && arguments.output.empty();
+  if (!arguments.cut_list.empty()) ExportCutList(arguments, graph);
+  const bool only_info = !arguments.validate && arguments.convert.empty() &&
+                         arguments.output.empty() && arguments.cut_list.empty();
   if (arguments.info || only_info) PrintInfo(graph);
   return valid ? 0 : ExitCode(ErrorKind::kBadInput);
 }
@@ -141,16 +180,37 @@ void AddGraphCommand(CLI::App& app, int& exit_code) {
       ->check(CLI::PositiveNumber);
   command->add_option("-o,--output", arguments->output,
                       "Where --resolve and --smooth write; formats as for --convert");
-  command->add_option("--convert", arguments->convert,
-                      "Write the graph as it was read, by extension: .json, .graphml, .ply or .obj "
-                      "lines (metres), .swc (micrometres), .dxf polylines (mm); prints what the "
-                      "format does not keep");
+  CLI::Option* const convert = command->add_option(
+      "--convert", arguments->convert,
+      "Write the graph as it was read, by extension: .json, .graphml, .ply or .obj lines (metres), "
+      ".swc (micrometres), .dxf polylines (mm), .svg views (mm), .usda curves (metres); prints "
+      "what "
+      "the format does not keep");
+  command
+      ->add_option(
+          "--fit", arguments->fit_mm,
+          "With --convert to .dxf, .usda or .step: every edge as one cubic B-spline within "
+          "this distance in mm, such as 0.5 or 0.5mm")
+      ->transform(CLI::AsNumberWithUnit(std::map<std::string, double>{{"mm", 1.0}}))
+      ->check(CLI::PositiveNumber)
+      ->needs(convert);
+  CLI::Option* const cut_list = command->add_option(
+      "--cut-list", arguments->cut_list,
+      "Write a .csv that tells how to cut and bend the wire of every edge (mm, degrees), of the "
+      "result where the graph is changed");
+  command
+      ->add_option("--bend-tolerance", arguments->bend_tolerance_mm,
+                   "With --cut-list: how far in mm the bent wire may leave the curve (1)")
+      ->check(CLI::PositiveNumber)
+      ->needs(cut_list);
   AddRunOptions(*command, arguments->run);
   command->footer(
       "Example:\n  curvefusion graph result/skeleton.json --info\n"
       "  curvefusion graph result/skeleton.json --validate --proximity 3\n"
       "  curvefusion graph result/skeleton.json --resolve 3 --smooth 60 -o mended.json\n"
-      "  curvefusion graph result/skeleton.json --convert wires.dxf");
+      "  curvefusion graph result/skeleton.json --convert wires.dxf\n"
+      "  curvefusion graph result/skeleton.json --fit 0.5mm --convert wires.step\n"
+      "  curvefusion graph result/skeleton.json --cut-list wires.csv");
   command->callback([arguments, &exit_code] { exit_code = RunGraph(*arguments); });
 }
 

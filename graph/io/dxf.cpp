@@ -20,6 +20,7 @@ constexpr int kMillimetreUnits = 4;
 constexpr int kClosed = 1;
 constexpr int kPolyline3d = 8;
 constexpr int kPolyline3dVertex = 32;
+constexpr int kPlainSpline = 0;  // neither closed, periodic, rational nor planar
 
 void WritePolyline(const SkeletonEdge& edge, DL_Dxf& dxf, DL_WriterA& writer) {
   const bool closed = edge.nodes[0] == edge.nodes[1];
@@ -47,29 +48,62 @@ void RequireWhole(const std::filesystem::path& path) {
     throw Error(ErrorKind::kResource, path.string() + ": cannot be written; is the disk full?");
 }
 
-FormatLosses DxfLosses(const SkeletonGraph& graph) {
-  bool has_radii = false, has_observations = false;
-  for (const EdgeId id : graph.Edges()) {
-    has_radii = has_radii || !graph.edge(id).radii.empty();
-    has_observations = has_observations || !graph.edge(id).observations.empty();
+std::unique_ptr<DL_WriterA> OpenDxf(const std::filesystem::path& path, DL_Codes::version release,
+                                    DL_Dxf& dxf) {
+  std::unique_ptr<DL_WriterA> writer(dxf.out(path.c_str(), release));
+  if (writer != nullptr) return writer;
+  throw Error(ErrorKind::kResource, path.string() + ": cannot be opened for writing");
+}
+
+// The tables that release 2000 wants, with nothing of this drawing in them but layer 0.
+void WriteTables(DL_Dxf& dxf, DL_WriterA& writer) {
+  writer.sectionTables();
+  dxf.writeVPort(writer);
+  writer.tableLinetypes(3);
+  for (const char* name : {"BYBLOCK", "BYLAYER", "CONTINUOUS"}) {
+    dxf.writeLinetype(writer, DL_LinetypeData(name, "", 0, 0, 0.0));
   }
-  int isolated = 0;
-  for (const NodeId node : graph.Nodes()) isolated += graph.Degree(node) == 0 ? 1 : 0;
-  FormatLosses losses;
-  if (graph.edge_count() > 0) losses.emplace_back("curves meet by coordinates only, not by nodes");
-  if (isolated > 0) losses.push_back(fmt::format("{} nodes without edges are left out", isolated));
-  if (has_radii) losses.emplace_back("radii are not kept");
-  if (has_observations) losses.emplace_back("observation counts are not kept");
-  return losses;
+  writer.tableEnd();
+  writer.tableLayers(1);
+  dxf.writeLayer(writer, DL_LayerData("0", 0), DL_Attributes("", 7, -1, "CONTINUOUS", 1.0));
+  writer.tableEnd();
+  writer.tableStyle(1);
+  dxf.writeStyle(writer, DL_StyleData("STANDARD", 0, 0.0, 1.0, 0.0, 0, 2.5, "txt", ""));
+  writer.tableEnd();
+  dxf.writeView(writer);
+  dxf.writeUcs(writer);
+  writer.tableAppid(1);
+  dxf.writeAppid(writer, "ACAD");
+  writer.tableEnd();
+  dxf.writeDimStyle(writer, 1, 1, 1, 1, 1);
+  dxf.writeBlockRecord(writer);
+  writer.tableEnd();
+  writer.sectionEnd();
+  writer.sectionBlocks();
+  for (const char* name : {"*Model_Space", "*Paper_Space", "*Paper_Space0"}) {
+    dxf.writeBlock(writer, DL_BlockData(name, 0, 0.0, 0.0, 0.0));
+    dxf.writeEndBlock(writer, name);
+  }
+  writer.sectionEnd();
+}
+
+void WriteSpline(const CubicSpline& spline, DL_Dxf& dxf, DL_WriterA& writer) {
+  dxf.writeSpline(writer,
+                  DL_SplineData(3, static_cast<int>(spline.knots.size()),
+                                static_cast<int>(spline.points.size()), 0, kPlainSpline),
+                  DL_Attributes("0", 256, -1, "BYLAYER", 1.0));
+  for (const double knot : spline.knots) dxf.writeKnot(writer, DL_KnotData(knot / kMillimetre));
+  for (const Vec3& point : spline.points) {
+    const Vec3 p = point / kMillimetre;
+    dxf.writeControlPoint(writer, DL_ControlPointData(p.x(), p.y(), p.z(), 1.0));
+  }
 }
 
 }  // namespace
 
 FormatLosses WriteDxf(const std::filesystem::path& path, const SkeletonGraph& graph) {
   DL_Dxf dxf;
-  const std::unique_ptr<DL_WriterA> writer(dxf.out(path.c_str(), DL_Codes::AC1009));
-  if (writer == nullptr)
-    throw Error(ErrorKind::kResource, path.string() + ": cannot be opened for writing");
+  const auto writer = OpenDxf(path, DL_Codes::AC1009, dxf);
   writer->sectionHeader();
   writer->dxfString(kHeaderVariable, "$ACADVER");
   writer->dxfString(1, "AC1009");
@@ -82,7 +116,25 @@ FormatLosses WriteDxf(const std::filesystem::path& path, const SkeletonGraph& gr
   writer->dxfEOF();
   writer->close();
   RequireWhole(path);
-  return DxfLosses(graph);
+  return LossesOfCurves(graph, false);
+}
+
+void WriteDxfSplines(const std::filesystem::path& path, const FittedCurves& fitted) {
+  DL_Dxf dxf;
+  const auto writer = OpenDxf(path, DL_Codes::AC1015, dxf);
+  dxf.writeHeader(*writer);
+  writer->dxfString(kHeaderVariable, "$INSUNITS");
+  writer->dxfInt(kFlagsCode, kMillimetreUnits);
+  writer->sectionEnd();
+  WriteTables(dxf, *writer);
+  writer->sectionEntities();
+  for (const auto& [edge, spline] : fitted) WriteSpline(spline, dxf, *writer);
+  writer->sectionEnd();
+  dxf.writeObjects(*writer);
+  dxf.writeObjectsEnd(*writer);
+  writer->dxfEOF();
+  writer->close();
+  RequireWhole(path);
 }
 
 }  // namespace curvefusion

@@ -2,9 +2,11 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "graph/skeleton_graph.h"
+#include "graph/spline_fit.h"
 
 namespace curvefusion {
 
@@ -34,5 +36,25 @@ FormatLosses WriteLineObj(const std::filesystem::path& path, const SkeletonGraph
 SkeletonGraph ReadLineObj(const std::string& text, const std::string& source);
 
 FormatLosses WriteDxf(const std::filesystem::path& path, const SkeletonGraph& graph);
+
+/// Views of the graph as it lies: front (x right, y down), side (z right, y down) and top (x right,
+/// z down), at full size in millimetres, with dimension lines.
+FormatLosses WriteSvg(const std::filesystem::path& path, const SkeletonGraph& graph);
+
+/// OpenUSD in ASCII: one BasisCurves prim of linear curves, metres in float32, with widths.
+FormatLosses WriteUsda(const std::filesystem::path& path, const SkeletonGraph& graph);
+
+/// What formats of mere curves lose of a graph.
+FormatLosses LossesOfCurves(const SkeletonGraph& graph, bool keeps_radii);
+
+/// Edges as cubic B-splines, for the formats that have such curves.
+using FittedCurves = std::vector<std::pair<EdgeId, CubicSpline>>;
+
+/// SPLINE entities of release 2000, millimetres.
+void WriteDxfSplines(const std::filesystem::path& path, const FittedCurves& fitted);
+/// The same curves as cubic Bezier pieces of one BasisCurves prim.
+void WriteUsdaSplines(const std::filesystem::path& path, const FittedCurves& fitted);
+/// AP214: a wireframe of B_SPLINE_CURVE_WITH_KNOTS, millimetres.
+void WriteStepSplines(const std::filesystem::path& path, const FittedCurves& fitted);
 
 }  // namespace curvefusion

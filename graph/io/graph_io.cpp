@@ -11,6 +11,7 @@
 #include "graph/validate.h"
 #include "kernel/atomic_file.h"
 #include "kernel/error.h"
+#include "kernel/parallel.h"
 #include "kernel/text_input.h"
 
 namespace curvefusion {
@@ -21,6 +22,7 @@ struct GraphFormat {
   const char* extension;
   FormatLosses (*write)(const std::filesystem::path&, const SkeletonGraph&);
   SkeletonGraph (*read)(const std::string& text, const std::string& source);  // null = not read
+  void (*write_splines)(const std::filesystem::path&, const FittedCurves&) = nullptr;
 };
 
 FormatLosses WriteJson(const std::filesystem::path& path, const SkeletonGraph& graph) {
@@ -34,7 +36,10 @@ constexpr GraphFormat kFormats[] = {
     {".swc", WriteSwc, ReadSwc},
     {".ply", WriteLinePly, ReadLinePly},
     {".obj", WriteLineObj, ReadLineObj},
-    {".dxf", WriteDxf, nullptr},
+    {".dxf", WriteDxf, nullptr, WriteDxfSplines},
+    {".svg", WriteSvg, nullptr},
+    {".usda", WriteUsda, nullptr, WriteUsdaSplines},
+    {".step", nullptr, nullptr, WriteStepSplines},
 };
 
 // Null where no format has it.
@@ -73,11 +78,38 @@ void WriteSkeleton(const std::filesystem::path& path, const SkeletonGraph& graph
 }
 
 void CheckSkeletonFormat(const std::filesystem::path& path) {
-  if (FormatOf(path) != nullptr) return;
+  const GraphFormat* format = FormatOf(path);
+  if (format != nullptr && format->write != nullptr) return;
+  throw Error(
+      ErrorKind::kUsage,
+      fmt::format("{}: a graph file ends in .json, .graphml, .swc, .ply, .obj, .dxf, .svg or "
+                  ".usda, not '{}'{}",
+                  path.string(), path.extension().string(),
+                  format != nullptr ? "; .step needs --fit" : ""));
+}
+
+void CheckSplineFormat(const std::filesystem::path& path) {
+  const GraphFormat* format = FormatOf(path);
+  if (format != nullptr && format->write_splines != nullptr) return;
   throw Error(ErrorKind::kUsage,
-              fmt::format("{}: a graph file ends in .json, .graphml, .swc, .ply, .obj or .dxf, "
-                          "not '{}'",
+              fmt::format("{}: a file of splines ends in .dxf, .usda or .step, not '{}'",
                           path.string(), path.extension().string()));
+}
+
+FormatLosses LossesOfCurves(const SkeletonGraph& graph, bool keeps_radii) {
+  bool has_radii = false, has_observations = false;
+  for (const EdgeId id : graph.Edges()) {
+    has_radii = has_radii || !graph.edge(id).radii.empty();
+    has_observations = has_observations || !graph.edge(id).observations.empty();
+  }
+  int isolated = 0;
+  for (const NodeId node : graph.Nodes()) isolated += graph.Degree(node) == 0 ? 1 : 0;
+  FormatLosses losses;
+  if (graph.edge_count() > 0) losses.emplace_back("curves meet by coordinates only, not by nodes");
+  if (isolated > 0) losses.push_back(fmt::format("{} nodes without edges are left out", isolated));
+  if (has_radii && !keeps_radii) losses.emplace_back("radii are not kept");
+  if (has_observations) losses.emplace_back("observation counts are not kept");
+  return losses;
 }
 
 std::vector<std::string> ExportSkeleton(const std::filesystem::path& path,
@@ -90,6 +122,28 @@ std::vector<std::string> ExportSkeleton(const std::filesystem::path& path,
     losses = format->write(temporary, graph);
   });
   return losses;
+}
+
+SplineFigures ExportSplines(const std::filesystem::path& path, const SkeletonGraph& graph,
+                            double tolerance) {
+  CheckSplineFormat(path);
+  RequireFiniteValues(graph, path.string());
+  const std::vector<EdgeId> edges = graph.Edges();
+  FittedCurves fitted(edges.size());
+  ParallelFor(0, static_cast<int64_t>(edges.size()), 1, [&](int64_t i) {
+    const EdgeId id = edges[static_cast<size_t>(i)];
+    fitted[static_cast<size_t>(i)] = {id, FitSpline(graph.edge(id), tolerance)};
+  });
+  SplineFigures figures;
+  for (const auto& [id, spline] : fitted) {
+    figures.control_points += spline.points.size();
+    figures.polyline_points += graph.edge(id).points.size();
+    figures.deviation = std::max(figures.deviation, spline.deviation);
+  }
+  WriteFileAtomically(path, [&](const std::filesystem::path& temporary) {
+    FormatOf(path)->write_splines(temporary, fitted);
+  });
+  return figures;
 }
 
 SkeletonGraph ReadSkeleton(const std::filesystem::path& path) {

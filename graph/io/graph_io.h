@@ -36,13 +36,31 @@ void CheckSkeletonFormat(const std::filesystem::path& path);
 /// - .ply     vertices and edges in ASCII, metres, with radii
 /// - .obj     Wavefront vertices and lines, metres
 /// - .dxf     3D polylines, millimetres
+/// - .svg     front, side and top view at full size, millimetres
+/// - .usda    OpenUSD linear curves with widths, metres
 /// Returns a sentence for everything of this graph that the format does not carry; one for each
 /// cycle that is cut. Throws Error: kUsage for another extension, kBadInput for values that are not
 /// finite, kResource where the file cannot be written.
 std::vector<std::string> ExportSkeleton(const std::filesystem::path& path,
                                         const SkeletonGraph& graph);
 
-/// Reads a graph from any of these formats but DXF, by extension; a file without one is taken as
+/// Throws Error(kUsage) where ExportSplines would refuse this file for its extension.
+void CheckSplineFormat(const std::filesystem::path& path);
+
+/// What fitting splines to a graph came to.
+struct SplineFigures {
+  size_t control_points = 0;   ///< of all splines
+  size_t polyline_points = 0;  ///< of all edges
+  double deviation = 0;        ///< metres, the largest of CubicSpline::deviation
+};
+
+/// Writes every edge as one cubic B-spline (graph/spline_fit.h) within `tolerance` (metres) to .dxf
+/// (SPLINE entities, mm), .usda (cubic Bezier curves with widths, metres) or .step (AP214
+/// wireframe, mm), atomically. Throws like ExportSkeleton.
+SplineFigures ExportSplines(const std::filesystem::path& path, const SkeletonGraph& graph,
+                            double tolerance);
+
+/// Reads a graph from JSON, GraphML, SWC, PLY or OBJ, by extension; a file without one is taken as
 /// skeleton.json. From formats without nodes (SWC, PLY, OBJ) nodes are the points where other than
 /// two segments meet, and one of every closed curve. Throws Error: kUsage for another extension,
 /// kBadInput with place and reason for a file that cannot be read, has more than kMaxTextBytes, is

@@ -67,6 +67,8 @@ class SwcWriter {
       queue.push_back(other);
       return;
     }
+    text_ += fmt::format("# sample {} closes a loop: it is the same place as sample {}\n", last,
+                         sample_of_.at(other));
     const Vec3 p = graph_.position(other) / kMillimetre;
     cuts_.push_back(
         fmt::format("edge {} would close a cycle; it is cut at node {}, at ({:.3f}, {:.3f}, "

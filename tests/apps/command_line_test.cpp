@@ -48,7 +48,7 @@ TEST_F(CommandLine, UnitsOfMeshesAreListedAsTheyAreWritten) {
 
 // None of the inputs is there: the format is refused before anything is read.
 TEST_F(CommandLine, FilesOfUnknownFormatsAreRefusedBeforeWork) {
-  const std::string graphs = ".json, .graphml, .swc, .ply, .obj or .dxf";
+  const std::string graphs = ".json, .graphml, .swc, .ply, .obj, .dxf, .svg or .usda";
   const std::string meshes = ".ply, .obj, .stl, .glb or .3mf";
   for (const auto& [command, choices] :
        std::map<std::string, std::string>{{"contract cloud.ply -o x.txt", graphs},

@@ -82,6 +82,24 @@ TEST_F(GraphCommand, ConversionTellsWhatIsLost) {
   EXPECT_EQ(CountFiles(".", "wires."), 2);
 }
 
+TEST_F(GraphCommand, FitsSplinesAndListsBends) {
+  const Outcome fit = Run("graph crossing.json --fit 0.5mm --convert wires.step");
+  EXPECT_EQ(fit.exit_code, 0);
+  EXPECT_THAT(fit.output, HasSubstr("cubic B-splines of"));
+  EXPECT_EQ(Run("graph crossing.json --fit 0.5 --convert again.step --quiet").exit_code, 0);
+  EXPECT_EQ(RunShell("cmp wires.step again.step").exit_code, 0);
+  const Outcome list = Run("graph crossing.json --cut-list cut/wires.csv");
+  EXPECT_EQ(list.output, "Wrote cut/wires.csv\n");
+  EXPECT_EQ(CountFiles("cut", "wires."), 1);
+  EXPECT_EQ(Run("graph crossing.json --fit 0.5").exit_code, 2);
+  EXPECT_EQ(Run("graph crossing.json --fit 0.5 --convert a.svg").exit_code, 2);
+  EXPECT_EQ(Run("graph crossing.json --fit 5cm --convert a.dxf").exit_code, 2);
+  EXPECT_EQ(Run("graph crossing.json --fit 0 --convert a.dxf").exit_code, 2);
+  EXPECT_EQ(Run("graph crossing.json --convert a.step").exit_code, 2);
+  EXPECT_EQ(Run("graph crossing.json --cut-list a.txt").exit_code, 2);
+  EXPECT_EQ(Run("graph crossing.json --bend-tolerance 2").exit_code, 2);
+}
+
 TEST_F(GraphCommand, WrongUsageIsTwo) {
   EXPECT_EQ(Run("graph crossing.json --resolve 1").exit_code, 2);
   EXPECT_EQ(Run("graph crossing.json --smooth 60").exit_code, 2);

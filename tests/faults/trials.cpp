@@ -80,11 +80,18 @@ std::vector<WritingCommand> WritingCommands() {
     commands.push_back({"mesh_" + format,
                         {"mesh", "@/object.json", "-o", "out/tubes." + format, "--threads", "1"}});
   }
-  for (const std::string format : {"json", "graphml", "ply", "obj", "swc", "dxf"}) {
+  for (const std::string format : {"json", "graphml", "ply", "obj", "swc", "dxf", "svg", "usda"}) {
     commands.push_back(
         {"graph_" + format,
          {"graph", "@/object.json", "--convert", "out/curves." + format, "--threads", "1"}});
   }
+  for (const std::string format : {"dxf", "usda", "step"}) {
+    commands.push_back({"fit_" + format,
+                        {"graph", "@/object.json", "--fit", "0.5", "--convert",
+                         "out/curves." + format, "--threads", "1"}});
+  }
+  commands.push_back(
+      {"cut_list", {"graph", "@/object.json", "--cut-list", "out/wires.csv", "--threads", "1"}});
   return commands;
 }
 

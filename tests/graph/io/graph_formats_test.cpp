@@ -1,16 +1,24 @@
+#include "graph/io/graph_formats.h"
+
 #include <dxflib/dl_creationadapter.h>
 #include <dxflib/dl_dxf.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdlib>
 #include <fstream>
+#include <iterator>
 #include <limits>
 #include <set>
 #include <sstream>
 #include <utility>
 #include <vector>
 
+#include "graph/io/cut_list.h"
 #include "graph/io/graph_io.h"
 #include "kernel/error.h"
 #include "tests/graph/graph_fixtures.h"
@@ -356,10 +364,176 @@ TEST_F(GraphFormats, DxfHasThreeDimensionalPolylinesInMillimetres) {
                                           Vec3(2000, 1000, 0), Vec3(2000, 2000, 0)));
 }
 
+// A quarter of a circle of 100 mm with one width, and a straight edge without radii known.
+SkeletonGraph ArcAndLine() {
+  SkeletonEdge arc;
+  for (int i = 0; i <= 90; ++i) {
+    arc.points.emplace_back(0.1 * std::sin(M_PI * i / 180), 0.1 * std::cos(M_PI * i / 180), 0);
+    arc.radii.push_back(0.002);
+  }
+  SkeletonGraph graph;
+  arc.nodes = {graph.AddNode(arc.points.front()), graph.AddNode(arc.points.back())};
+  graph.AddEdge(arc);
+  graph.AddPolyline({arc.points.back(), {0.1, 0, 0.3}});
+  return graph;
+}
+
+class DxfSplines : public DL_CreationAdapter {
+ public:
+  void addSpline(const DL_SplineData& data) override {
+    degrees.push_back(static_cast<int>(data.degree));
+    control_counts.push_back(static_cast<int>(data.nControl));
+  }
+  void addControlPoint(const DL_ControlPointData& p) override {
+    points.emplace_back(p.x, p.y, p.z);
+  }
+  void addKnot(const DL_KnotData& data) override { knots.push_back(data.k); }
+
+  std::vector<int> degrees;
+  std::vector<int> control_counts;
+  Polyline points;
+  std::vector<double> knots;
+};
+
+TEST_F(GraphFormats, DxfSplinesAreReadBack) {
+  const SplineFigures figures =
+      ExportSplines(folder_ / "wires.dxf", ArcAndLine(), 0.5 * kMillimetre);
+  EXPECT_EQ(figures.polyline_points, 93u);
+  EXPECT_EQ(figures.control_points, 8u);
+  EXPECT_LE(figures.deviation, 0.5 * kMillimetre);
+  DxfSplines content;
+  ASSERT_TRUE(DL_Dxf().in((folder_ / "wires.dxf").string(), &content));
+  EXPECT_THAT(content.degrees, ElementsAre(3, 3));
+  EXPECT_THAT(content.control_counts, ElementsAre(4, 4));
+  ASSERT_EQ(content.points.size(), 8u);
+  ASSERT_EQ(content.knots.size(), 16u);
+  EXPECT_LT((content.points[0] - Vec3(0, 100, 0)).norm(), 1e-9);
+  EXPECT_LT((content.points[7] - Vec3(100, 0, 300)).norm(), 1e-9);
+}
+
+// Runs a command of another program; skips where the program is missing (exit code 77).
+#define EXPECT_FOREIGN(command)                                    \
+  {                                                                \
+    const int status = std::system((command).c_str());             \
+    if (WEXITSTATUS(status) == 77 || WEXITSTATUS(status) == 127) { \
+      GTEST_SKIP() << "not installed here: " << (command);         \
+    }                                                              \
+    EXPECT_EQ(status, 0) << (command);                             \
+  }
+
+// ezdxf checks the structure and evaluates the splines itself.
+TEST_F(GraphFormats, EzdxfFindsTheCurveInDxfSplines) {
+  ExportSplines(folder_ / "wires.dxf", ArcAndLine(), 0.5 * kMillimetre);
+  std::ofstream(folder_ / "check.py") << R"(
+import sys
+try:
+    import ezdxf
+except ImportError:
+    sys.exit(77)
+document = ezdxf.readfile(sys.argv[1])
+assert not document.audit().has_errors, document.audit().errors
+assert document.units == 4, document.units
+splines = list(document.modelspace().query("SPLINE"))
+assert len(splines) == 2, splines
+curve = splines[0].construction_tool()
+for i in range(101):
+    x, y, z = curve.point(curve.max_t * i / 100)
+    assert abs((x * x + y * y) ** .5 - 100) < .5 and z == 0, (x, y, z)
+x, y, z = curve.point(0)
+assert abs(x) < 1e-9 and abs(y - 100) < 1e-9
+)";
+  EXPECT_FOREIGN("/usr/bin/python3 '" + (folder_ / "check.py").string() + "' '" +
+                 (folder_ / "wires.dxf").string() + "'");
+}
+
+TEST_F(GraphFormats, SvgHasThreeViewsInMillimetres) {
+  const FormatLosses losses = ExportSkeleton(folder_ / "wires.svg", ArcAndLine());
+  EXPECT_THAT(losses, testing::Contains(HasSubstr("three views")));
+  const std::string text = Text("wires.svg");
+  for (const char* view : {"\"front\"", "\"side\"", "\"top\""}) EXPECT_THAT(text, HasSubstr(view));
+  // x from 0 to 100 and z from 0 to 300, with half the widths around: 4 mm of the arc, 1 unknown.
+  EXPECT_THAT(text, HasSubstr(">104.0 mm<"));
+  EXPECT_THAT(text, HasSubstr(">302.5 mm<"));
+  EXPECT_THAT(text, HasSubstr("stroke-width=\"4.000\""));
+  EXPECT_FOREIGN("xmllint --noout '" + (folder_ / "wires.svg").string() + "'");
+}
+
+// The numbers of a list "name = [...]", without their brackets.
+std::vector<double> Numbers(const std::string& text, const std::string& name) {
+  const size_t begin = text.find('[', text.find(" " + name + " = "));
+  std::string list = text.substr(begin + 1, text.find(']', begin) - begin - 1);
+  std::replace_if(
+      list.begin(), list.end(),
+      [](char c) { return std::string("(),").find(c) != std::string::npos; }, ' ');
+  std::istringstream stream(list);
+  return {std::istream_iterator<double>(stream), {}};
+}
+
+TEST_F(GraphFormats, UsdaHasLinearAndBezierCurvesWithWidths) {
+  const SkeletonGraph graph = ArcAndLine();
+  ExportSkeleton(folder_ / "wires.usda", graph);
+  const std::string linear = Text("wires.usda");
+  EXPECT_EQ(linear.substr(0, 10), "#usda 1.0\n");
+  EXPECT_THAT(linear, HasSubstr("metersPerUnit = 1\n"));
+  EXPECT_THAT(linear, HasSubstr("token type = \"linear\""));
+  EXPECT_THAT(Numbers(linear, "curveVertexCounts"), ElementsAre(91, 2));
+  EXPECT_EQ(Numbers(linear, "points").size(), 93u * 3);
+  EXPECT_EQ(Numbers(linear, "widths").size(), 93u);
+  EXPECT_EQ(Numbers(linear, "widths")[0], 0.004);
+  ExportSplines(folder_ / "wires.usda", graph, 0.5 * kMillimetre);
+  const std::string cubic = Text("wires.usda");
+  EXPECT_THAT(cubic, HasSubstr("token type = \"cubic\""));
+  EXPECT_THAT(cubic, HasSubstr("token basis = \"bezier\""));
+  EXPECT_THAT(Numbers(cubic, "curveVertexCounts"), ElementsAre(4, 4));
+  EXPECT_EQ(Numbers(cubic, "points").size(), 8u * 3);
+  EXPECT_NEAR(Numbers(cubic, "points")[1], 0.1, 1e-8);
+}
+
+TEST_F(GraphFormats, StepSplinesHaveTheirMultiplicities) {
+  ExportSplines(folder_ / "wires.step", ArcAndLine(), 0.5 * kMillimetre);
+  const std::string text = Text("wires.step");
+  EXPECT_EQ(text.substr(0, 14), "ISO-10303-21;\n");
+  EXPECT_THAT(text, HasSubstr("SI_UNIT(.MILLI.,.METRE.)"));
+  EXPECT_THAT(text, HasSubstr("B_SPLINE_CURVE_WITH_KNOTS('edge 0',3,(#14,#15,#16,#17)"));
+  EXPECT_THAT(text, HasSubstr(",(4,4),(0.00000000000000,"));
+  EXPECT_THAT(text, HasSubstr("CARTESIAN_POINT('',(0.00000000000000,100.000000000000,0.0000"));
+  for (const char* name : {"wires.stp", "wires.svg", "wires.json"}) {
+    EXPECT_THROW(ExportSplines(folder_ / name, ArcAndLine(), 1e-3), Error) << name;
+  }
+  EXPECT_THROW(ExportSkeleton(folder_ / "a.step", ArcAndLine()), Error);
+}
+
+TEST_F(GraphFormats, TheCutListHasARowForEachBendAndOneForTheEnd) {
+  SkeletonGraph graph;
+  SkeletonEdge edge;
+  edge.points = {{0, 0, 0}, {0.1, 0, 0}, {0.1, 0.05, 0}, {0.1, 0.05, 0.02}};
+  edge.radii.assign(4, 0.0015);
+  edge.nodes = {graph.AddNode(edge.points.front()), graph.AddNode(edge.points.back())};
+  graph.AddEdge(edge);
+  graph.AddPolyline({{1, 0, 0}, {1, 0.25, 0}});
+  WriteCutList(folder_ / "wires.csv", graph, kMillimetre);
+  EXPECT_EQ(Text("wires.csv"),
+            "edge,from,to,length_mm,diameter_mm,bends,step,straight_mm,rotation_deg,bend_deg,"
+            "radius_mm,arc_mm\n"
+            "0,0,1,170.00,3.00,2,1,100.00,,90.0,,0.00\n"
+            "0,0,1,170.00,3.00,2,2,50.00,90.0,90.0,,0.00\n"
+            "0,0,1,170.00,3.00,2,3,20.00,,,,\n"
+            "1,2,3,250.00,,0,1,250.00,,,,\n");
+}
+
+TEST_F(GraphFormats, SwcSaysWhereALoopCloses) {
+  SkeletonGraph graph;
+  graph.AddPolyline({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0}});
+  ExportSkeleton(folder_ / "loop.swc", graph);
+  EXPECT_THAT(Text("loop.swc"),
+              HasSubstr("# sample 4 closes a loop: it is the same place as sample 1\n"));
+}
+
 TEST_F(GraphFormats, WhatCannotBeWrittenLeavesNoFile) {
   SkeletonGraph graph;
   graph.AddPolyline({{0, 0, 0}, {std::numeric_limits<double>::infinity(), 0, 0}});
-  for (const char* name : {"a.json", "a.graphml", "a.swc", "a.ply", "a.obj", "a.dxf"}) {
+  for (const char* name :
+       {"a.json", "a.graphml", "a.swc", "a.ply", "a.obj", "a.dxf", "a.svg", "a.usda"}) {
     EXPECT_THROW(ExportSkeleton(folder_ / name, graph), Error) << name;
     EXPECT_THROW(ExportSkeleton(folder_ / "none" / name, {}), Error) << name;
   }
