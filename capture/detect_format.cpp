@@ -10,6 +10,7 @@
 #include <system_error>
 #include <vector>
 
+#include "capture/readers/containers.h"
 #include "capture/readers/frame_assembly.h"
 #include "capture/readers/readers.h"
 #include "kernel/error.h"
@@ -69,7 +70,7 @@ struct Format {
   Reader read_images;
 };
 
-constexpr std::array<Format, 7> kFormats = {{
+constexpr std::array<Format, 8> kFormats = {{
     {"icl-nuim", LooksLikeIclNuim, LooksLikeIclNuim, ReadIclNuim, ReadIclNuimImages},
     {"tum", LooksLikeTum, HasTumTrajectory, ReadTum, ReadTumImages},
     {"redwood", LooksLikeRedwood, HasTrajectoryLog, ReadRedwood, ReadRedwoodImages},
@@ -77,6 +78,8 @@ constexpr std::array<Format, 7> kFormats = {{
      ReadPerFrameImages},
     {"7-scenes", LooksLikeSevenScenes, HasPoseFiles, ReadSevenScenes, ReadSevenScenesImages},
     {"nerfstudio", HasTransforms, HasTransforms, ReadNerfstudio, ReadNerfstudioImages},
+    {"stray scanner", LooksLikeStrayScanner, LooksLikeStrayScanner, ReadStrayScanner,
+     ReadStrayScannerImages},
     {"colmap", HasColmapModel, HasColmapModel, ReadColmap, ReadColmapImages},
 }};
 
@@ -119,6 +122,11 @@ std::vector<std::string> ScansInside(const fs::path& folder) {
   if (fs::is_empty(folder)) {
     throw Error(ErrorKind::kBadInput, fmt::format("{}: the folder is empty", folder.string()));
   }
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string remedy = ExportRemedy(entry.path());
+    if (remedy.empty()) continue;
+    throw Error(ErrorKind::kBadInput, fmt::format("{}: is {}", entry.path().string(), remedy));
+  }
   throw Error(
       ErrorKind::kBadInput,
       fmt::format(
@@ -129,7 +137,8 @@ std::vector<std::string> ScansInside(const fs::path& folder) {
           "trajectory.log (Open3D, Redwood); frame-000000.depth.png and so on (7-Scenes); "
           "transforms.json (nerfstudio, instant-ngp); images/, depth/ and cameras.txt or .bin in "
           "it "
-          "or in sparse/0 (COLMAP)",
+          "or in sparse/0 (COLMAP); odometry.csv, camera_matrix.csv, depth/ and rgb.mp4 (Stray "
+          "Scanner)",
           folder.string()));
 }
 
@@ -158,8 +167,10 @@ void RequireFolder(const fs::path& folder) {
     throw Error(ErrorKind::kBadInput, fmt::format("{}: there is no such folder", folder.string()));
   }
   if (fs::exists(status) && !fs::is_directory(status)) {
+    const std::string remedy = ExportRemedy(folder);
     throw Error(ErrorKind::kBadInput,
-                fmt::format("{}: is a file; name the folder of the sequence", folder.string()));
+                fmt::format("{}: is {}", folder.string(),
+                            remedy.empty() ? "a file; name the folder of the sequence" : remedy));
   }
   if (!failure) fs::directory_iterator(folder, failure);
   if (!failure && ::access(folder.c_str(), X_OK) != 0) {

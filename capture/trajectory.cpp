@@ -118,6 +118,24 @@ std::optional<RigidTransform> ReadPoseMatrix(const std::filesystem::path& path,
   return RigidFromMatrix(matrix, path.string(), on_finding);
 }
 
+std::optional<RigidTransform> RigidFromQuaternion(const Eigen::Quaterniond& rotation,
+                                                  const Vec3& translation, const std::string& what,
+                                                  const FindingHandler& on_finding) {
+  if (!translation.allFinite() ||
+      !(std::abs(rotation.norm() - 1) <= kMaxQuaternionDefect)) {  // also where it is not finite
+    ReportError(
+        on_finding,
+        fmt::format("{}: the quaternion has length {:.4g}, not 1, or the translation ({}, {}, "
+                    "{}) is not finite",
+                    what, rotation.norm(), translation.x(), translation.y(), translation.z()));
+    return std::nullopt;
+  }
+  RigidTransform pose = RigidTransform::Identity();
+  pose.linear() = rotation.normalized().toRotationMatrix();
+  pose.translation() = translation;
+  return pose;
+}
+
 std::optional<RigidTransform> RigidFromMatrix(const Eigen::Matrix4d& matrix,
                                               const std::string& what,
                                               const FindingHandler& on_finding) {

@@ -45,6 +45,13 @@ std::optional<RigidTransform> RigidFromMatrix(const Eigen::Matrix4d& matrix,
                                               const std::string& what,
                                               const FindingHandler& on_finding);
 
+/// The rigid motion of a unit quaternion and a translation. Where a value is not finite or the
+/// length of the quaternion is off by more than 1 %, reports it under the name `what` and returns
+/// nothing.
+std::optional<RigidTransform> RigidFromQuaternion(const Eigen::Quaterniond& rotation,
+                                                  const Vec3& translation, const std::string& what,
+                                                  const FindingHandler& on_finding);
+
 /// The pose with the stamp nearest to `timestamp`, or null where none is within `tolerance`
 /// (seconds).
 const StampedPose* NearestPose(const Trajectory& trajectory, double timestamp,

@@ -23,10 +23,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kMillimetreUnits = 1000;
-constexpr double kMaxQuaternionDefect = 1e-2;  // as of trajectories
-constexpr size_t kMaxLine = 65536;             // of cameras and images; names are far shorter
-constexpr uint64_t kPointBytes = 24;           // x, y and the id of its 3D point
-constexpr uint64_t kMaxSide = 65536;           // pixels, as in intrinsics.json
+constexpr size_t kMaxLine = 65536;    // of cameras and images; names are far shorter
+constexpr uint64_t kPointBytes = 24;  // x, y and the id of its 3D point
+constexpr uint64_t kMaxSide = 65536;  // pixels, as in intrinsics.json
 
 // The models by their numbers in binary files, with their parameters: f is fx and fy; k1 k2 p1 p2
 // as of OpenCV; a model without parameters here is not undone.
@@ -327,18 +326,9 @@ void UseCamera(const ColmapCamera& given, const std::string& where, Sequence& se
 std::optional<RigidTransform> PoseOf(const ColmapImage& image, const std::string& where,
                                      const FindingHandler& on_finding) {
   const auto& [w, x, y, z] = image.quaternion;
-  const Eigen::Quaterniond rotation(w, x, y, z);
-  if (!(std::abs(rotation.norm() - 1) <= kMaxQuaternionDefect)) {
-    on_finding(
-        {Severity::kError, fmt::format("{}: the quaternion of image {} has length {:.4g}, not 1",
-                                       where, image.name, rotation.norm())});
-    return std::nullopt;
-  }
-  Eigen::Matrix4d T_camera_world = Eigen::Matrix4d::Identity();
-  T_camera_world.block<3, 3>(0, 0) = rotation.normalized().toRotationMatrix();
-  T_camera_world.block<3, 1>(0, 3) = Eigen::Map<const Vec3>(image.translation.data());
-  const auto pose =
-      RigidFromMatrix(T_camera_world, fmt::format("{}: image {}", where, image.name), on_finding);
+  const auto pose = RigidFromQuaternion(Eigen::Quaterniond(w, x, y, z),
+                                        Eigen::Map<const Vec3>(image.translation.data()),
+                                        fmt::format("{}: image {}", where, image.name), on_finding);
   if (!pose) return std::nullopt;
   return pose->inverse();
 }

@@ -73,4 +73,13 @@ bool HasColmapModel(const std::filesystem::path& folder);
 Sequence ReadColmap(const std::filesystem::path& folder, const FindingHandler& on_finding);
 Sequence ReadColmapImages(const std::filesystem::path& folder, const FindingHandler& on_finding);
 
+/// Whether the folder is a recording of the app Stray Scanner: odometry.csv, camera_matrix.csv.
+bool LooksLikeStrayScanner(const std::filesystem::path& folder);
+
+/// depth/ in millimetres, poses of odometry.csv, the camera of camera_matrix.csv, and the images of
+/// rgb.mp4 unpacked into rgb/ (or color/, ...); where they are not, the error tells the command.
+Sequence ReadStrayScanner(const std::filesystem::path& folder, const FindingHandler& on_finding);
+Sequence ReadStrayScannerImages(const std::filesystem::path& folder,
+                                const FindingHandler& on_finding);
+
 }  // namespace curvefusion

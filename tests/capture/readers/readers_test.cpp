@@ -30,6 +30,15 @@ const RoomScan& Room() {
   return scan;
 }
 
+RoomScan InMillimetres(RoomScan scan) {
+  for (Image<uint16_t>& depth : scan.thumbnails.depth) {
+    for (size_t i = 0; i < depth.size(); ++i) {
+      depth.data()[i] = static_cast<uint16_t>(std::lround(depth.data()[i] / 5.0));
+    }
+  }
+  return scan;
+}
+
 std::string OpenError(const fs::path& folder) {
   try {
     OpenSequence(folder);
@@ -239,13 +248,7 @@ class Colmap : public ReadersTest {
  protected:
   void SetUp() override {
     ReadersTest::SetUp();
-    RoomScan scan = Room();  // depth of COLMAP folders is in millimetres
-    for (Image<uint16_t>& depth : scan.thumbnails.depth) {
-      for (size_t i = 0; i < depth.size(); ++i) {
-        depth.data()[i] = static_cast<uint16_t>(std::lround(depth.data()[i] / 5.0));
-      }
-    }
-    WriteImages(scan);
+    WriteImages(InMillimetres(Room()));
     fs::rename(folder() / "rgb", folder() / "images");
   }
 
@@ -432,6 +435,78 @@ TEST_F(ReadersTest, IclNuimIsMirrored) {
                 .norm(),
             1e-9);
   ExpectGeometryFits();
+}
+
+class StrayScanner : public ReadersTest {
+ protected:
+  void SetUp() override {
+    WriteImages(InMillimetres(Room()));
+    std::string odometry = "timestamp, frame, x, y, z, qx, qy, qz, qw\n";
+    for (int i = 0; i < kRoomFrames; ++i) {
+      const SequenceFrame& frame = Room().sequence.frames[static_cast<size_t>(i)];
+      const Eigen::Quaterniond q(frame.T_world_camera.linear());
+      const Vec3 t = frame.T_world_camera.translation();
+      odometry += fmt::format("{}, {:06}, {}, {}, {}, {}, {}, {}, {}\n", frame.timestamp, i, t.x(),
+                              t.y(), t.z(), q.x(), q.y(), q.z(), q.w());
+    }
+    WriteText(folder() / "odometry.csv", odometry);
+    WriteText(folder() / "camera_matrix.csv",
+              "150.0, 0.0, 79.5\n0.0, 150.0, 59.5\n0.0, 0.0, 1.0\n");
+    for (int i = 0; i < kRoomFrames; ++i) {  // colour of twice the size
+      const fs::path path = folder() / fmt::format("rgb/{}.png", i);
+      fs::remove(path);
+      WriteColor(path, 160, 120);
+    }
+  }
+};
+
+TEST_F(StrayScanner, HasSmallDepthAndPosesOfOurAxes) {
+  const Sequence sequence = OpenSequence(folder());
+  EXPECT_EQ(sequence.format, "stray scanner");
+  EXPECT_EQ(sequence.depth_scale, 1000);
+  EXPECT_EQ(sequence.color_camera.width, 160);
+  EXPECT_EQ(sequence.color_camera.fx, 150);
+  EXPECT_EQ(sequence.depth_camera.width, 80);
+  EXPECT_EQ(sequence.depth_camera.fx, 75);
+  EXPECT_EQ(sequence.depth_camera.cx, 39.5);
+  EXPECT_NEAR(sequence.frames[30].timestamp, 101, 1e-6);
+  ExpectPoses(sequence, 1e-12);
+  ExpectGeometryFits();
+}
+
+TEST_F(StrayScanner, TellsHowToUnpackTheVideo) {
+  fs::remove_all(folder() / "rgb");
+  WriteText(folder() / "rgb.mp4", "video");
+  EXPECT_THAT(OpenError(folder()), AllOf(HasSubstr("rgb.mp4"), HasSubstr("ffmpeg -i"),
+                                         HasSubstr("/rgb/%06d.jpg"), HasSubstr("-start_number 0")));
+}
+
+TEST_F(StrayScanner, NamesWhatIsWrong) {
+  std::ofstream(folder() / "odometry.csv", std::ios::app) << "7, 60, 0, 0, nought\n";
+  EXPECT_THAT(OpenError(folder()), AllOf(HasSubstr("odometry.csv:62"), HasSubstr("column 5")));
+  WriteText(folder() / "odometry.csv", "timestamp, frame, x\n1, 0, 0, 0, 0, 0, 0, 0, 1\n");
+  EXPECT_EQ(OpenSequence(folder()).frames_without_pose, kRoomFrames - 1);
+  WriteText(folder() / "odometry.csv", "1, 0, 0, 0, 0, 0, 0, 0, 7\n");
+  EXPECT_THAT(OpenError(folder()), AllOf(HasSubstr("odometry.csv:1"), HasSubstr("length 7")));
+  WriteText(folder() / "camera_matrix.csv", "150, 0, 79.5\n");
+  EXPECT_THAT(OpenError(folder()), HasSubstr("3x3"));
+}
+
+TEST(Containers, AreNamedWithTheWayToExportThem) {
+  TemporaryFolder folder;
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"scan.sens", "SensReader"},
+      {"scan.r3d", "transforms.json"},
+      {"scan.mkv", "azure_kinect_mkv_reader.py"},
+      {"scan.bag", "RGBDVideoReader"}};
+  for (const auto& [name, words] : cases) {
+    WriteText(folder.path() / name, "content");
+    EXPECT_THAT(OpenError(folder.path() / name), AllOf(HasSubstr(name), HasSubstr(words)));
+    const CheckReport report = CheckSequence(folder.path(), NoProgress);  // also in a folder
+    ASSERT_EQ(report.findings.size(), 1u);
+    EXPECT_THAT(report.findings[0].message, AllOf(HasSubstr(name), HasSubstr(words)));
+    fs::remove(folder.path() / name);
+  }
 }
 
 }  // namespace
