@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <numbers>
 #include <string>
@@ -28,13 +29,16 @@ struct MeshArguments {
   std::filesystem::path output;  // empty = only check the input, a mesh
   double radius_mm = 0;          // 0 = the radii of the file
   std::string radius_from = "vertex";
-  std::string unit;  // empty = the format's own
+  std::string unit;            // empty = the format's own
+  std::string purpose;         // "print", or empty
+  double min_diameter_mm = 1;  // chosen: what common printers, of .4 mm nozzles, still build
   bool check = false;
   TubeOptions tubes;
   RunOptions run;
 };
 
 MeshUnit UnitOf(const MeshArguments& arguments, const std::filesystem::path& path) {
+  if (arguments.purpose == "print") return MeshUnit::kMillimetres;
   if (arguments.unit.empty()) return DefaultUnit(path);
   return arguments.unit == "mm" ? MeshUnit::kMillimetres : MeshUnit::kMetres;
 }
@@ -71,13 +75,54 @@ void ChooseRadii(const MeshArguments& arguments, SkeletonGraph& skeleton) {
   }
 }
 
+// Slicers take millimetres, and these two formats.
+void CheckPrintFormat(const MeshArguments& arguments) {
+  if (arguments.purpose.empty()) return;
+  const std::string extension = arguments.output.extension().string();
+  if (arguments.unit == "m" || (extension != ".stl" && extension != ".3mf")) {
+    throw Error(ErrorKind::kUsage,
+                fmt::format("{}: --for print writes .stl or .3mf, in millimetres",
+                            arguments.output.string()));
+  }
+}
+
+// Refuses wires that a printer leaves out, naming the thinnest.
+void RequirePrintable(const MeshArguments& arguments, const SkeletonGraph& skeleton) {
+  if (arguments.purpose.empty()) return;
+  double thinnest = std::numeric_limits<double>::infinity();
+  EdgeId edge = 0;
+  for (const EdgeId id : skeleton.Edges()) {
+    for (const double radius : skeleton.edge(id).radii) {
+      if (2 * radius >= thinnest) continue;
+      thinnest = 2 * radius;
+      edge = id;
+    }
+  }
+  if (thinnest >= arguments.min_diameter_mm * kMillimetre) return;
+  throw Error(ErrorKind::kBadInput,
+              fmt::format("{}: edge {} is {:.2f} mm thick, printing needs {} mm; make all wires "
+                          "thicker with --radius {:g}, or change --min-diameter",
+                          arguments.input.string(), edge, thinnest / kMillimetre,
+                          arguments.min_diameter_mm, arguments.min_diameter_mm / 2));
+}
+
+void PrintSize(const MeshArguments& arguments, const TriangleMesh& mesh) {
+  if (arguments.purpose.empty()) return;
+  Eigen::AlignedBox3f box;
+  for (const Vec3f& vertex : mesh.vertices) box.extend(vertex);
+  const Vec3 size = box.sizes().cast<double>() / kMillimetre;
+  fmt::print("  size {:.1f} x {:.1f} x {:.1f} mm, at full scale\n", size.x(), size.y(), size.z());
+}
+
 int MeshSkeleton(const MeshArguments& arguments) {
+  CheckPrintFormat(arguments);
   const MeshUnit unit = UnitOf(arguments, arguments.output);
   CheckMeshFormat(arguments.output, unit);
   RequireApart({arguments.input}, arguments.output);
   SkeletonGraph skeleton = ReadSkeleton(arguments.input);
   MakeFolderOf(arguments.output);
   ChooseRadii(arguments, skeleton);
+  RequirePrintable(arguments, skeleton);
   const TubeMesh tubes = BuildTubes(skeleton, arguments.tubes);
   ThrowIfCancelled();
   const TriangleMesh mesh = ToTriangleMesh(tubes.surface);
@@ -86,6 +131,7 @@ int MeshSkeleton(const MeshArguments& arguments) {
   if (!arguments.run.quiet) {
     fmt::print("Wrote {} ({})\n", arguments.output.string(),
                unit == MeshUnit::kMetres ? "m" : "mm");
+    PrintSize(arguments, mesh);
     if (!arguments.check) PrintReport(tubes.report, MeshUnit::kMetres);
     for (const std::string& warning : TubeWarnings(skeleton, tubes, arguments.tubes)) {
       fmt::print("  warning: {}\n", warning);
@@ -140,12 +186,24 @@ void AddMeshCommand(CLI::App& app, int& exit_code) {
       ->add_option("--unit", arguments->unit,
                    "Unit of the coordinates: m (default; .glb always) or mm (.3mf always)")
       ->check(CLI::IsMember({"m", "mm"}));
+  CLI::Option* const purpose =
+      command
+          ->add_option("--for", arguments->purpose,
+                       "print: for a 3D printer, as .stl or .3mf in mm; refuses wires that are too "
+                       "thin, and tells the size")
+          ->check(CLI::IsMember({"print"}));
+  command
+      ->add_option("--min-diameter", arguments->min_diameter_mm,
+                   "With --for print: the thinnest wire in mm that the printer builds (1)")
+      ->check(CLI::PositiveNumber)
+      ->needs(purpose);
   command->add_flag("--check", arguments->check,
                     "Read the file back and tell what it is; exit code 1 where it has a defect");
   AddRunOptions(*command, arguments->run);
   command->footer(
       "Example:\n  curvefusion mesh result/skeleton.json -o wires.ply\n"
       "  curvefusion mesh result/skeleton.json -o print.stl --unit mm --radius 3 --check\n"
+      "  curvefusion mesh result/skeleton.json --for print -o wires.3mf\n"
       "  curvefusion mesh --check anything.obj");
   command->callback([arguments, &exit_code] { exit_code = RunMesh(*arguments); });
 }

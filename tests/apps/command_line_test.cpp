@@ -137,6 +137,22 @@ TEST_F(CommandLine, MeshWritesEveryFormatWithAnyRadii) {
   EXPECT_NEAR(volume("--radius 3"), 2 * capsule(0.3), 0.02);
   EXPECT_GT(volume(""), 1.005 * (capsule(0.4) + capsule(0.2)));
   EXPECT_EQ(Run("mesh skeleton.json -o a.glb --unit mm").exit_code, 2);
+  // A cone of 6 to 10 mm and a tube of 4 mm that lie 50 mm apart: 105 + 3 mm long, 50 + 5 + 2 wide.
+  for (const char* name : {"print.stl", "print.3mf"}) {
+    const Outcome print = Run(std::string("mesh skeleton.json --for print --check -o ") + name);
+    EXPECT_EQ(print.exit_code, 0) << print.output;
+    EXPECT_THAT(print.output, HasSubstr("size 108."));
+    EXPECT_THAT(print.output, HasSubstr(" mm, at full scale"));
+    EXPECT_THAT(print.output, HasSubstr("(mm)"));
+  }
+  const Outcome thin = Run("mesh skeleton.json --for print --min-diameter 5 -o thin.stl");
+  EXPECT_EQ(thin.exit_code, 3);
+  EXPECT_THAT(thin.output, HasSubstr("edge 1 is 4.00 mm thick, printing needs 5 mm"));
+  EXPECT_EQ(Run("mesh skeleton.json --for print --min-diameter 5 --radius 3 -o b.stl").exit_code,
+            0);
+  EXPECT_EQ(Run("mesh skeleton.json --for print -o a.ply").exit_code, 2);
+  EXPECT_EQ(Run("mesh skeleton.json --for print --unit m -o a.stl").exit_code, 2);
+  EXPECT_EQ(Run("mesh skeleton.json --min-diameter 5 -o a.stl").exit_code, 2);
   EXPECT_EQ(Run("mesh skeleton.json -o a.ply --radius 3 --radius-from edge").exit_code, 2);
 }
 
