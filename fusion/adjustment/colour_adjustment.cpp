@@ -127,6 +127,14 @@ double AcceptedShare(const std::vector<FrameStrips>& strips) {
   return all > 0 ? static_cast<double>(accepted) / static_cast<double>(all) : 0;
 }
 
+// What only few images show beside a curve is not its wire.
+std::vector<FrameStrips> WhereImagesAgree(std::vector<FrameStrips> strips, size_t vertices) {
+  const std::vector<char> shown = ShownByColour(strips, vertices);
+  for (FrameStrips& frame : strips)
+    std::erase_if(frame, [&](const SeenStrip& seen) { return !shown[seen.vertex]; });
+  return strips;
+}
+
 // Of depth's middles those at vertices that too few colour images show: colour, where it tells,
 // tells four times as exactly, and without depth's errors of registration.
 std::vector<StripObservation> WhereColourTellsLittle(const std::vector<StripObservation>& centres,
@@ -168,7 +176,8 @@ ColorShift RunRounds(const Sequence& sequence, const CurveVertices& curves, Colo
   for (const AdjustmentRound& round : kRounds) {
     const std::vector<FrameStrips> strips =
         TrackCurves(curves, problem, state, frames, round.search_px);
-    problem.strips = Observations(strips, color_shift.of_frames_px);
+    problem.strips =
+        Observations(WhereImagesAgree(strips, curves.positions.size()), color_shift.of_frames_px);
     if (&round == &kRounds.front()) result.start_residual_px = MedianResidual(problem, state);
     if (options.edges) {
       problem.edges =

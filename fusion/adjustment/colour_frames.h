@@ -53,6 +53,10 @@ std::vector<FrameStrips> TrackEdges(const CurveVertices& curves, const CurvePose
 /// holds it.
 std::vector<char> ToldByColour(const std::vector<FrameStrips>& strips, size_t vertices);
 
+/// For each vertex whether so many of the images that look at it show a strip that these are of one
+/// thing, not of whatever lies behind.
+std::vector<char> ShownByColour(const std::vector<FrameStrips>& strips, size_t vertices);
+
 /// Learns the colours of wire and background around the strips of all frames and looks them up in
 /// every image. Around vertices that colour does not tell (ToldByColour), where no other curve is
 /// near, what lies at the curve's own place is learned as well: a wire in the shade, of which no

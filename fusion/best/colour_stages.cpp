@@ -16,7 +16,7 @@
 #include "fusion/curve_graph/wire_proof.h"
 #include "fusion/silhouettes/colour_pruning.h"
 #include "fusion/silhouettes/weak_wires.h"
-#include "graph/parallel_edges.h"
+#include "graph/intersections.h"
 
 namespace curvefusion {
 
@@ -58,7 +58,9 @@ void CorrectBySilhouettes(const ColourAdjustment& adjusted, WireDepth depth,
     return;
   }
   // Two strands of noise that the adjustment has led into one wire.
-  MergeParallelEdges(result.skeleton, 2 * result.radii.global_radius);
+  // Strands of noise that the adjustment has led into one wire: axes of two wires are never so
+  // near.
+  ResolveIntersections(result.skeleton, result.radii.global_radius);
   std::vector<Vec3> shown_by_depth;
   if (depth == WireDepth::kShown) {
     shown_by_depth = PlacesShownByDepth(

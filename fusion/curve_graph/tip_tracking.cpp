@@ -10,6 +10,7 @@
 #include "kernel/parallel.h"
 #include "kernel/point_grid.h"
 #include "kernel/polyline.h"
+#include "kernel/quantile.h"
 
 namespace curvefusion {
 
@@ -33,6 +34,8 @@ constexpr size_t kBeam = 12;          // paths followed at a time
 constexpr double kMaxDrop = 3;        // below the best of a path so far
 constexpr double kMinScore = 4;       // 98 %, as far as the scores can be believed
 constexpr double kMaxLength = 1;      // metres
+constexpr double kFaded = 0.75;       // of the usual share of images that show a wire
+constexpr size_t kSettled = 4;        // places that tell what is usual
 constexpr double kFitLength = 0.015;  // metres, that tell the direction of an end
 constexpr double kBeside = 0.004;     // metres; nearer to another curve a path is that curve
 constexpr double kOwn = 0.012;        // metres of path that may lie beside the curve it starts from
@@ -99,10 +102,24 @@ class TipTracker {
     Polyline path;
     for (int at = best; at >= 0; at = places[at].before) path.push_back(places[at].position);
     std::reverse(path.begin(), path.end());
+    CutWhereItFades(path);
     return path;
   }
 
  private:
+  // A wire ends where much fewer images show it than before: what goes on is something else.
+  void CutWhereItFades(Polyline& path) const {
+    std::vector<double> shares;
+    for (size_t i = 1; i < path.size(); ++i) {
+      const StripAgreement look = views_.CloseLook(path[i]);
+      const double share = look.looked > 0 ? static_cast<double>(look.seen) / look.looked : 0;
+      if (look.looked >= kManyLooks) shares.push_back(share);
+      if (shares.size() < kSettled || share >= kFaded * Median(shares)) continue;
+      path.resize(i);
+      return;
+    }
+  }
+
   double Gain(const Vec3& p, double bend) const {
     const StripAgreement look = views_.CloseLook(p);
     double evidence = look.Sum();
