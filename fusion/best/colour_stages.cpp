@@ -44,10 +44,20 @@ bool KeepProvenWires(const std::string& name, double min_probability, int depth_
   return result.uncertain.lengths.Sum() > uncertain;
 }
 
+// The strips of the images that curves were adjusted to, around these.
+StripViews LookForStrips(const ColourAdjustment& adjusted, const StageReporter& reporter,
+                         const Reconstruction& result) {
+  const StageLog::Timer timer = reporter.Begin("strips");
+  Eigen::AlignedBox3d around;
+  for (const EdgeId id : result.skeleton.Edges())
+    for (const Vec3& p : result.skeleton.edge(id).points) around.extend(p);
+  return {result.sequence, adjusted.frames, adjusted.posteriors, around};
+}
+
 // Deviation: what images look past is dropped, and what they show besides is added.
-void CorrectBySilhouettes(const ColourAdjustment& adjusted, WireDepth depth,
-                          const BestOptions& options, const StageReporter& reporter,
-                          Reconstruction& result) {
+void CorrectBySilhouettes(const ColourAdjustment& adjusted, const StripViews& strips,
+                          WireDepth depth, const BestOptions& options,
+                          const StageReporter& reporter, Reconstruction& result) {
   if (options.silhouettes.max_frames == 0) return;
   const char* stage = "silhouettes";
   const StageLog::Timer timer = reporter.Begin(stage);
@@ -66,8 +76,9 @@ void CorrectBySilhouettes(const ColourAdjustment& adjusted, WireDepth depth,
     shown_by_depth = PlacesShownByDepth(
         CountViews(result.skeleton, result.sequence, options.evidence), result.skeleton);
   }
-  const SilhouetteChanges changes =
-      CorrectTopology(silhouettes, options.silhouettes, shown_by_depth, result.skeleton);
+  const SilhouetteChanges changes = CorrectTopology(
+      silhouettes, [&strips](const Polyline& points) { return strips.SharesAlong(points); },
+      options.silhouettes, shown_by_depth, result.skeleton);
   const int weak_wires =
       AddWeakWires(silhouettes, options.silhouettes.bridges, result.points, result.skeleton);
   TidyRidgeSkeleton(result.skeleton, options.ridge);
@@ -84,11 +95,11 @@ void CorrectBySilhouettes(const ColourAdjustment& adjusted, WireDepth depth,
 
 // Deviation: wires that depth has lost, where colour images show strips that no curve explains.
 // Whether there are any.
-bool AddWiresFromColour(const ColourAdjustment& adjusted, const RidgeOptions& options,
+bool AddWiresFromColour(StripViews& views, const RidgeOptions& options,
                         const StageReporter& reporter, Reconstruction& result) {
   const char* stage = "wires from colour";
   const StageLog::Timer timer = reporter.Begin(stage);
-  StripViews views(result.skeleton, result.sequence, adjusted.frames, adjusted.posteriors);
+  views.ExplainAll(result.skeleton);
   const double radius = result.radii.unmeasured_radius;
   const double followed = TrackTips(radius, views, result.skeleton);
   const ObservedPoints candidates = FindColourCandidates(views);
@@ -181,15 +192,17 @@ void RefineByColour(const Sequence& given, const SegmentationModel& model,
       depth = WireDepth::kNotShown;
     }
   }
+  std::optional<StripViews> strips;
   if (adjusted) {
-    CorrectBySilhouettes(*adjusted, depth, options, reporter, result);
+    strips = LookForStrips(*adjusted, reporter, result);
+    CorrectBySilhouettes(*adjusted, *strips, depth, options, reporter, result);
   } else if (model.row_spacing > 0) {
     PruneUnadjusted(model.colours, options.silhouettes, reporter, result);
   }
   measure_radii();
   keep_proven("evidence", 1);
   // Depth looks past most of these: they have their proof from the images that show them.
-  if (adjusted && AddWiresFromColour(*adjusted, options.ridge, reporter, result)) measure_radii();
+  if (strips && AddWiresFromColour(*strips, options.ridge, reporter, result)) measure_radii();
   LookForEvidence(options.evidence, reporter, result);
 }
 

@@ -69,7 +69,7 @@ void ContractPlacesThatImagesAgreeOn(const WireImages& images, const Eigen::Alig
                                      const RidgeOptions& options, const StageReporter& reporter,
                                      Reconstruction& colour) {
   const StageLog::Timer timer = reporter.Begin(kStage);
-  const StripViews views({}, colour.sequence, images.frames, images.posteriors, around);
+  const StripViews views(colour.sequence, images.frames, images.posteriors, around);
   colour.points = FindColourCandidates(views);
   colour.skeleton = ExtractRidgeSkeleton(colour.points, options);
   reporter.log.Count(kStage, "places", static_cast<double>(colour.points.size()));

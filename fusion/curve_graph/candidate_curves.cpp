@@ -5,8 +5,10 @@
 #include <utility>
 #include <vector>
 
+#include "fusion/curve_graph/refuted_parts.h"
 #include "fusion/curve_graph/tip_tracking.h"
 #include "graph/connected_parts.h"
+#include "graph/edge_curve.h"
 #include "graph/edge_parts.h"
 #include "kernel/point_grid.h"
 
@@ -17,6 +19,8 @@ namespace {
 constexpr double kBeside = 0.004;  // metres; nearer to a curve a candidate is the curve itself
 constexpr double kSame = 0.0002;   // metres; a curve is where it was
 // Strips are not told within some pixels of known curves, nor where wires cross in many images.
+constexpr double kJoin = 0.004;   // metres; points of curves are nearer to each other
+constexpr double kStep = 0.0015;  // metres
 constexpr double kMaxGap = 0.06;  // metres
 constexpr double kMaxGapPerLength = 1.2;
 constexpr double kMinPiece = 0.012;  // metres; the shortest spur
@@ -63,6 +67,29 @@ std::vector<EdgeId> AddGraph(const SkeletonGraph& more, double radius, SkeletonG
   return added;
 }
 
+// Removes joins that images do not show: straight lines, as yet without points on them.
+void DropJoinsNotShown(const std::vector<Vec3>& curves, const StripViews& views,
+                       SkeletonGraph& skeleton) {
+  for (const EdgeId id : skeleton.Edges()) {
+    const Polyline& points = skeleton.edge(id).points;
+    bool has_join = false;
+    for (size_t i = 1; i < points.size(); ++i)
+      has_join |= (points[i] - points[i - 1]).norm() > kJoin;
+    if (!has_join) continue;
+    SkeletonEdge dense = Resampled(skeleton.edge(id), kStep);
+    skeleton.SetCurve(id, std::move(dense.points), std::move(dense.radii),
+                      std::move(dense.observations));
+  }
+  const PointGrid known(curves, kJoin);
+  const SharesOfCurve shares_of = [&](const Polyline& points) {
+    std::vector<double> shares = views.SharesAlong(points);
+    for (size_t i = 0; i < points.size(); ++i)
+      if (known.Nearest(points[i], kJoin) >= 0) shares[i] = 1;
+    return shares;
+  };
+  DropRefutedParts(shares_of, kMinStripShare, {}, skeleton);
+}
+
 // Removes parts of the graph in which nothing lies on the curves given.
 void DropDetached(const std::vector<Vec3>& curves, SkeletonGraph& skeleton) {
   const PointGrid grid(curves, kBeside);
@@ -86,6 +113,8 @@ double AddCandidateCurves(const ObservedPoints& candidates, const RidgeOptions& 
   if (candidates.empty()) return 0;
   SkeletonGraph found = ExtractRidgeSkeleton(candidates, options);
   KeepNewWires(known, found);
+  DropRefutedParts([&views](const Polyline& points) { return views.SharesAlong(points); },
+                   kMinStripShare, {}, found);
   if (found.empty()) return 0;
   const double length = skeleton.TotalLength();
   for (const EdgeId id : AddGraph(found, radius, skeleton))
@@ -94,7 +123,9 @@ double AddCandidateCurves(const ObservedPoints& candidates, const RidgeOptions& 
   FreeEndOptions reach = options.free_ends;
   reach.max_gap = kMaxGap;
   reach.max_gap_per_length = kMaxGapPerLength;
+  const std::vector<Vec3> with_candidates = PointsOf(skeleton);
   CloseFreeEnds(skeleton, reach, candidates);
+  DropJoinsNotShown(with_candidates, views, skeleton);
   DropDetached(known, skeleton);
   return skeleton.TotalLength() - length;
 }

@@ -19,6 +19,7 @@ constexpr double kMinContrast = 7;  // grey levels, to both sides of a strip
 constexpr double kBlurPx = 0.8;
 constexpr double kOutstanding = 3;  // standard deviations of what images show anyway
 constexpr int kAlongPx = 5;
+constexpr int kTensorPx = 3;  // to all sides of a middle, where gradients tell how a strip runs
 constexpr int kReachesPx[] = {3, 5, 8};  // from the middle of a strip to what is beside it
 
 // The three channels of an image, smoothed, one after the other.
@@ -96,6 +97,11 @@ float Outstanding(const Image<float>& response) {
 
 }  // namespace
 
+uint8_t DirectionUnits(double angle) {
+  const double turns = angle / M_PI;
+  return static_cast<uint8_t>(static_cast<int>(256 * (turns - std::floor(turns))) & 255);
+}
+
 MaskImage StripMiddles(const ColorImage& color, const PosteriorImage& posterior,
                        const MaskImage& explained) {
   // Across strips and along them.
@@ -124,6 +130,32 @@ MaskImage StripMiddles(const ColorImage& color, const PosteriorImage& posterior,
     }
   }
   return middles;
+}
+
+Image<uint8_t> StripDirections(const ColorImage& color, const MaskImage& middles) {
+  const Planes planes = SmoothPlanes(color);
+  Image<uint8_t> directions(color.width(), color.height(), 0);
+  for (int v = kTensorPx + 1; v + kTensorPx + 1 < color.height(); ++v) {
+    for (int u = kTensorPx + 1; u + kTensorPx + 1 < color.width(); ++u) {
+      if (!middles(u, v)) continue;
+      double xx = 0, xy = 0, yy = 0;
+      for (const Image<float>& plane : planes) {
+        for (int b = v - kTensorPx; b <= v + kTensorPx; ++b) {
+          for (int a = u - kTensorPx; a <= u + kTensorPx; ++a) {
+            const double x = plane(a + 1, b) - plane(a - 1, b);
+            const double y = plane(a, b + 1) - plane(a, b - 1);
+            xx += x * x;
+            xy += x * y;
+            yy += y * y;
+          }
+        }
+      }
+      // The gradients' own direction is at half the angle of the tensor's; strips run across it.
+      const double across = 0.5 * std::atan2(2 * xy, xx - yy);
+      directions(u, v) = DirectionUnits(across + 0.5 * M_PI);
+    }
+  }
+  return directions;
 }
 
 }  // namespace curvefusion

@@ -12,4 +12,10 @@ namespace curvefusion {
 MaskImage StripMiddles(const ColorImage& color, const PosteriorImage& posterior,
                        const MaskImage& explained);
 
+/// Angles of undirected lines in an image, from its rows: 256 to half a turn.
+uint8_t DirectionUnits(double angle);
+
+/// Of middles of strips, which way these run in the image; zero elsewhere.
+Image<uint8_t> StripDirections(const ColorImage& color, const MaskImage& middles);
+
 }  // namespace curvefusion

@@ -37,6 +37,10 @@ constexpr double kFreeShare = 0.8;        // of the images whose depth tells
 constexpr int kCellPx = 4;                // of a colour image
 constexpr int kAroundCells = 9;
 constexpr double kDistanceUnits = 16;  // of the images of distances, in a pixel
+constexpr double kFromTheSide = 0.15;  // sine of the angle between a curve and the line of sight
+constexpr int kSameDirection = 43;     // 30 degrees, see DirectionUnits
+constexpr int kMinLooks = 8;           // images that tell
+constexpr double kAhead = 1e-3;        // metres, between which a direction is projected
 
 cv::Mat AsMat(MaskImage& mask) { return {mask.height(), mask.width(), CV_8U, mask.data()}; }
 
@@ -75,10 +79,29 @@ void SetEvidence(double reach_px, const Image<uint8_t>& to_strip, Image<float>& 
   }
 }
 
-void FindStrips(const MaskImage& middles, StripViews::View& view) {
+// Of every pixel what the nearest middle has.
+Image<uint8_t> FromNearest(const MaskImage& middles, const Image<uint8_t>& values) {
+  MaskImage others(middles.width(), middles.height());
+  for (size_t i = 0; i < others.size(); ++i) others.data()[i] = middles.data()[i] ^ 1;
+  cv::Mat distance, labels;
+  cv::distanceTransform(AsMat(others), distance, labels, cv::DIST_L2, 5, cv::DIST_LABEL_PIXEL);
+  std::vector<uint8_t> of_label(middles.size() + 1, 0);
+  for (int v = 0; v < middles.height(); ++v)
+    for (int u = 0; u < middles.width(); ++u)
+      if (middles(u, v)) of_label[labels.at<int>(v, u)] = values(u, v);
+  Image<uint8_t> nearest(middles.width(), middles.height());
+  for (int v = 0; v < middles.height(); ++v)
+    for (int u = 0; u < middles.width(); ++u) nearest(u, v) = of_label[labels.at<int>(v, u)];
+  return nearest;
+}
+
+void FindStrips(const MaskImage& middles, const Image<uint8_t>& directions,
+                StripViews::View& view) {
   view.to_strip = DistanceTo(middles);
+  view.direction = FromNearest(middles, directions);
   for (int look = 0; look < 2; ++look)
     SetEvidence(kReachPx[look], view.to_strip, view.seen[look], view.not_seen[look]);
+  view.unexplained.clear();
   for (int v = 0; v < middles.height(); ++v) {
     for (int u = v % kPixelStride; u < middles.width(); u += kPixelStride) {
       if (middles(u, v)) view.unexplained.emplace_back(u, v);
@@ -112,28 +135,34 @@ struct Part {
   PosteriorImage posterior;
 };
 
-// The middles of strips in a part of an image.
-MaskImage MiddlesWithin(const cv::Rect& region, const Part& part, const MaskImage& explained) {
-  MaskImage middles(explained.width(), explained.height(), 0);
-  if (region.empty()) return middles;
-  const MaskImage found = StripMiddles(part.color, part.posterior, Crop(explained, region));
+template <typename Pixel>
+void PutInto(Image<Pixel>& whole, const cv::Rect& region, const Image<Pixel>& part) {
   for (int v = 0; v < region.height; ++v)
-    std::copy(found.row(v), found.row(v) + region.width, middles.row(region.y + v) + region.x);
-  return middles;
+    std::copy(part.row(v), part.row(v) + region.width, whole.row(region.y + v) + region.x);
+}
+
+// Finds the strips in a part of an image.
+void FindStripsWithin(const cv::Rect& region, const Part& part, StripViews::View& view) {
+  const int width = view.explained.width(), height = view.explained.height();
+  MaskImage middles(width, height, 0);
+  Image<uint8_t> directions(width, height, 0);
+  if (!region.empty()) {
+    const MaskImage found = StripMiddles(part.color, part.posterior, Crop(view.explained, region));
+    PutInto(middles, region, found);
+    PutInto(directions, region, StripDirections(part.color, found));
+  }
+  FindStrips(middles, directions, view);
 }
 
 }  // namespace
 
-StripViews::StripViews(const SkeletonGraph& skeleton, const Sequence& sequence,
-                       const std::vector<int>& frames,
+StripViews::StripViews(const Sequence& sequence, const std::vector<int>& frames,
                        const std::vector<PosteriorImage>& posteriors,
                        const Eigen::AlignedBox3d& around)
     : depth_camera_(sequence.depth_camera),
       color_camera_(sequence.color_camera.fx > kLargestFocal ? sequence.color_camera.Scaled(0.5)
                                                              : sequence.color_camera),
       bounds_(around) {
-  for (const EdgeId id : skeleton.Edges())
-    for (const Vec3& p : skeleton.edge(id).points) bounds_.extend(p);
   if (bounds_.isEmpty()) return;
   const Vec3 margin = Vec3::Constant(kMargin + kMarginShare * bounds_.diagonal().norm());
   bounds_.min() -= margin;
@@ -154,9 +183,7 @@ StripViews::StripViews(const SkeletonGraph& skeleton, const Sequence& sequence,
   ParallelFor(0, static_cast<int64_t>(views_.size()), 1, [&](int64_t i) {
     View& view = views_[i];
     view.explained = MaskImage(color_camera_.width, color_camera_.height, 0);
-    for (const EdgeId id : skeleton.Edges())
-      ExplainIn(view, skeleton.edge(id).points, skeleton.edge(id).radii);
-    FindStrips(MiddlesWithin(RegionIn(view), parts[i], view.explained), view);
+    FindStripsWithin(RegionIn(view), parts[i], view);
   });
 }
 
@@ -175,6 +202,18 @@ cv::Rect StripViews::RegionIn(const View& view) const {
   const cv::Point last(cvCeil(box.max().x()) + kRegionMarginPx,
                        cvCeil(box.max().y()) + kRegionMarginPx);
   return cv::Rect(first, last) & whole;
+}
+
+void StripViews::ExplainAll(const SkeletonGraph& skeleton) {
+  ParallelFor(0, static_cast<int64_t>(views_.size()), 1, [&](int64_t i) {
+    View& view = views_[i];
+    for (const EdgeId id : skeleton.Edges())
+      ExplainIn(view, skeleton.edge(id).points, skeleton.edge(id).radii);
+    MaskImage middles(view.explained.width(), view.explained.height());
+    for (size_t k = 0; k < middles.size(); ++k)
+      middles.data()[k] = view.to_strip.data()[k] == 0 && !view.explained.data()[k] ? 1 : 0;
+    FindStrips(middles, Image<uint8_t>(view.direction), view);
+  });
 }
 
 void StripViews::Explain(const Polyline& points, const std::vector<double>& radii) {
@@ -229,7 +268,21 @@ bool StripViews::IsFree(const Vec3& p) const {
   return told > 0 && free >= kFreeShare * told;
 }
 
-StripAgreement StripViews::AgreementAt(const Vec3& p, int look, int stride) const {
+// Whether the nearest strip runs as a line does that is seen at a pixel; one seen from its end runs
+// anywhere.
+bool StripViews::RunsAlong(const View& view, const Vec3& p_color, const Vec2& pixel,
+                           const Vec3& direction) const {
+  const Vec3 d = view.T_color_world.linear() * direction;
+  if (d.cross(p_color.normalized()).norm() < kFromTheSide) return true;
+  const Eigen::Vector2i at = PinholeCamera::Rounded(pixel);
+  const Vec2 ahead = color_camera_.Project(Vec3(p_color + kAhead * d)) - pixel;
+  const auto turn = static_cast<int8_t>(view.direction(at.x(), at.y()) -
+                                        DirectionUnits(std::atan2(ahead.y(), ahead.x())));
+  return std::abs(turn) <= kSameDirection;
+}
+
+StripAgreement StripViews::AgreementAt(const Vec3& p, int look, int stride,
+                                       const Vec3* direction) const {
   StripAgreement agreement;
   for (size_t i = 0; i < views_.size(); i += static_cast<size_t>(stride)) {
     const View& view = views_[i];
@@ -240,7 +293,8 @@ StripAgreement StripViews::AgreementAt(const Vec3& p, int look, int stride) cons
     const Eigen::Vector2i at = PinholeCamera::Rounded(pixel);
     if (view.explained(at.x(), at.y()) || Hides(view, p)) continue;
     const double distance = view.to_strip(at.x(), at.y()) / kDistanceUnits;
-    const bool seen = distance <= kReachPx[look];
+    const bool seen = distance <= kReachPx[look] &&
+                      (direction == nullptr || RunsAlong(view, p_color, pixel, *direction));
     const Image<float>& told = seen ? view.seen[look] : view.not_seen[look];
     ++agreement.looked;
     agreement.seen += seen;
@@ -251,6 +305,18 @@ StripAgreement StripViews::AgreementAt(const Vec3& p, int look, int stride) cons
   agreement.evidence *= kCorrelation;
   agreement.middle_evidence *= kCorrelation;
   return agreement;
+}
+
+std::vector<double> StripViews::SharesAlong(const Polyline& points) const {
+  std::vector<double> shares(points.size(), 1);
+  ParallelFor(0, static_cast<int64_t>(points.size()), 8, [&](int64_t i) {
+    const size_t before = i > 0 ? i - 1 : 0;
+    const size_t behind = std::min<size_t>(i + 1, points.size() - 1);
+    const Vec3 direction = (points[behind] - points[before]).normalized();
+    const StripAgreement look = Along(points[i], direction);
+    if (look.looked >= kMinLooks) shares[i] = static_cast<double>(look.seen) / look.looked;
+  });
+  return shares;
 }
 
 }  // namespace curvefusion

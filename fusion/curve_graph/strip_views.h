@@ -10,6 +10,7 @@
 #include "kernel/camera.h"
 #include "kernel/geometry.h"
 #include "kernel/image.h"
+#include "kernel/polyline.h"
 
 namespace curvefusion {
 
@@ -33,17 +34,17 @@ class StripViews {
     Vec3 center;
     MaskImage explained;                       // by curves
     Image<uint8_t> to_strip;                   // distances to strips' middles, sixteenths of pixels
+    Image<uint8_t> direction;                  // of the nearest strip, see StripDirections
     Image<float> farthest;                     // depth, in cells, metres
     std::vector<Eigen::Vector2i> unexplained;  // some middles of strips that no curve covers
     Image<float> seen[2], not_seen[2];  // evidence, in cells: of a first look, of a close one
   };
 
   /// `frames` are those whose images of how likely pixels show wire are in `posteriors`. The object
-  /// is where the curves are, and where `around` is. Images much larger than 640 x 480 are looked
+  /// is `around`; no curve is known yet. Images much larger than 640 x 480 are looked
   /// at in half their size.
-  StripViews(const SkeletonGraph& skeleton, const Sequence& sequence,
-             const std::vector<int>& frames, const std::vector<PosteriorImage>& posteriors,
-             const Eigen::AlignedBox3d& around = {});
+  StripViews(const Sequence& sequence, const std::vector<int>& frames,
+             const std::vector<PosteriorImage>& posteriors, const Eigen::AlignedBox3d& around);
 
   const std::vector<View>& views() const { return views_; }
 
@@ -51,6 +52,9 @@ class StripViews {
   /// looked for.
   const Eigen::AlignedBox3d& bounds() const { return bounds_; }
   const PinholeCamera& color_camera() const { return color_camera_; }
+
+  /// From now on these curves explain the strips along them, which then do not count as chance.
+  void ExplainAll(const SkeletonGraph& skeleton);
 
   /// From now on a curve explains the strips along it.
   void Explain(const Polyline& points, const std::vector<double>& radii);
@@ -64,6 +68,15 @@ class StripViews {
   /// By all images and strips within 1.4 pixels.
   StripAgreement CloseLook(const Vec3& p) const { return AgreementAt(p, 1, 1); }
 
+  /// By all images and strips within 1.4 pixels that run as a curve through a place does.
+  StripAgreement Along(const Vec3& p, const Vec3& direction) const {
+    return AgreementAt(p, 1, 1, &direction);
+  }
+
+  /// The share of the images of Along that show a strip at each place of a curve; 1 where too few
+  /// look.
+  std::vector<double> SharesAlong(const Polyline& points) const;
+
   /// Whether depth of a view shows only what is nearer than a place.
   bool Hides(const View& view, const Vec3& p) const;
 
@@ -73,7 +86,10 @@ class StripViews {
  private:
   static constexpr int kFew = 5;  // every so many-th image
 
-  StripAgreement AgreementAt(const Vec3& p, int look, int stride) const;
+  StripAgreement AgreementAt(const Vec3& p, int look, int stride,
+                             const Vec3* direction = nullptr) const;
+  bool RunsAlong(const View& view, const Vec3& p_color, const Vec2& pixel,
+                 const Vec3& direction) const;
   float BehindIn(const View& view, const Vec3& p) const;
   cv::Rect RegionIn(const View& view) const;
   void ExplainIn(View& view, const Polyline& points, const std::vector<double>& radii) const;

@@ -111,7 +111,7 @@ class TipTracker {
   void CutWhereItFades(Polyline& path) const {
     std::vector<double> shares;
     for (size_t i = 1; i < path.size(); ++i) {
-      const StripAgreement look = views_.CloseLook(path[i]);
+      const StripAgreement look = views_.Along(path[i], (path[i] - path[i - 1]).normalized());
       const double share = look.looked > 0 ? static_cast<double>(look.seen) / look.looked : 0;
       if (look.looked >= kManyLooks) shares.push_back(share);
       if (shares.size() < kSettled || share >= kFaded * Median(shares)) continue;
@@ -120,8 +120,8 @@ class TipTracker {
     }
   }
 
-  double Gain(const Vec3& p, double bend) const {
-    const StripAgreement look = views_.CloseLook(p);
+  double Gain(const Vec3& p, const Vec3& direction, double bend) const {
+    const StripAgreement look = views_.Along(p, direction);
     double evidence = look.Sum();
     if (!views_.IsFree(p)) evidence = std::min(evidence, kNotFree);
     const double told = std::min(1.0, look.looked / kManyLooks);
@@ -140,7 +140,8 @@ class TipTracker {
       const Vec3 direction =
           Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), from.direction) * bend.direction;
       const Vec3 p = from.position + (is_first ? kFirstStep : kStep) * direction;
-      next[i] = {p, is_first ? from.direction : direction, from.score + Gain(p, bend.share), before,
+      next[i] = {p, is_first ? from.direction : direction,
+                 from.score + Gain(p, is_first ? from.direction : direction, bend.share), before,
                  from.steps + 1};
     });
     std::stable_sort(next.begin(), next.end(),

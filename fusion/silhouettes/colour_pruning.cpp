@@ -5,7 +5,7 @@
 
 #include "capture/frame_stream.h"
 #include "fusion/appearance/wire_posterior.h"
-#include "fusion/silhouettes/silhouette_pruning.h"
+#include "fusion/curve_graph/refuted_parts.h"
 #include "fusion/silhouettes/wire_silhouettes.h"
 
 namespace curvefusion {
@@ -22,7 +22,9 @@ std::optional<double> PruneByColour(const Sequence& sequence, const WireColours&
   shifted.color_camera.cy += colours.shift_px.y();
   const WireSilhouettes silhouettes(shifted, frames, posteriors, options.max_frames);
   if (!TellWires(silhouettes, skeleton)) return std::nullopt;
-  return DropRefutedParts(silhouettes, options.min_share, {}, skeleton);
+  return DropRefutedParts(
+      [&silhouettes](const Polyline& points) { return silhouettes.SharesAlong(points); },
+      options.min_share, {}, skeleton);
 }
 
 }  // namespace curvefusion

@@ -5,85 +5,15 @@
 #include <utility>
 #include <vector>
 
+#include "fusion/curve_graph/refuted_parts.h"
 #include "fusion/silhouettes/silhouette_path.h"
-#include "graph/edge_parts.h"
-#include "kernel/point_grid.h"
 #include "kernel/quantile.h"
 
 namespace curvefusion {
 
 namespace {
 
-constexpr double kShownReach = 0.003;  // metres; places of curves are as far apart
-constexpr double kMinRefuted = 0.002;  // metres; shorter runs are corners of curves
-constexpr double kLongRun = 0.008;     // metres; wires are no farther beside their place
-constexpr double kClearlyFalse = 0.5;  // share of images
-constexpr double kOverlooked = 0.25;   // likewise; so few may show a wire before its own colour
-constexpr double kMinPiece = 0.012;    // metres; the shortest spur
-constexpr size_t kRetreat = 2;         // points; near a place beside the wire others may be too
-
-// Whether the edge goes on at both ends of a run for longer than the run is.
-bool IsBetweenLonger(const Polyline& points, const EdgePart& run) {
-  const double shorter =
-      std::min(Length(points, {0, run.first}), Length(points, {run.last, points.size() - 1}));
-  return shorter > Length(points, run);
-}
-
-// Whether a run of points that few images show as wire is no wire. At its junctions an edge may
-// just miss where they should be, and anywhere its wire by little. A bend of a long wire may be
-// overlooked: its shade is another one there, like that of what is behind it.
-bool IsFalse(const SkeletonGraph& skeleton, const SkeletonEdge& edge,
-             const std::vector<double>& shares, const EdgePart& run) {
-  const double length = Length(edge.points, run);
-  const double least =
-      *std::min_element(shares.begin() + static_cast<std::ptrdiff_t>(run.first),
-                        shares.begin() + static_cast<std::ptrdiff_t>(run.last) + 1);
-  if (least >= kOverlooked && IsBetweenLonger(edge.points, run)) return false;
-  if (length >= kLongRun) return true;
-  const bool is_at_junction =
-      (run.first == 0 && skeleton.Degree(edge.nodes[0]) > 1) ||
-      (run.last + 1 == edge.points.size() && skeleton.Degree(edge.nodes[1]) > 1);
-  return length >= kMinRefuted && !is_at_junction && least < kClearlyFalse;
-}
-
-// The longest runs of points that fewer than min_share of the images show as wire.
-std::vector<EdgePart> LowRuns(const std::vector<double>& shares, double min_share) {
-  std::vector<EdgePart> runs;
-  for (size_t i = 0; i < shares.size(); ++i) {
-    if (shares[i] >= min_share) continue;
-    if (!runs.empty() && runs.back().last + 1 == i) {
-      runs.back().last = i;
-    } else {
-      runs.push_back({i, i});
-    }
-  }
-  return runs;
-}
-
-// Whether depth shows at least half of a run, which images then overlook.
-bool IsShownByDepth(const Polyline& points, const EdgePart& run, const PointGrid& shown_by_depth) {
-  size_t shown = 0;
-  for (size_t i = run.first; i <= run.last; ++i) {
-    shown += shown_by_depth.Nearest(points[i], kShownReach) >= 0 ? 1 : 0;
-  }
-  return 2 * shown >= run.last - run.first + 1;
-}
-
-// What is left of all points without the false runs.
-std::vector<EdgePart> RunsKept(const SkeletonGraph& skeleton, const SkeletonEdge& edge,
-                               const std::vector<double>& shares, double min_share,
-                               const PointGrid& shown_by_depth) {
-  std::vector<EdgePart> kept;
-  size_t first = 0;
-  for (const EdgePart& run : LowRuns(shares, min_share)) {
-    if (!IsFalse(skeleton, edge, shares, run)) continue;
-    if (IsShownByDepth(edge.points, run, shown_by_depth)) continue;
-    if (run.first > first) kept.push_back({first, run.first - 1});
-    first = run.last + 1;
-  }
-  if (first < edge.points.size()) kept.push_back({first, edge.points.size() - 1});
-  return kept;
-}
+constexpr size_t kRetreat = 2;  // points; near a place beside the wire others may be too
 
 // The points of a curve with low runs replaced by ways through the silhouettes where there are any.
 Polyline Rerouted(const WireSilhouettes& silhouettes, const Polyline& points, double min_share) {
@@ -115,22 +45,6 @@ void MoveJunctionsIntoWires(const WireSilhouettes& silhouettes, double min_share
     const std::optional<Vec3> place = NearestWire(silhouettes, p, min_share);
     if (place) skeleton.MoveNode(node, *place);
   }
-}
-
-double DropRefutedParts(const WireSilhouettes& silhouettes, double min_share,
-                        const std::vector<Vec3>& shown_by_depth, SkeletonGraph& skeleton) {
-  const PointGrid shown(shown_by_depth, kShownReach);
-  const double before = skeleton.TotalLength();
-  for (const EdgeId id : skeleton.Edges()) {
-    const Polyline& points = skeleton.edge(id).points;
-    const std::vector<EdgePart> runs =
-        RunsKept(skeleton, skeleton.edge(id), silhouettes.SharesAlong(points), min_share, shown);
-    if (runs.size() == 1 && runs[0].first == 0 && runs[0].last + 1 == points.size()) continue;
-    KeepParts(id, runs, kMinPiece, skeleton);
-  }
-  skeleton.RemoveIsolatedNodes();
-  skeleton.DissolveDegree2Nodes();
-  return before - skeleton.TotalLength();
 }
 
 void RerouteCurves(const WireSilhouettes& silhouettes, double min_share, SkeletonGraph& skeleton) {

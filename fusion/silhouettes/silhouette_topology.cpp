@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "fusion/curve_graph/refuted_parts.h"
 #include "fusion/silhouettes/narrow_forks.h"
 #include "fusion/silhouettes/silhouette_continuations.h"
 #include "fusion/silhouettes/silhouette_pruning.h"
@@ -46,14 +47,14 @@ bool TellWires(const WireSilhouettes& silhouettes, const SkeletonGraph& skeleton
   return !shares.empty() && Median(std::move(shares)) >= kTrustedShare;
 }
 
-SilhouetteChanges CorrectTopology(const WireSilhouettes& silhouettes,
+SilhouetteChanges CorrectTopology(const WireSilhouettes& silhouettes, const SharesOfCurve& strips,
                                   const SilhouetteOptions& options,
                                   const std::vector<Vec3>& shown_by_depth,
                                   SkeletonGraph& skeleton) {
   SilhouetteChanges changes;
   MoveJunctionsIntoWires(silhouettes, options.bridges.min_share, skeleton);
   RerouteCurves(silhouettes, options.bridges.min_share, skeleton);
-  changes.removed = DropRefutedParts(silhouettes, options.min_share, shown_by_depth, skeleton);
+  changes.removed = DropRefutedParts(strips, kMinStripShare, shown_by_depth, skeleton);
   changes.rungs = DropRungsInSheets(silhouettes, options.bridges.min_share, skeleton);
   changes.continued = ContinueWires(silhouettes, options.bridges.min_share, skeleton);
   SplitAtCorners(skeleton, kCorner);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fusion/curve_graph/refuted_parts.h"
 #include "fusion/silhouettes/silhouette_bridges.h"
 #include "fusion/silhouettes/wire_silhouettes.h"
 #include "graph/skeleton_graph.h"
@@ -29,12 +30,12 @@ struct SilhouetteChanges {
 /// Whether the silhouettes tell the wires: most of the skeleton is seen as wire nearly always.
 bool TellWires(const WireSilhouettes& silhouettes, const SkeletonGraph& skeleton);
 
-/// Makes the curves agree with the images: what the images look past is dropped, what lies beside
-/// its wire led back to it, and ends are continued and joined where images show wire ahead of them.
-/// What is `shown_by_depth` is never dropped. Needs radii. Deviation: CurveFusion uses colour for
-/// ghosts and radii only, but depth shows wires side by side as one, and none at all that run along
-/// the line of sight.
-SilhouetteChanges CorrectTopology(const WireSilhouettes& silhouettes,
+/// Makes the curves agree with the images: where hardly any shows one of the `strips` is dropped,
+/// what lies beside its wire led back to it, and ends are continued and joined where images show
+/// wire ahead of them. What is `shown_by_depth` is never dropped. Needs radii. Deviation:
+/// CurveFusion uses colour for ghosts and radii only, but depth shows wires side by side as one,
+/// and none at all that run along the line of sight.
+SilhouetteChanges CorrectTopology(const WireSilhouettes& silhouettes, const SharesOfCurve& strips,
                                   const SilhouetteOptions& options,
                                   const std::vector<Vec3>& shown_by_depth, SkeletonGraph& skeleton);
 

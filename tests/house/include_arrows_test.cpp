@@ -72,7 +72,7 @@ const std::map<std::string, std::map<std::string, std::set<std::string>>> kRooms
       {"registration", {}},
       {"segmentation", {"", "appearance", "volume"}},
       {"adjustment", {"appearance", "registration", "strips"}},
-      {"silhouettes", {"adjustment", "appearance", "segmentation", "strips"}},
+      {"silhouettes", {"adjustment", "appearance", "curve_graph", "segmentation", "strips"}},
       {"curve_graph", {"appearance", "strips"}},
       {"tracking", {"volume"}},
       {"paper", {"", "segmentation", "strips", "volume"}},

@@ -75,7 +75,7 @@ TEST(CandidateCurves, ThatHangTogetherWithNothingAreLeftOut) {
 
 TEST(CandidateCurves, NothingWithoutCandidates) {
   SkeletonGraph graph = Known();
-  StripViews views({}, {}, {}, {});
+  StripViews views({}, {}, {}, Eigen::AlignedBox3d());
   EXPECT_EQ(AddCandidateCurves({}, {}, kTestRadius, views, graph), 0);
 }
 

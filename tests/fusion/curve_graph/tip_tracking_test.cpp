@@ -41,7 +41,7 @@ TEST(TrackTips, FollowsABentWireToItsEndAndNoFarther) {
   const Polyline& curve = graph.edge(graph.Edges()[0]).points;
   double farthest = 0;
   for (const Vec3& p : curve) farthest = std::max(farthest, Project(wire, p).distance);
-  EXPECT_LT(farthest, 0.003);
+  EXPECT_LT(farthest, 0.004);  // a step beyond the end, and what strips reach beyond it
   EXPECT_LT(Project(curve, wire.back()).distance, 0.005);
   EXPECT_EQ(TrackTips(kTestRadius, views, graph), 0);  // it is explained now
 }

@@ -80,7 +80,7 @@ TEST(NarrowForks, LeadBothWiresToWhereTheyMeet) {
 TEST(NarrowForks, AreJoinedByWhatCameFromBeside) {
   const SilhouetteScan scan(kWires, {kSheet});
   SkeletonGraph graph = MergedCurve(true);
-  EXPECT_EQ(CorrectTopology(scan.Silhouettes(), {}, {}, graph).forks, 1);
+  EXPECT_EQ(CorrectTopology(scan.Silhouettes(), scan.Shares(), {}, {}, graph).forks, 1);
   EXPECT_EQ(graph.ComponentCount(), 1);
   EXPECT_EQ(graph.CycleRank(), 0);
   int junctions = 0;

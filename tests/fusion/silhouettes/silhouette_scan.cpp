@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <memory>
 #include <numeric>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -103,8 +104,20 @@ WireSilhouettes SilhouetteScan::Silhouettes() const {
   return {sequence_, frames_, posteriors_, static_cast<int>(frames_.size())};
 }
 
-StripViews SilhouetteScan::Strips(const SkeletonGraph& skeleton) const {
-  return {skeleton, sequence_, frames_, posteriors_};
+SharesOfCurve SilhouetteScan::Shares() const {
+  return [silhouettes = std::make_shared<WireSilhouettes>(Silhouettes())](const Polyline& points) {
+    return silhouettes->SharesAlong(points);
+  };
+}
+
+StripViews SilhouetteScan::Strips(const SkeletonGraph& known,
+                                  const Eigen::AlignedBox3d& around) const {
+  Eigen::AlignedBox3d box = around;
+  for (const EdgeId id : known.Edges())
+    for (const Vec3& p : known.edge(id).points) box.extend(p);
+  StripViews views(sequence_, frames_, posteriors_, box);
+  views.ExplainAll(known);
+  return views;
 }
 
 Polyline TestLine(const Vec3& a, const Vec3& b) { return Resample({a, b}, 0.002); }

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "fusion/curve_graph/refuted_parts.h"
 #include "fusion/curve_graph/strip_views.h"
 #include "fusion/silhouettes/wire_silhouettes.h"
 #include "graph/skeleton_graph.h"
@@ -29,8 +30,12 @@ class SilhouetteScan {
   const Sequence& sequence() const { return sequence_; }
   WireSilhouettes Silhouettes() const;
 
-  /// Strips of the same images in colour, dark wires before something bright.
-  StripViews Strips(const SkeletonGraph& skeleton) const;
+  /// The share of the silhouettes that show a curve.
+  SharesOfCurve Shares() const;
+
+  /// Strips of the same images in colour, dark wires before something bright, around these curves,
+  /// which explain theirs, and `around`.
+  StripViews Strips(const SkeletonGraph& known, const Eigen::AlignedBox3d& around = {}) const;
 
  private:
   std::filesystem::path folder_;

@@ -96,7 +96,7 @@ TEST(SilhouettePath, DoesNotLeaveTheWire) {
 TEST(SilhouettePruning, DropsARungThatImagesLookPast) {
   const SilhouetteScan scan({kUpper, kLower});
   SkeletonGraph graph = Rows();
-  const double removed = DropRefutedParts(scan.Silhouettes(), 0.7, {}, graph);
+  const double removed = DropRefutedParts(scan.Shares(), 0.7, {}, graph);
   EXPECT_NEAR(removed, kSpacing, 1e-9);
   EXPECT_EQ(graph.edge_count(), 2);
   EXPECT_EQ(graph.ComponentCount(), 2);
@@ -111,13 +111,13 @@ TEST(SilhouettePruning, KeepsARungThatDepthShows) {
     const Polyline& points = graph.edge(id).points;
     places.insert(places.end(), points.begin(), points.end());
   }
-  EXPECT_EQ(DropRefutedParts(scan.Silhouettes(), 0.7, places, graph), 0);
+  EXPECT_EQ(DropRefutedParts(scan.Shares(), 0.7, places, graph), 0);
 }
 
 TEST(SilhouettePruning, KeepsARungThatIsThere) {
   const SilhouetteScan scan({kUpper, kLower, kRung});
   SkeletonGraph graph = Rows();
-  EXPECT_EQ(DropRefutedParts(scan.Silhouettes(), 0.7, {}, graph), 0);
+  EXPECT_EQ(DropRefutedParts(scan.Shares(), 0.7, {}, graph), 0);
   EXPECT_EQ(graph.edge_count(), 5);
 }
 
@@ -125,7 +125,7 @@ TEST(SilhouettePruning, CutsTheEndBeyondAWire) {
   const SilhouetteScan scan({TestLine({-0.06, 0, 0}, {0.02, 0, 0})});
   SkeletonGraph graph;
   AddTestEdge(graph, kUpper);
-  DropRefutedParts(scan.Silhouettes(), 0.7, {}, graph);
+  DropRefutedParts(scan.Shares(), 0.7, {}, graph);
   ASSERT_EQ(graph.edge_count(), 1);
   // The wire's end is a ball of its radius here; points lie every 2 mm.
   EXPECT_NEAR(graph.TotalLength(), 0.08 + kTestRadius, 0.002 + kTolerance);
@@ -140,9 +140,9 @@ TEST(SilhouettePruning, KeepsAStretchOfALongWireThatSomeImagesOverlook) {
   ASSERT_LT(share, 0.6);
   SkeletonGraph graph;
   AddTestEdge(graph, kUpper);
-  EXPECT_EQ(DropRefutedParts(overlooked.Silhouettes(), 0.7, {}, graph), 0);
+  EXPECT_EQ(DropRefutedParts(overlooked.Shares(), 0.7, {}, graph), 0);
   const SilhouetteScan gap(UpperWithGap(0.01));
-  EXPECT_GT(DropRefutedParts(gap.Silhouettes(), 0.7, {}, graph), 0.01);
+  EXPECT_GT(DropRefutedParts(gap.Shares(), 0.7, {}, graph), 0.01);
   EXPECT_EQ(graph.edge_count(), 2);
 }
 
@@ -151,7 +151,7 @@ TEST(SilhouettePruning, CutsAStretchBetweenShortOnesThatSomeImagesOverlook) {
   const SilhouetteScan scan(UpperWithGap(0.025), {kPlate});
   SkeletonGraph graph;
   AddTestEdge(graph, kUpper);
-  EXPECT_GT(DropRefutedParts(scan.Silhouettes(), 0.7, {}, graph), 0.01);
+  EXPECT_GT(DropRefutedParts(scan.Shares(), 0.7, {}, graph), 0.01);
 }
 
 TEST(SilhouettePruning, LeadsAStretchBackToItsWire) {
@@ -177,7 +177,7 @@ TEST(SilhouettePruning, MovesAJunctionBackIntoItsWires) {
   MoveJunctionsIntoWires(scan.Silhouettes(), 0.9, graph);
   EXPECT_LT((graph.position(junction) - Vec3(0, 0, 0)).norm(), kTolerance);
   RerouteCurves(scan.Silhouettes(), 0.9, graph);
-  EXPECT_EQ(DropRefutedParts(scan.Silhouettes(), 0.7, {}, graph), 0);
+  EXPECT_EQ(DropRefutedParts(scan.Shares(), 0.7, {}, graph), 0);
   EXPECT_EQ(graph.Degree(junction), 3);
   EXPECT_TRUE(Faults(graph).empty());
 }
@@ -281,7 +281,8 @@ TEST(SilhouetteTopology, CompletesAndPrunesAtOnce) {
   SkeletonGraph graph = BarsWithGap(false);
   AddTestEdge(graph, TestLine({0.03, -0.02, 0}, {0.03, 0.02, 0}));  // no wire
   ASSERT_TRUE(TellWires(scan.Silhouettes(), graph));
-  const SilhouetteChanges changes = CorrectTopology(scan.Silhouettes(), {}, {}, graph);
+  const SilhouetteChanges changes =
+      CorrectTopology(scan.Silhouettes(), scan.Shares(), {}, {}, graph);
   EXPECT_NEAR(changes.removed, 0.04, 0.002);
   EXPECT_EQ(graph.ComponentCount(), 1);
   EXPECT_NEAR(graph.TotalLength(), 0.325, 0.003);
@@ -303,7 +304,7 @@ TEST(SilhouetteTopology, JoinsCornersThatWereJunctions) {
     AddTestEdge(graph, bent);
   }
   const SilhouetteScan scan(wires);
-  CorrectTopology(scan.Silhouettes(), {}, {}, graph);
+  CorrectTopology(scan.Silhouettes(), scan.Shares(), {}, {}, graph);
   EXPECT_EQ(graph.ComponentCount(), 1);
   EXPECT_EQ(graph.edge_count(), 5);
   EXPECT_TRUE(Faults(graph).empty());
