@@ -25,9 +25,11 @@ void VisitOptions(SilhouetteOptions& options, OptionVisitor& visitor) {
                  "Deviation: images in whose silhouettes curves are looked for; more are thinned "
                  "evenly, 0 = none."},
                 options.max_frames);
-  visitor.Visit({"min_share", "", 0, 1,
-                 "Deviation: parts that a smaller share of the images shows as wire are false."},
-                options.min_share);
+  visitor.Visit(
+      {"min_share", "", 0, 1,
+       "Deviation: without an adjustment to colours, parts of close rows that a smaller share of "
+       "the images shows as wire are false."},
+      options.min_share);
   visitor.Visit(
       {"max_bridge", "m", 0, 1,
        "Deviation: the longest way that silhouettes may show where depth shows none of it or "
