@@ -2,7 +2,7 @@
 // of these junctions and provides a faithful 3D reconstruction" (CurveFusion 4).
 #include <fmt/format.h>
 
-#include "experiments/studies/gnuplot.h"
+#include "experiments/studies/bar_panels.h"
 #include "experiments/studies/result_table.h"
 #include "experiments/studies/studies.h"
 
@@ -72,57 +72,15 @@ Table PooledJunctions(const std::vector<StudyRun>& runs) {
   return table;
 }
 
-struct Panel {
-  const char* title;
-  const char* figure;
-};
-constexpr Panel kPanels[] = {{"F at 5 mm, aligned", "aligned.curves.5mm.f"},
-                             {"F at 2 mm, aligned", "aligned.curves.2mm.f"},
-                             {"Junction recall", "aligned.junctions_10mm.recall"},
-                             {"Junction precision", "aligned.junctions_10mm.precision"}};
-
-std::vector<std::string> PanelFigures() {
-  std::vector<std::string> figures;
-  for (const Panel& panel : kPanels) figures.emplace_back(panel.figure);
-  return figures;
-}
-
-// Medians as bars, with lines from the least to the greatest value.
-std::string PlotCommands(const std::vector<RunGroup>& profiles, size_t objects) {
-  std::string commands =
-      fmt::format("set xrange [-0.6:{:.1f}]\n", static_cast<double>(objects) - 0.4) +
-      "set datafile missing '?'\nset yrange [0:1.05]\nset ytics 0.2\nset xtics rotate by 35 right "
-      "scale 0\nunset grid\nset grid ytics linecolor rgb '#DDDDDD' linewidth 0.6 dashtype 1\n"
-      "set errorbars small linecolor rgb '#222222' linewidth 0.9\nset style fill solid 0.85 "
-      "noborder\n"
-      "set multiplot layout 2,2 margins 0.055,0.99,0.115,0.89 spacing 0.065,0.21\n";
-  int column = 2;
-  for (const Panel& panel : kPanels) {
-    const bool first = column == 2;
-    commands += fmt::format("set title '{}' offset 0,-0.6\n", panel.title);
-    commands +=
-        first ? "set key at screen 0.5,0.985 center top horizontal maxrows 1\n" : "unset key\n";
-    std::vector<std::string> parts = {"data index 0 using 0:(0):xtic(1) with points pointsize 0"};
-    for (size_t i = 0; i < profiles.size(); ++i) {
-      const double shift = (static_cast<double>(i) - (profiles.size() - 1) / 2.) * 0.38;
-      parts.push_back(fmt::format(
-          "data index {0} using ($0{1:+}):{2}:{3}:{4}:(0.36) with boxerrorbars lt {5} title '{6}'",
-          i, shift, column, column + 1, column + 2, i + 1, profiles[i].labels.front().second));
-    }
-    commands += fmt::format("plot {}\n", fmt::join(parts, ", "));
-    column += 3;
-  }
-  return commands + "unset multiplot";
-}
-
 void Report(const StudyResults& results) {
   const std::vector<RunGroup> groups = GroupRuns(results.runs, {"object", "profile"});
-  const std::vector<RunGroup> profiles = GroupRuns(results.runs, {"profile"});
   WriteTable(results.folder, results.stem, MedianTable(groups, kColumns));
   WriteTable(results.folder, results.stem + "_junctions", PooledJunctions(results.runs));
-  DrawPlot(results.folder, results.stem,
-           {SpreadBlocks(groups, "profile", "object", PanelFigures()),
-            PlotCommands(profiles, groups.size() / profiles.size()), 6.5, 4.2});
+  DrawBarPanels(results, {"object"},
+                {{"F at 5 mm, aligned", "aligned.curves.5mm.f"},
+                 {"F at 2 mm, aligned", "aligned.curves.2mm.f"},
+                 {"Junction recall", "aligned.junctions_10mm.recall"},
+                 {"Junction precision", "aligned.junctions_10mm.precision"}});
 }
 
 }  // namespace

@@ -6,8 +6,9 @@
 namespace curvefusion {
 
 std::vector<Study> AllStudies() {
-  return {ObjectsStudy(),  BundleSizeStudy(), InterWireStudy(), SensorValidationStudy(),
-          AblationStudy(), SweepStudy(),      CheckStudy(),     FamiliesStudy()};
+  return {ObjectsStudy(),          BundleSizeStudy(), RgbResolutionStudy(), InterWireStudy(),
+          SensorValidationStudy(), AblationStudy(),   SweepStudy(),         CheckStudy(),
+          FamiliesStudy()};
 }
 
 Study StudyNamed(const std::string& name) {

@@ -16,6 +16,7 @@ Study StudyNamed(const std::string& name);
 // One file each.
 Study ObjectsStudy();
 Study BundleSizeStudy();
+Study RgbResolutionStudy();
 Study InterWireStudy();
 Study SensorValidationStudy();
 Study AblationStudy();
