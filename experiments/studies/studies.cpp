@@ -6,9 +6,9 @@
 namespace curvefusion {
 
 std::vector<Study> AllStudies() {
-  return {ObjectsStudy(),          BundleSizeStudy(), RgbResolutionStudy(), InterWireStudy(),
-          SensorValidationStudy(), AblationStudy(),   SweepStudy(),         CheckStudy(),
-          FamiliesStudy()};
+  return {ObjectsStudy(),         BundleSizeStudy(),    SensorsStudy(),   PosesStudy(),
+          ThicknessColourStudy(), RgbResolutionStudy(), InterWireStudy(), SensorValidationStudy(),
+          AblationStudy(),        SweepStudy(),         CheckStudy(),     FamiliesStudy()};
 }
 
 Study StudyNamed(const std::string& name) {

@@ -16,6 +16,9 @@ Study StudyNamed(const std::string& name);
 // One file each.
 Study ObjectsStudy();
 Study BundleSizeStudy();
+Study SensorsStudy();
+Study PosesStudy();
+Study ThicknessColourStudy();
 Study RgbResolutionStudy();
 Study InterWireStudy();
 Study SensorValidationStudy();

@@ -13,6 +13,7 @@
 namespace curvefusion {
 namespace {
 
+using testing::ElementsAre;
 using testing::SizeIs;
 
 // Both profiles must see the same scan: a set of settings per value of the label.
@@ -33,6 +34,42 @@ TEST(RgbResolutionStudy, ScansDifferInTheSizeOfColourAlone) {
     EXPECT_EQ(study_case.scan->large_color, large);
     study_case.scan->large_color = false;
     EXPECT_EQ(scans.at("640x480").count(ScanSettings(*study_case.scan)), 1u);
+  }
+}
+
+TEST(ThicknessColourStudy, ScansDifferInTheGreyOfWiresAlone) {
+  const auto scans = ScansBy(ThicknessColourStudy(), "albedo");
+  ASSERT_THAT(scans, SizeIs(3));
+  for (StudyCase& study_case : ThicknessColourStudy().cases({.quick = true})) {
+    SceneOptions& scene = study_case.scan->scene;
+    EXPECT_EQ(study_case.scan->object, "triangles");
+    EXPECT_EQ(scene.wire_albedo, std::stod(LabelOf(study_case.labels, "albedo")));
+    EXPECT_EQ(scene.wire_saturation, 0);
+    scene.wire_albedo = 0.9;
+    EXPECT_THAT(scans.at("0.9"), ElementsAre(ScanSettings(*study_case.scan)));
+  }
+}
+
+TEST(PosesStudy, ScansDifferInThePoseSourceAlone) {
+  const auto scans = ScansBy(PosesStudy(), "poses");
+  ASSERT_THAT(scans, SizeIs(5));
+  for (StudyCase& study_case : PosesStudy().cases({.quick = true})) {
+    EXPECT_EQ(study_case.scan->pose_source, LabelOf(study_case.labels, "poses"));
+    study_case.scan->pose_source = "true";
+    EXPECT_THAT(scans.at("true"), ElementsAre(ScanSettings(*study_case.scan)));
+  }
+}
+
+TEST(SensorsStudy, ScansDifferInTheSensorAlone) {
+  const auto scans = ScansBy(SensorsStudy(), "sensor");
+  ASSERT_THAT(scans, SizeIs(4));
+  for (StudyCase& study_case : SensorsStudy().cases({.quick = true})) {
+    SimulationOptions& scan = *study_case.scan;
+    EXPECT_EQ(scan.sensor, LabelOf(study_case.labels, "sensor"));
+    const bool is_rack = LabelOf(study_case.labels, "object") == "rack";
+    EXPECT_EQ(scan.object_options.wire_diameter, (is_rack ? 8 : 5) * kMillimetre);
+    scan.sensor = "kinect_v1";
+    EXPECT_EQ(scans.at("kinect_v1").count(ScanSettings(scan)), 1u);
   }
 }
 

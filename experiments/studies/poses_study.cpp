@@ -1,0 +1,84 @@
+// Which poses are good enough? BundleFusion "performed as well as ORB-SLAM", KinFu gives
+// "reasonable camera calibration", PTAM "failed to provide sufficient quality camera calibration"
+// (CurveFusion 4, Effect of different camera calibration).
+#include "capture/sequence.h"
+#include "capture/trajectory.h"
+#include "experiments/metrics/trajectory_metrics.h"
+#include "experiments/studies/bar_panels.h"
+#include "experiments/studies/reconstruction_run.h"
+#include "experiments/studies/result_table.h"
+#include "experiments/studies/studies.h"
+
+namespace curvefusion {
+
+namespace {
+
+constexpr int kQuickFrames = 30;  // one bundle of the paper
+
+std::vector<StudyCase> Cases(const StudyRequest& request) {
+  std::vector<StudyCase> cases;
+  for (const char* poses : {"true", "orbslam2", "bundlefusion", "kinfu", "ptam"}) {
+    for (const uint64_t seed : SeedsOf(request)) {
+      SimulationOptions scan = ObjectScan(request, "cat", seed);
+      if (request.quick) scan.frames = kQuickFrames;
+      scan.pose_source = poses;
+      for (const Profile profile : request.profiles) {
+        cases.push_back({{{"poses", poses}, {"profile", ProfileName(profile)}},
+                         seed,
+                         scan,
+                         CaseConfig(request, profile)});
+      }
+    }
+  }
+  return cases;
+}
+
+// The absolute trajectory error of the poses of a sequence in millimetres.
+double TrajectoryError(const Sequence& sequence, const Trajectory& truth) {
+  std::vector<RigidTransform> estimates, true_poses;
+  for (const SequenceFrame& frame : sequence.frames) {
+    const StampedPose* true_pose = NearestPose(truth, frame.timestamp);
+    if (true_pose == nullptr) continue;
+    estimates.push_back(frame.T_world_camera);
+    true_poses.push_back(true_pose->T_world_camera);
+  }
+  return AbsoluteTrajectoryError(estimates, true_poses) / kMillimetre;
+}
+
+RunOutcome Run(const RunInput& input) {
+  const Sequence sequence = OpenSequence(input.scan);
+  InterruptibleObserver observer(input.progress);
+  const Reconstruction result = Reconstruct(sequence, input.study_case.config.pipeline, observer);
+  RunOutcome outcome = EvaluateAndKeep(result.skeleton, input);
+  const Trajectory truth =
+      ReadTumTrajectory(input.scan / "truth" / "trajectory.txt", [](const auto&) {});
+  outcome.figures["trajectory_error_mm"] = TrajectoryError(sequence, truth);
+  outcome.figures["corrected_trajectory_error_mm"] = TrajectoryError(result.sequence, truth);
+  return outcome;
+}
+
+const std::vector<TableColumn> kColumns = {
+    {"F2", "aligned.curves.2mm.f"},
+    {"F5", "aligned.curves.5mm.f"},
+    {"junction recall", "aligned.junctions_10mm.recall"},
+    {"trajectory error (mm)", "trajectory_error_mm"},
+    {"after correction (mm)", "corrected_trajectory_error_mm"}};
+
+void Report(const StudyResults& results) {
+  WriteTable(results.folder, results.stem,
+             MedianTable(GroupRuns(results.runs, {"poses", "profile"}), kColumns));
+  DrawBarPanels(results, {"poses"},
+                {{"F at 2 mm, aligned", "aligned.curves.2mm.f"},
+                 {"Junction recall", "aligned.junctions_10mm.recall"},
+                 {"Trajectory error as given (mm)", "trajectory_error_mm"},
+                 {"Trajectory error after correction (mm)", "corrected_trajectory_error_mm"}});
+}
+
+}  // namespace
+
+Study PosesStudy() {
+  return {"poses", "The cat with true poses and with those of four trackers", false, Cases, Run,
+          Report};
+}
+
+}  // namespace curvefusion
