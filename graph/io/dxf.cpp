@@ -68,7 +68,7 @@ void WriteTables(DL_Dxf& dxf, DL_WriterA& writer) {
   dxf.writeLayer(writer, DL_LayerData("0", 0), DL_Attributes("", 7, -1, "CONTINUOUS", 1.0));
   writer.tableEnd();
   writer.tableStyle(1);
-  dxf.writeStyle(writer, DL_StyleData("STANDARD", 0, 0.0, 1.0, 0.0, 0, 2.5, "txt", ""));
+  dxf.writeStyle(writer, DL_StyleData("Standard", 0, 0.0, 1.0, 0.0, 0, 2.5, "txt", ""));
   writer.tableEnd();
   dxf.writeView(writer);
   dxf.writeUcs(writer);

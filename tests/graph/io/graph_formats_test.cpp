@@ -411,6 +411,20 @@ TEST_F(GraphFormats, DxfSplinesAreReadBack) {
   EXPECT_LT((content.points[7] - Vec3(100, 0, 300)).norm(), 1e-9);
 }
 
+// dxflib leaves a handle to chance where it does not know the style: unlike bytes in every run.
+TEST_F(GraphFormats, DimensionsOfDxfSplinesNameTheirTextStyle) {
+  ExportSplines(folder_ / "wires.dxf", ArcAndLine(), 0.5 * kMillimetre);
+  std::ifstream stream(folder_ / "wires.dxf");
+  std::string code, value, entity, style, named;
+  while (std::getline(stream, code) && std::getline(stream, value)) {
+    if (std::stoi(code) == 0) entity = value;
+    if (entity == "STYLE" && std::stoi(code) == 5) style = value;
+    if (entity == "DIMSTYLE" && std::stoi(code) == 340) named = value;
+  }
+  EXPECT_FALSE(style.empty());
+  EXPECT_EQ(named, style);
+}
+
 // Runs a command of another program; skips where the program is missing (exit code 77).
 #define EXPECT_FOREIGN(command)                                    \
   {                                                                \
