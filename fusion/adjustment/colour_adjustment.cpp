@@ -78,7 +78,7 @@ std::vector<int> ChooseFrames(int frame_count, int stride) {
 
 CurvePoseProblem MakeProblem(const Sequence& sequence, const CurveVertices& curves,
                              const std::vector<int>& indices,
-                             const std::vector<RigidTransform>& T_world_given, bool is_video) {
+                             const std::vector<RigidTransform>& T_world_given, bool drifts) {
   CurvePoseProblem problem;
   problem.color_camera = sequence.color_camera;
   problem.depth_camera = sequence.depth_camera;
@@ -88,7 +88,7 @@ CurvePoseProblem MakeProblem(const Sequence& sequence, const CurveVertices& curv
   for (size_t i = 0; i < indices.size(); ++i) {
     problem.T_world_given.push_back(T_world_given[indices[i]]);
     problem.start.T_camera_world.push_back(sequence.frames[indices[i]].T_world_camera.inverse());
-    if (is_video && i > 0) problem.gaps.push_back(indices[i] - indices[i - 1]);
+    if (drifts && i > 0) problem.gaps.push_back(indices[i] - indices[i - 1]);
   }
   return problem;
 }
@@ -159,6 +159,7 @@ ColorShift UseDepth(const Sequence& sequence, const ColourFrames& frames,
   problem.color_camera.cy += gauge.color_shift.shift_px.y();
   result.color_shift_px += gauge.color_shift.shift_px;
   result.depths = static_cast<int>(problem.depths.size());
+  result.depth_scatter = gauge.scatter;
   const bool is_video = !problem.gaps.empty();
   // A camera that stands still needs no shutters in step.
   if (!is_video) gauge.color_shift.of_frames_px.assign(frames.size(), Vec2::Zero());
@@ -311,7 +312,8 @@ void VisitOptions(ColourAdjustmentOptions& options, OptionVisitor& visitor) {
 
 ColourAdjustment AdjustToColours(const SkeletonGraph& skeleton, const Sequence& sequence,
                                  const std::vector<RigidTransform>& T_world_given,
-                                 const ColourAdjustmentOptions& options, WireDepth depth) {
+                                 const ColourAdjustmentOptions& options, WireDepth depth,
+                                 PoseErrors pose_errors) {
   ColourAdjustment result;
   result.skeleton = skeleton;
   for (const SequenceFrame& frame : sequence.frames) {
@@ -328,7 +330,9 @@ ColourAdjustment AdjustToColours(const SkeletonGraph& skeleton, const Sequence& 
   const bool is_video = IsVideo(sequence);
   ColourFrames frames = LoadColourFrames(
       sequence, ChooseFrames(sequence.frame_count(), is_video ? options.frame_stride : 1));
-  CurvePoseProblem problem = MakeProblem(sequence, curves, frames.indices, T_world_given, is_video);
+  const bool drifts = is_video && pose_errors == PoseErrors::kDrift;
+  CurvePoseProblem problem = MakeProblem(sequence, curves, frames.indices, T_world_given, drifts);
+  problem.pose_errors = pose_errors;
   CurvePoseState state = problem.start;
   const ColorShift color_shift =
       RunRounds(sequence, curves, frames, options, depth, problem, state, result);
@@ -345,7 +349,7 @@ ColourAdjustment AdjustToColours(const SkeletonGraph& skeleton, const Sequence& 
   }
   CurveVertices moved = curves;
   moved.positions = state.positions;
-  if (is_video) {
+  if (drifts) {
     const RigidTransform T_anchored_world = Anchor(
         T_world_given, result.frames, poses, sequence.color_camera, color_shift.frame_sigmas_px);
     for (RigidTransform& pose : poses) pose = T_anchored_world * pose;

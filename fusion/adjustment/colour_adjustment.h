@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "capture/sequence.h"
+#include "fusion/adjustment/curve_pose_solver.h"
 #include "fusion/appearance/wire_posterior.h"
 #include "graph/skeleton_graph.h"
 #include "kernel/options.h"
@@ -38,6 +39,7 @@ struct ColourAdjustment {
   int strips = 0;                          ///< accepted in the last round
   double accepted_share = 0;               ///< of the strips looked for
   int depths = 0;                          ///< depth measurements that held the movement along rays
+  double depth_scatter = 0;                ///< of these about the curves, see DepthGauge
   double start_residual_px = 0;            ///< median distance of curve and strip before
   double residual_px = 0;                  ///< and after
 };
@@ -46,13 +48,14 @@ struct ColourAdjustment {
 /// strips of wire colour found across them in every third colour image, of long sequences in 120
 /// (of vertices with few strips also single edges), and Gauss-Newton over all vertices and poses,
 /// six rounds with a shrinking search. `sequence` holds the poses that `skeleton` (with radii) was
-/// made with, `T_world_given` those of the tracker, whose errors change slowly. Deviation:
+/// made with, `T_world_given` those of the tracker, which err as `pose_errors` says. Deviation:
 /// CurveFusion uses colour for ghosts and radii only; depth errs by several millimetres where
 /// colour edges are seen to a tenth of a pixel. Throws Error(kBadInput) for images that cannot be
 /// decoded. Cost: .1 s a frame used for 3 m of wire.
 ColourAdjustment AdjustToColours(const SkeletonGraph& skeleton, const Sequence& sequence,
                                  const std::vector<RigidTransform>& T_world_given,
                                  const ColourAdjustmentOptions& options,
-                                 WireDepth depth = WireDepth::kShown);
+                                 WireDepth depth = WireDepth::kShown,
+                                 PoseErrors pose_errors = PoseErrors::kDrift);
 
 }  // namespace curvefusion

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "capture/depth_noise.h"
 #include "capture/frame_stream.h"
 #include "fusion/adjustment/strip_depth.h"
 #include "kernel/parallel.h"
@@ -89,6 +90,14 @@ double SigmaOf(const std::vector<AxisSighting>& sightings, double reach) {
   return RobustDeviation(std::move(errors));
 }
 
+double ScatterOf(const DepthGauge& gauge) {
+  double squares = 0;
+  for (const AxisDepthObservation& seen : gauge.depths) squares += seen.depth * seen.depth;
+  if (squares == 0) return 0;
+  const double noise = kNoisePerSquaredDepth * squares / static_cast<double>(gauge.depths.size());
+  return gauge.sigma / noise;
+}
+
 ColorShift ShiftOfColors(const std::vector<AxisSighting>& sightings, const Sequence& sequence,
                          int frame_count) {
   std::vector<StripEdge> edges;
@@ -131,6 +140,7 @@ DepthGauge MeasureDepthGauge(const Sequence& sequence, const std::vector<int>& i
     if (sighting.is_strip) gauge.depths.push_back(sighting.axis);
     if (EndsOnBothSides(sighting.beyond_px)) gauge.centres.push_back(CentreOf(sighting));
   }
+  gauge.scatter = ScatterOf(gauge);
   gauge.color_shift = ShiftOfColors(sightings, sequence, static_cast<int>(indices.size()));
   return gauge;
 }

@@ -15,6 +15,7 @@ struct DepthGauge {
   /// The middles of what depth shows across the wires, in its pixels: where both sides end.
   std::vector<StripObservation> centres;
   double sigma = 0;        ///< of a single one against the curves, metres
+  double scatter = 0;      ///< the same in standard deviations of a plane's depth as far away
   ColorShift color_shift;  ///< to be added to the colour camera's principal point, in its pixels
 };
 

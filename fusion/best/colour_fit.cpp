@@ -15,6 +15,7 @@ void ReportAdjustment(const ColourAdjustment& adjusted, StageLog& log) {
   log.Count(stage, "strips", adjusted.strips);
   log.Count(stage, "accepted share", adjusted.accepted_share);
   log.Count(stage, "depths", adjusted.depths);
+  log.Count(stage, "scatter of depth", adjusted.depth_scatter);
   log.Count(stage, "residual before, px", adjusted.start_residual_px);
   log.Count(stage, "residual, px", adjusted.residual_px);
   log.Count(stage, "colour shift x, px", adjusted.color_shift_px.x());
@@ -44,6 +45,7 @@ void AssignMeasuredRadii(double row_diameter, const RadiusOptions& options,
 }
 
 std::optional<ColourAdjustment> AdjustCurvesAndPoses(const Sequence& given, WireDepth depth,
+                                                     PoseErrors pose_errors,
                                                      const ColourAdjustmentOptions& options,
                                                      const StageReporter& reporter,
                                                      Reconstruction& result) {
@@ -52,7 +54,7 @@ std::optional<ColourAdjustment> AdjustCurvesAndPoses(const Sequence& given, Wire
   std::vector<RigidTransform> T_world_given;
   for (const SequenceFrame& frame : given.frames) T_world_given.push_back(frame.T_world_camera);
   ColourAdjustment adjusted =
-      AdjustToColours(result.skeleton, result.sequence, T_world_given, options, depth);
+      AdjustToColours(result.skeleton, result.sequence, T_world_given, options, depth, pose_errors);
   result.skeleton = adjusted.skeleton;
   for (size_t i = 0; i < result.sequence.frames.size(); ++i) {
     result.sequence.frames[i].T_world_camera = adjusted.T_world_camera[i];

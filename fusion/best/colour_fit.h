@@ -23,9 +23,10 @@ void AssignMeasuredRadii(double row_diameter, const RadiusOptions& options,
                          const StageReporter& reporter, Reconstruction& result);
 
 /// Deviation: curves of known radius and poses of the result as exact as the colour images show
-/// them; `given` has the poses of the input, which drift is counted from. Nothing where nothing was
+/// them; `given` has the poses that errors are counted from. Nothing where nothing was
 /// changed. Throws like MeasureRadii.
 std::optional<ColourAdjustment> AdjustCurvesAndPoses(const Sequence& given, WireDepth depth,
+                                                     PoseErrors pose_errors,
                                                      const ColourAdjustmentOptions& options,
                                                      const StageReporter& reporter,
                                                      Reconstruction& result);

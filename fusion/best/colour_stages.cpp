@@ -26,6 +26,9 @@ constexpr const char* kImagesDoNotTell =
     "skipped: the images do not show the curves as wire throughout";
 // Chosen: before poses and curves are adjusted to colours more is given the benefit of the doubt.
 constexpr double kHardlyAWire = 0.4;  // times evidence.min_probability
+// Measured (docs/silhouettes.md): 1.7 to 4.7 where depth shows wires in their places, 5.7 and more
+// with time of flight.
+constexpr double kWrongScatter = 6;
 
 // Thin by proof: what is a wire with less than `min_probability` leaves the result, by so many
 // depth images at most and the strips of all radii, which come before. Whether any wire left: then
@@ -149,9 +152,12 @@ void PruneUnadjusted(const WireColours& colours, const SilhouetteOptions& option
 }
 
 // Where depth shows no wire at all there is none that colour images might show better.
-bool UsesColourStart(const BestOptions& options, bool is_adjusted, const Reconstruction& result) {
+bool UsesColourStart(const BestOptions& options, const std::optional<ColourAdjustment>& adjusted,
+                     const Reconstruction& result) {
   if (!options.colour_adjustment.enabled) return false;
-  return options.colour_start.always || (!is_adjusted && !result.skeleton.empty());
+  if (options.colour_start.always) return true;
+  if (result.skeleton.empty()) return false;
+  return !adjusted || adjusted->depth_scatter > kWrongScatter;
 }
 
 // In how many images every place of the result was looked for and seen.
@@ -182,9 +188,9 @@ void RefineByColour(const Sequence& given, const SegmentationModel& model,
   // Nothing is to be added to what is hardly a wire.
   keep_proven("evidence_before_colour", kHardlyAWire);
   AddMissedWires(options.completion, reporter, result);
-  std::optional<ColourAdjustment> adjusted =
-      AdjustCurvesAndPoses(given, depth, options.colour_adjustment, reporter, result);
-  if (UsesColourStart(options, adjusted.has_value(), result)) {
+  std::optional<ColourAdjustment> adjusted = AdjustCurvesAndPoses(
+      given, depth, PoseErrors::kDrift, options.colour_adjustment, reporter, result);
+  if (UsesColourStart(options, adjusted, result)) {
     std::optional<ColourAdjustment> from_colour =
         StartFromColour(given, model.colours, options, reporter, result);
     if (from_colour) {
@@ -202,7 +208,11 @@ void RefineByColour(const Sequence& given, const SegmentationModel& model,
   measure_radii();
   keep_proven("evidence", 1);
   // Depth looks past most of these: they have their proof from the images that show them.
-  if (strips && AddWiresFromColour(*strips, options.ridge, reporter, result)) measure_radii();
+  // Curves that came from colour alone are all that it shows.
+  if (strips && depth == WireDepth::kShown &&
+      AddWiresFromColour(*strips, options.ridge, reporter, result)) {
+    measure_radii();
+  }
   LookForEvidence(options.evidence, reporter, result);
 }
 

@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/SVD>
 #include <algorithm>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -12,6 +16,7 @@
 #include "fusion/curve_graph/colour_candidates.h"
 #include "fusion/curve_graph/strip_views.h"
 #include "fusion/silhouettes/wire_silhouettes.h"
+#include "fusion/tracking/tracked_poses.h"
 #include "graph/contraction/ridge_skeleton.h"
 
 namespace curvefusion {
@@ -44,11 +49,13 @@ struct ShownCurves {
   double length = 0;
   double shown = 0;
 
+  // What is shown speaks for curves as much as what is not shown speaks against them.
   bool IsBetterThan(const ShownCurves& other) const {
-    return shown > other.shown && shown * other.length > other.shown * length;
+    return 2 * shown - length > 2 * other.shown - other.length;
   }
 };
 
+// Depth's curves may fit poses that went wrong with them, so both are judged by one set of poses.
 ShownCurves CountShown(const Sequence& sequence, const WireImages& images,
                        const SkeletonGraph& skeleton) {
   const WireSilhouettes silhouettes(sequence, images.frames, images.posteriors, kImages);
@@ -65,6 +72,38 @@ ShownCurves CountShown(const Sequence& sequence, const WireImages& images,
   return curves;
 }
 
+// Poses to start from, and how they err.
+struct StartPoses {
+  const Sequence& sequence;
+  PoseErrors errors;
+};
+
+// Depth that shows wires in wrong places still shows surfaces where they are.
+std::optional<Sequence> HoldToSurfaces(const Sequence& given, const StageReporter& reporter) {
+  const StageLog::Timer timer = reporter.Begin(kStage);
+  return HeldToItsSurfaces(given, [&](std::string_view stage, int64_t done, int64_t total) {
+    reporter.observer.OnProgress(std::string(stage), done, total);
+  });
+}
+
+// The motion of the world that takes the cameras of one reconstruction to those of another.
+RigidTransform MeanMotion(const Sequence& from, const Sequence& to) {
+  Mat3 turns = Mat3::Zero();
+  Vec3 from_center = Vec3::Zero(), to_center = Vec3::Zero();
+  for (size_t i = 0; i < from.frames.size(); ++i) {
+    const RigidTransform& a = from.frames[i].T_world_camera;
+    const RigidTransform& b = to.frames[i].T_world_camera;
+    turns += b.linear() * a.linear().transpose();
+    from_center += a.translation() / static_cast<double>(from.frames.size());
+    to_center += b.translation() / static_cast<double>(from.frames.size());
+  }
+  const Eigen::JacobiSVD<Mat3> svd(turns, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  RigidTransform motion = RigidTransform::Identity();
+  motion.linear() = svd.matrixU() * svd.matrixV().transpose();
+  motion.translation() = to_center - motion.linear() * from_center;
+  return motion;
+}
+
 void ContractPlacesThatImagesAgreeOn(const WireImages& images, const Eigen::AlignedBox3d& around,
                                      const RidgeOptions& options, const StageReporter& reporter,
                                      Reconstruction& colour) {
@@ -78,6 +117,31 @@ void ContractPlacesThatImagesAgreeOn(const WireImages& images, const Eigen::Alig
   reporter.observer.OnGraph("from_colour", colour.skeleton);
 }
 
+// Curves and poses from colour, in rounds; the last `images` have the colours learned.
+std::optional<ColourAdjustment> FitCurvesOfColour(const StartPoses& start,
+                                                  const Eigen::AlignedBox3d& around,
+                                                  const BestOptions& options,
+                                                  const StageReporter& reporter, WireImages& images,
+                                                  Reconstruction& colour) {
+  colour.sequence = start.sequence;
+  std::optional<ColourAdjustment> adjusted;
+  for (int round = 0; round < kRounds; ++round) {
+    Reconstruction next;
+    next.sequence = colour.sequence;
+    ContractPlacesThatImagesAgreeOn(images, around, options.ridge, reporter, next);
+    if (next.skeleton.empty()) break;
+    AssignMeasuredRadii(0, options.radius, reporter, next);
+    std::optional<ColourAdjustment> again =
+        AdjustCurvesAndPoses(start.sequence, WireDepth::kNotShown, start.errors,
+                             options.colour_adjustment, reporter, next);
+    if (!again) break;  // also where the curves are as exact already
+    adjusted = std::move(again);
+    images = {adjusted->frames, adjusted->posteriors};
+    colour = std::move(next);
+  }
+  return adjusted;
+}
+
 }  // namespace
 
 std::optional<ColourAdjustment> StartFromColour(const Sequence& given, const WireColours& colours,
@@ -88,24 +152,22 @@ std::optional<ColourAdjustment> StartFromColour(const Sequence& given, const Wir
   Eigen::AlignedBox3d around;
   for (const Vec3& p : result.points.positions) around.extend(p);
   Reconstruction colour;
-  colour.sequence = given;
   WireImages images = LookForColours(given, colours);
-  const ShownCurves before = CountShown(result.sequence, images, result.skeleton);
   std::optional<ColourAdjustment> adjusted;
-  for (int round = 0; round < kRounds; ++round) {
-    Reconstruction next;
-    next.sequence = colour.sequence;
-    ContractPlacesThatImagesAgreeOn(images, around, options.ridge, reporter, next);
-    if (next.skeleton.empty()) break;
-    AssignMeasuredRadii(0, options.radius, reporter, next);
-    std::optional<ColourAdjustment> again = AdjustCurvesAndPoses(
-        given, WireDepth::kNotShown, options.colour_adjustment, reporter, next);
-    if (!again) break;  // also where the curves are as exact already
-    adjusted = std::move(again);
-    images = {adjusted->frames, adjusted->posteriors};
-    colour = std::move(next);
+  // A camera before a plane and wires alone may slip along it: curves then fit no image.
+  bool is_held = true;
+  if (const std::optional<Sequence> held = HoldToSurfaces(given, reporter))
+    adjusted =
+        FitCurvesOfColour({*held, PoseErrors::kJitter}, around, options, reporter, images, colour);
+  if (!adjusted) {
+    is_held = false;
+    adjusted =
+        FitCurvesOfColour({given, PoseErrors::kDrift}, around, options, reporter, images, colour);
   }
   if (!adjusted) return std::nullopt;
+  const ShownCurves before = CountShown(
+      colour.sequence, images,
+      Transformed(result.skeleton, AffineTransform(MeanMotion(result.sequence, colour.sequence))));
   const ShownCurves after = CountShown(colour.sequence, images, colour.skeleton);
   reporter.log.Count(kStage, "of depth shown as wire, m", before.shown);
   reporter.log.Count(kStage, "shown as wire, m", after.shown);
@@ -117,9 +179,10 @@ std::optional<ColourAdjustment> StartFromColour(const Sequence& given, const Wir
   result.uncertain = {};
   result.trust = colour.trust;
   result.warnings.push_back(fmt::format(
-      "the curves come from the colour images alone, and their scale from the poses: the "
-      "images show {:.2f} m of them as wire, and {:.2f} of {:.2f} m of depth's",
-      after.shown, before.shown, before.length));
+      "the curves come from the colour images alone, and their scale from {}: the images show "
+      "{:.2f} m of them as wire, and {:.2f} of {:.2f} m of depth's",
+      is_held ? "the surfaces that depth shows" : "the poses", after.shown, before.shown,
+      before.length));
   return adjusted;
 }
 

@@ -16,10 +16,13 @@ namespace curvefusion {
 /// behind a place (FindColourCandidates), and by its thin pixels the wires' colours (`colours`).
 /// Places that images agree on are contracted, and curves and poses adjusted to the images (`given`
 /// has the poses of the input, which are started from); with these poses and the colours then
-/// learned all of that once more. Scale is that of the poses.
+/// learned all of that once more.
+///
+/// Poses are held to the surfaces that depth shows (HeldToItsSurfaces); where curves cannot be
+/// fitted in these, the given ones are started from, and scale is theirs.
 ///
 /// Replaces curves, points, radii and poses of the result where the images show more metres of the
-/// new curves as wire than of those that were there, and a greater share of them; with
+/// new curves as wire than of those that were there, metres that they do not show taken off; with
 /// options.colour_start.always wherever there are any. Nothing otherwise. Throws Error(kBadInput)
 /// for an image that cannot be read. Costs about .1 s an image, at most 90 of them.
 std::optional<ColourAdjustment> StartFromColour(const Sequence& given, const WireColours& colours,

@@ -49,8 +49,8 @@ void Warn(const Sequence& images, TrackingResult& result) {
 
 }  // namespace
 
-TrackingResult TrackSequence(const Sequence& images, const RigidTransform& T_world_start,
-                             const TrackingOptions& options, const Progress& progress) {
+TrackingResult TrackFrames(const Sequence& images, const RigidTransform& T_world_start,
+                           const TrackingOptions& options, const Progress& progress) {
   const TrackingCameras cameras = {images.depth_camera, images.color_camera, images.T_color_depth};
   CameraTracker tracker(cameras, options, T_world_start);
   TrackingResult result;
@@ -74,6 +74,12 @@ TrackingResult TrackSequence(const Sequence& images, const RigidTransform& T_wor
     progress(kStage, decoded.index + 1, images.frame_count());
   });
   result.keyframes = tracker.keyframe_count();
+  return result;
+}
+
+TrackingResult TrackSequence(const Sequence& images, const RigidTransform& T_world_start,
+                             const TrackingOptions& options, const Progress& progress) {
+  TrackingResult result = TrackFrames(images, T_world_start, options, progress);
   RequireMostTracked(images, result);
   Warn(images, result);
   for (const std::string& warning : result.warnings) result.sequence.warnings.push_back(warning);

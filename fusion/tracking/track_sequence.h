@@ -24,6 +24,10 @@ struct TrackingResult {
   std::vector<std::string> warnings;
 };
 
+/// As TrackSequence, but however many frames could be placed, and without warnings.
+TrackingResult TrackFrames(const Sequence& images, const RigidTransform& T_world_start,
+                           const TrackingOptions& options, const Progress& progress);
+
 /// Finds the pose of every frame of a sequence, whatever poses it has; the first tracked one is at
 /// `T_world_start`. Frames that cannot be placed are left out and named. Throws Error(kBadInput)
 /// where fewer than half of the frames could be placed, and where an image cannot be read.

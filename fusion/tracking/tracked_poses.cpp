@@ -34,6 +34,13 @@ std::string DoubtOfPoses(const Sequence& tracked) {
          "system (docs/tracking.md)";
 }
 
+std::optional<Sequence> HeldToItsSurfaces(const Sequence& given, const Progress& progress) {
+  const TrackingResult tracking =
+      TrackFrames(given, given.frames.front().T_world_camera, {}, progress);
+  if (!tracking.lost.empty() || DepthDisagrees(tracking.sequence)) return std::nullopt;
+  return tracking.sequence;
+}
+
 std::optional<TrackingResult> FindPoses(Sequence& sequence, const Progress& progress) {
   if (sequence.has_poses) {
     RequireFittingPoses(sequence);
