@@ -78,7 +78,7 @@ const std::map<std::string, std::map<std::string, std::set<std::string>>> kRooms
       {"paper", {"", "segmentation", "strips", "volume"}},
       {"best",
        {"", "adjustment", "appearance", "curve_graph", "registration", "segmentation",
-        "silhouettes", "strips", "volume"}},
+        "silhouettes", "strips", "tracking", "volume"}},
       {"", {"best", "curve_graph", "paper", "silhouettes", "strips", "volume"}}}},
 };
 
