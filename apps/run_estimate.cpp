@@ -8,7 +8,8 @@ namespace {
 
 // Seconds before the speed of this machine is known well enough: a volume of 24 frames takes .35.
 constexpr double kEarliest = 0.25;
-// Once so much of a stage is done its own speed is known, chosen on the scans of docs/results.md.
+// Once so much of a stage is done its own speed is known, chosen on the scans of
+// docs/results_details.md.
 constexpr double kSureShare = 0.1;
 
 }  // namespace

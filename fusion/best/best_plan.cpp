@@ -7,7 +7,7 @@ namespace curvefusion {
 namespace {
 
 // Until something was found: points a frame and metres of curve, between those of the real and the
-// simulated scans of docs/results.md#time-left.
+// simulated scans of docs/results_details.md#time-left.
 constexpr double kPointsPerFrame = 500;
 constexpr double kLength = 3;
 // The image size that costs were measured at.
@@ -49,7 +49,8 @@ Amounts AmountsOf(const Sequence& sequence, const BestOptions& options, const Ru
 }
 
 // Seconds of one thread: fitted to cubeframe, lampshade, cable, kitchen and aims
-// (docs/results.md#time-left); wires from colour after basket and umbrella, 1.8 and 2.8 s of two.
+// (docs/results_details.md#time-left); wires from colour after basket and umbrella, 1.8 and 2.8 s
+// of two.
 std::vector<PlannedStage> BestStages(const Amounts& a) {
   const double radius = a.strips * (0.0033 * a.size + 0.0016 * a.seen);
   return {{"volume", 0.0145 * a.integrated},
