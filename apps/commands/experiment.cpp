@@ -10,6 +10,8 @@
 #include "apps/commands/command.h"
 #include "apps/output_folder.h"
 #include "apps/output_guard.h"
+#include "experiments/reproduction/reproduction.h"
+#include "experiments/reproduction/reproduction_page.h"
 #include "experiments/studies/regression_check.h"
 #include "experiments/studies/studies.h"
 #include "experiments/studies/study_runner.h"
@@ -106,13 +108,12 @@ PlannedStudy Planned(const Study& study, const StudyRequest& request,
 }
 
 int RunOne(const PlannedStudy& planned, const StudyRequest& request,
-           const ExperimentArguments& arguments) {
+           const ExperimentArguments& arguments, ProgressPrinter& printer) {
   if (!arguments.run.quiet) {
     fmt::print("{}: ", planned.study.name);
     PrintPlan(planned.plan, arguments.runner.remeasure);
     std::fflush(stdout);  // before the progress, which goes to the other stream
   }
-  ProgressPrinter printer = MakeProgressPrinter(arguments.run.quiet);
   const StudyResults results =
       RunOrTellHowToGoOn(planned.study, request, arguments, InterruptibleProgress(printer));
   printer.Finish();
@@ -121,19 +122,42 @@ int RunOne(const PlannedStudy& planned, const StudyRequest& request,
   return std::max(outcome, PrintComparison(planned.baseline, results, arguments.tolerance));
 }
 
-// "all" leaves out those that choose constants: they are not figures but work on them.
+constexpr const char* kAll = "all";                    // those that test a claim, then the page
+constexpr const char* kReproduction = "reproduction";  // the page alone
+
 std::vector<Study> StudiesOf(const std::vector<std::string>& names) {
   std::vector<Study> studies;
   for (const std::string& name : names) {
-    if (name != "all") {
+    if (name == kReproduction) continue;
+    if (name != kAll) {
       studies.push_back(StudyNamed(name));
       continue;
     }
-    for (const Study& study : AllStudies()) {
-      if (!study.tunes_parameters) studies.push_back(study);
-    }
+    const std::vector<Study> of_claims = StudiesOfClaims();
+    studies.insert(studies.end(), of_claims.begin(), of_claims.end());
   }
   return studies;
+}
+
+bool WantsPage(const std::vector<std::string>& names) {
+  return std::any_of(names.begin(), names.end(),
+                     [](const std::string& name) { return name == kAll || name == kReproduction; });
+}
+
+// Runs to measure stand for the time that a study takes.
+std::vector<PlannedStage> StagesOf(const std::vector<PlannedStudy>& studies, bool remeasure) {
+  std::vector<PlannedStage> stages;
+  for (const auto& [study, plan, baseline] : studies) {
+    const int kept = plan.finished - (remeasure ? plan.other_revision : 0);
+    stages.push_back({study.name, static_cast<double>(plan.cases.size()) - kept});
+  }
+  return stages;
+}
+
+void WritePage(const StudyRequest& request, const ExperimentArguments& arguments) {
+  WriteReproduction(request, arguments.output);
+  if (arguments.run.quiet) return;
+  fmt::print("Wrote {}\n", (arguments.output / "reproduction.md").string());
 }
 
 int RunExperiment(const ExperimentArguments& arguments) {
@@ -146,10 +170,13 @@ int RunExperiment(const ExperimentArguments& arguments) {
   MakeOutputFolder(arguments.output);
   LimitThreads(arguments.run);
   const RunLock lock(arguments.output / "curvefusion.lock", arguments.output);
+  ProgressPrinter printer = MakeProgressPrinter(arguments.run.quiet);
+  printer.Plan(StagesOf(studies, arguments.runner.remeasure));
   int exit_code = 0;
   for (const PlannedStudy& study : studies) {
-    exit_code = std::max(exit_code, RunOne(study, request, arguments));
+    exit_code = std::max(exit_code, RunOne(study, request, arguments, printer));
   }
+  if (WantsPage(arguments.names)) WritePage(request, arguments);
   return exit_code;
 }
 
@@ -158,7 +185,10 @@ std::string StudyList() {
   for (const Study& study : AllStudies()) {
     text += fmt::format("  {:<18} {}\n", study.name, study.summary);
   }
-  return text;
+  return text +
+         fmt::format("  {:<18} {}\n  {:<18} {}\n", kAll,
+                     "Every study that tests a claim of the paper, then the page reproduction.md",
+                     kReproduction, "That page again, from the runs that are finished");
 }
 
 void AddRequestOptions(CLI::App& command, ExperimentArguments& arguments) {
@@ -205,7 +235,8 @@ void AddExperimentCommand(CLI::App& app, int& exit_code) {
   CLI::App* command =
       app.add_subcommand("experiment", "Run a study of the paper on simulated scans");
   const auto arguments = std::make_shared<ExperimentArguments>();
-  command->add_option("NAME", arguments->names, "Studies, see below, or all")->required();
+  command->add_option("NAME", arguments->names, "Studies, see below, all, or reproduction")
+      ->required();
   command
       ->add_option("-o,--output", arguments->output,
                    "Folder for scans, runs, tables and figures; finished runs in it are kept")
@@ -227,7 +258,7 @@ void AddExperimentCommand(CLI::App& app, int& exit_code) {
   AddRunOptions(*command, arguments->run);
   command->footer(StudyList() +
                   "Example:\n  curvefusion experiment objects -o studies --quick\n"
-                  "  curvefusion experiment all -o studies --remeasure\n"
+                  "  curvefusion experiment all -o studies --quick\n"
                   "  curvefusion experiment inter-wire -o studies --seeds 1 --set "
                   "fusion.overlap_distance=0.008\n"
                   "  curvefusion experiment sweep -o sweep --set bundle.min_frames=1,2,3 --objects "

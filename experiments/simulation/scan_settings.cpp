@@ -75,16 +75,18 @@ Json ShapeSeedJson(const SimulationOptions& scan) {
 }
 
 Json ScanJson(const SimulationOptions& scan) {
-  return {{"simulator", kSimulatorVersion},
-          {"object", scan.object},
-          {"shape_seed", ShapeSeedJson(scan)},
-          {"sensor", scan.sensor},
-          {"pose_source", scan.pose_source},
-          {"registration", RegistrationName(scan.color.registration)},
-          {"light", LightName(scan.scene.light)},
-          {"seed", scan.seed},
-          {"options", OptionsJson(scan)},
-          {"curves", CurvesJson(scan.object_options.curves)}};
+  Json json = {{"simulator", kSimulatorVersion},
+               {"object", scan.object},
+               {"shape_seed", ShapeSeedJson(scan)},
+               {"sensor", scan.sensor},
+               {"pose_source", scan.pose_source},
+               {"registration", RegistrationName(scan.color.registration)},
+               {"light", LightName(scan.scene.light)},
+               {"seed", scan.seed},
+               {"options", OptionsJson(scan)},
+               {"curves", CurvesJson(scan.object_options.curves)}};
+  if (scan.scene.table_gap) json["table_gap"] = *scan.scene.table_gap;
+  return json;
 }
 
 // Throws nlohmann's exceptions for what is not there or of another type.
@@ -120,6 +122,7 @@ SimulationOptions ScanOf(const nlohmann::json& json, const std::string& source) 
     scan.object_options.shape_seed = json.at("shape_seed").get<uint64_t>();
   }
   scan.object_options.curves = CurvesOf(json.at("curves"));
+  if (json.contains("table_gap")) scan.scene.table_gap = json.at("table_gap").get<double>();
   SettingsReader reader(json.at("options"), source);
   VisitOptions(scan, reader);
   return scan;

@@ -99,9 +99,11 @@ SurfaceMaterial BackgroundMaterial(Random& random, uint64_t texture_seed) {
   return material;
 }
 
-std::vector<ScenePlane> RoomAround(const Eigen::AlignedBox3d& object, Random& random) {
+std::vector<ScenePlane> RoomAround(const Eigen::AlignedBox3d& object,
+                                   const std::optional<double>& table_gap, Random& random) {
   constexpr double kSideWall = 1.0;  // beside the object, so that no view ends in nothing
-  const double table = object.min().z() - random.Uniform(0.06, 0.10);
+  const double drawn_gap = random.Uniform(0.06, 0.10);  // also where it is not used: same room
+  const double table = object.min().z() - table_gap.value_or(drawn_gap);
   const double wall = object.max().y() + random.Uniform(0.4, 0.6);
   return {{Vec3::UnitZ(), table},
           {-Vec3::UnitY(), -wall},
@@ -177,7 +179,7 @@ Scene MakeScene(const WireObject& object, const SceneOptions& options, uint64_t 
   scene.object = Placed(object);
   scene.object_bounds = Bounds(scene.object);
   scene.capsules = Capsules(scene.object);
-  scene.planes = RoomAround(scene.object_bounds, random);
+  scene.planes = RoomAround(scene.object_bounds, options.table_gap, random);
   scene.boxes = BoxesAround(scene.object_bounds, scene.planes, random);
   scene.materials.push_back(WireMaterial(options));
   for (size_t i = 0; i < scene.planes.size() + scene.boxes.size(); ++i) {

@@ -9,12 +9,9 @@
 
 #include "capture/sequence.h"
 #include "capture/trajectory.h"
-#include "experiments/metrics/evaluation_files.h"
 #include "experiments/metrics/truth.h"
-#include "experiments/pictures/mesh_view.h"
-#include "experiments/pictures/orthographic_view.h"
-#include "experiments/pictures/png.h"
 #include "experiments/studies/gnuplot.h"
+#include "experiments/studies/method_outcome.h"
 #include "experiments/studies/reconstruction_run.h"
 #include "experiments/studies/result_table.h"
 #include "experiments/studies/studies.h"
@@ -32,9 +29,6 @@ constexpr const char* kVolume = "VolumeFusion";
 constexpr double kFineVoxel = 2 * kMillimetre;
 // The room behind the wires is seen in every frame: a third of them shows it as well.
 constexpr int kRoomStride = 3;
-constexpr int kPicture = 420;  // pixels, width and height of a picture
-constexpr double kPointInk = .75;
-constexpr double kFilled = .9;  // share of it that the object fills
 
 struct Scale {
   std::vector<std::string> objects;
@@ -116,53 +110,9 @@ TsdfVolume FusedVolume(const Sequence& sequence, const Config& config, int strid
   });
 }
 
-// Where the true object stands in every picture of it.
-struct Framing {
-  OrthographicView view;
-  Eigen::AlignedBox3d bounds;
-  double scale = 1;  // pixels per metre
-};
-
-// From the side of -y, where the simulator's camera is, and a little from above.
-Framing FramingOf(const SkeletonGraph& truth) {
-  Framing framing;
-  const Mat3 tilt = Eigen::AngleAxisd(0.3, Vec3::UnitX()).toRotationMatrix();
-  Mat3 front;
-  front << 1, 0, 0, 0, 0, 1, 0, -1, 0;
-  framing.view = {"", tilt * front, false, kPointInk};
-  framing.bounds = ViewBounds(truth, framing.view.R_view_world);
-  framing.scale = kFilled * kPicture / framing.bounds.sizes().head<2>().maxCoeff();
-  return framing;
-}
-
-ColorImage Picture(const SkeletonGraph& graph, const ObservedPoints& points,
-                   const Framing& framing) {
-  return DrawFramedView(graph, points, framing.view, framing.bounds, kPicture, kPicture,
-                        framing.scale);
-}
-
-// What skeletons and surfaces are compared in, both aligned.
-void AddCommonFigures(const std::string& kind, const std::string& pieces, Figures& figures) {
-  const auto copy = [&](const std::string& from, const char* to) {
-    const auto found = figures.find(from);
-    figures[to] = found == figures.end() ? 0 : found->second;
-  };
-  copy(kind + ".5mm.f", "F5");
-  copy(kind + ".2mm.f", "F2");
-  copy(kind + ".5mm.recall", "recall");
-  copy(kind + ".5mm.precision", "precision");
-  copy(pieces, "pieces");
-}
-
 RunOutcome RunVolume(const RunInput& input, const Sequence& bundle, const SkeletonGraph& truth) {
   const TsdfVolume volume = FusedVolume(bundle, input.study_case.config, 1, input.progress);
-  const TriangleMesh mesh = PartAroundTruth(volume.ExtractMesh(), truth).mesh;
-  const Framing framing = FramingOf(truth);
-  WritePng(input.folder / "mesh.png",
-           DrawMesh(mesh, framing.view, framing.bounds, kPicture, kPicture, framing.scale));
-  RunOutcome outcome{!mesh.triangles.empty(), EvaluationFigures(EvaluateMesh(mesh, truth))};
-  AddCommonFigures("aligned.surface", "mesh.components", outcome.figures);
-  return outcome;
+  return KeepSurfaceOfMethod(input, volume.ExtractMesh(), truth);
 }
 
 RunOutcome RunSkeleton(const RunInput& input, const Sequence& scan, const Sequence& bundle,
@@ -171,12 +121,7 @@ RunOutcome RunSkeleton(const RunInput& input, const Sequence& scan, const Sequen
   const TsdfVolume room = FusedVolume(scan, config, kRoomStride, input.progress);
   InterruptibleObserver observer(input.progress);
   const Reconstruction result = ReconstructAgainst(room, bundle, config.pipeline, observer);
-  const Framing framing = FramingOf(truth);
-  WritePng(input.folder / "points.png", Picture({}, result.points, framing));
-  WritePng(input.folder / "skeleton.png", Picture(result.skeleton, {}, framing));
-  RunOutcome outcome = EvaluateAndKeep(result.skeleton, input);
-  AddCommonFigures("aligned.curves", "components", outcome.figures);
-  return outcome;
+  return KeepSkeletonOfMethod(input, result.skeleton, result.points, truth);
 }
 
 RunOutcome Run(const RunInput& input) {

@@ -19,7 +19,7 @@ constexpr double kNearWires = 15 * kMillimetre;  // mean distance of a curve tha
 constexpr double kResolvedF5 = 0.95;
 
 std::vector<int> SpacingsOf(const StudyRequest& request) {
-  if (request.quick) return {40, 20, 12};
+  if (request.quick) return {40, 18, 12};
   return {40, 30, 25, 22, 20, 18, 17, 16, 15, 12, 10, 8};
 }
 

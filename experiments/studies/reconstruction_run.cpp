@@ -71,6 +71,18 @@ RunOutcome EvaluateAndKeep(const SkeletonGraph& skeleton, const RunInput& input)
   return {!skeleton.empty(), EvaluationFigures(evaluation)};
 }
 
+void AddContractionCost(const std::vector<StageReport>& stages, const Cost& cost, int frames,
+                        Figures& figures) {
+  double contraction = 0;
+  for (const StageReport& stage : stages) {
+    if (stage.name == "contraction") contraction += stage.seconds;
+  }
+  if (cost.seconds <= 0 || frames == 0) return;
+  figures["contraction_share"] = contraction / cost.seconds;
+  figures["seconds_per_30_frames_without_contraction"] =
+      (cost.seconds - contraction) * kBundle / frames;
+}
+
 RunOutcome ReconstructAndEvaluate(const RunInput& input) {
   Sequence sequence = OpenSequence(input.scan);
   UseFittedColourCamera(sequence);  // as the command does
@@ -80,6 +92,7 @@ RunOutcome ReconstructAndEvaluate(const RunInput& input) {
       CostOf([&] { result = Reconstruct(sequence, input.study_case.config.pipeline, observer); });
   RunOutcome outcome = EvaluateAndKeep(result.skeleton, input);
   AddCost(cost, sequence.frame_count(), outcome.figures);
+  AddContractionCost(result.stages, cost, sequence.frame_count(), outcome.figures);
   outcome.figures["global_diameter_mm"] = 2 * result.radii.global_radius / kMillimetre;
   return outcome;
 }

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "experiments/studies/study.h"
 #include "fusion/pipeline.h"
@@ -20,6 +21,11 @@ Cost CostOf(const std::function<void()>& work);
 
 /// Adds `seconds`, `cpu_seconds`, both per 30 frames (the paper's bundle), and `peak_memory_mb`.
 void AddCost(const Cost& cost, int frames, Figures& figures);
+
+/// Adds `contraction_share`, of all seconds, and `seconds_per_30_frames_without_contraction`, as
+/// the paper's Table 1 counts.
+void AddContractionCost(const std::vector<StageReport>& stages, const Cost& cost, int frames,
+                        Figures& figures);
 
 /// Passes the progress of a reconstruction on, so that it ends once the user interrupts.
 class InterruptibleObserver : public PipelineObserver {

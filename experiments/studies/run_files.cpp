@@ -25,6 +25,12 @@ Json MachineJson(const Provenance& program) {
       {"processor", program.processor}, {"cores", program.cores}, {"memory_gb", program.memory_gb}};
 }
 
+Json LabelsJson(const Labels& labels) {
+  Json json = Json::object();
+  for (const auto& [name, value] : labels) json[name] = value;
+  return json;
+}
+
 // Throws nlohmann's exceptions for what is not there or of another type.
 RunFile Parsed(const Json& json, const fs::path& folder) {
   RunFile file;
@@ -64,9 +70,7 @@ std::string CsvRow(const StudyRun& run, const std::set<std::string>& figures) {
 
 void WriteRunFile(const fs::path& folder, const RunFile& file) {
   const Provenance program = ThisProgram();
-  Json labels = Json::object();
-  for (const auto& [name, value] : file.run.labels) labels[name] = value;
-  const Json json = {{"format", "curvefusion-run"},   {"labels", labels},
+  const Json json = {{"format", "curvefusion-run"},   {"labels", LabelsJson(file.run.labels)},
                      {"seed", file.run.seed},         {"outcome", file.run.outcome},
                      {"message", file.run.message},   {"version", program.version},
                      {"revision", file.run.revision}, {"machine", MachineJson(program)},
@@ -95,6 +99,20 @@ void WriteRunsCsv(const fs::path& path, const std::vector<StudyRun>& runs) {
     stream << CsvHeader(runs, figures);
     for (const StudyRun& run : runs) stream << CsvRow(run, figures);
   });
+}
+
+void WriteRunsJson(const fs::path& path, const std::vector<StudyRun>& runs) {
+  if (runs.empty()) return;
+  Json json = Json::array();
+  for (const StudyRun& run : runs) {
+    json.push_back({{"labels", LabelsJson(run.labels)},
+                    {"seed", run.seed},
+                    {"outcome", run.outcome},
+                    {"message", run.message},
+                    {"revision", run.revision},
+                    {"figures", run.figures}});
+  }
+  WriteStreamAtomically(path, [&](std::ostream& stream) { stream << json.dump(1) << "\n"; });
 }
 
 }  // namespace curvefusion

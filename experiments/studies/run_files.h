@@ -25,4 +25,7 @@ std::optional<RunFile> ReadRunFile(const std::filesystem::path& folder);
 /// figure that any run has.
 void WriteRunsCsv(const std::filesystem::path& path, const std::vector<StudyRun>& runs);
 
+/// Writes the same as a JSON array, an object a run.
+void WriteRunsJson(const std::filesystem::path& path, const std::vector<StudyRun>& runs);
+
 }  // namespace curvefusion

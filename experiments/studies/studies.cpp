@@ -6,9 +6,10 @@
 namespace curvefusion {
 
 std::vector<Study> AllStudies() {
-  return {ObjectsStudy(),         BundleSizeStudy(),    SensorsStudy(),   PosesStudy(),
-          ThicknessColourStudy(), RgbResolutionStudy(), InterWireStudy(), SensorValidationStudy(),
-          AblationStudy(),        SweepStudy(),         CheckStudy(),     FamiliesStudy()};
+  return {ObjectsStudy(),         BundleSizeStudy(),       SensorsStudy(),   PosesStudy(),
+          ThicknessColourStudy(), RgbResolutionStudy(),    InterWireStudy(), LimitationsStudy(),
+          ComparisonsStudy(),     SensorValidationStudy(), AblationStudy(),  SweepStudy(),
+          CheckStudy(),           FamiliesStudy()};
 }
 
 Study StudyNamed(const std::string& name) {

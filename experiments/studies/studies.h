@@ -21,6 +21,8 @@ Study PosesStudy();
 Study ThicknessColourStudy();
 Study RgbResolutionStudy();
 Study InterWireStudy();
+Study LimitationsStudy();
+Study ComparisonsStudy();
 Study SensorValidationStudy();
 Study AblationStudy();
 Study SweepStudy();

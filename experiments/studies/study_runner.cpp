@@ -44,6 +44,15 @@ void CheckNames(const Study& study, const std::vector<StudyCase>& cases) {
   }
 }
 
+// A run that was measured with the same settings and has not failed.
+std::optional<RunFile> FinishedRun(const Study& study, const StudyRequest& request,
+                                   const fs::path& folder, const StudyCase& study_case) {
+  std::optional<RunFile> file = ReadRunFile(RunFolder(study, request, folder, study_case));
+  const bool finished =
+      file && file->run.outcome != kFailed && file->settings == CaseSettings(study_case);
+  return finished ? file : std::nullopt;
+}
+
 // Cases that share a scan: it is simulated once, then they are measured one after the other.
 struct ScanGroup {
   const SimulationOptions* scan = nullptr;  // none: the cases make their own data
@@ -111,12 +120,8 @@ std::vector<ScanGroup> StudyRunner::Pending(bool remeasure) {
   std::vector<ScanGroup> groups;
   std::map<std::string, size_t> group_of_scan;
   for (size_t i = 0; i < cases_.size(); ++i) {
-    const std::optional<RunFile> file =
-        ReadRunFile(RunFolder(study_, request_, folder_, cases_[i]));
-    const bool finished = file && file->run.outcome != kFailed &&
-                          file->settings == CaseSettings(cases_[i]) &&
-                          !(remeasure && file->run.revision != revision_);
-    if (finished) {
+    const auto file = FinishedRun(study_, request_, folder_, cases_[i]);
+    if (file && !(remeasure && file->run.revision != revision_)) {
       runs_[i] = file->run;
       continue;
     }
@@ -263,6 +268,15 @@ StudyPlan PlanStudy(const Study& study, const StudyRequest& request, const fs::p
   return plan;
 }
 
+StudyResults FinishedRuns(const Study& study, const StudyRequest& request, const fs::path& folder) {
+  StudyResults results{folder, StudyStem(study, request), {}};
+  for (const StudyCase& study_case : PlanStudy(study, request, folder).cases) {
+    const auto file = FinishedRun(study, request, folder, study_case);
+    if (file) results.runs.push_back(file->run);
+  }
+  return results;
+}
+
 StudyResults RunStudy(const Study& study, const StudyRequest& request, const fs::path& folder,
                       const RunnerOptions& options, const Progress& progress) {
   const StudyPlan plan = PlanStudy(study, request, folder);
@@ -271,6 +285,7 @@ StudyResults RunStudy(const Study& study, const StudyRequest& request, const fs:
   runner.Measure(runner.Pending(options.remeasure), options.jobs, progress);
   StudyResults results{folder, StudyStem(study, request), runner.TakeRuns()};
   WriteRunsCsv(folder / (results.stem + ".csv"), results.runs);
+  WriteRunsJson(folder / (results.stem + ".json"), results.runs);
   if (study.report) study.report(results);
   return results;
 }

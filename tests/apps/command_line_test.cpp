@@ -170,6 +170,13 @@ TEST_F(CommandLine, WrongUsageIsTwo) {
   EXPECT_THAT(mistyped.output, HasSubstr("did you mean reconstruct?"));
 }
 
+TEST_F(CommandLine, ThePageOfClaimsNeedsNoRuns) {
+  const Outcome page = Run("experiment reproduction -o out --quick");
+  EXPECT_EQ(page.exit_code, 0) << page.output;
+  EXPECT_THAT(Text("out/reproduction.md"), HasSubstr("0 of 4 runs finished"));
+  EXPECT_EQ(CountFiles("out", "run.json"), 0);  // nothing is measured for it
+}
+
 TEST_F(CommandLine, BadInputIsThree) {
   fs::create_directories(folder_ / "empty");
   EXPECT_EQ(Run("check empty").exit_code, 3);

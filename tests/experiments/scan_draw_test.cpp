@@ -131,11 +131,13 @@ TEST(ScanSettings, RegistrationAndLightReadBack) {
   SimulationOptions scan;
   scan.color.registration = Registration::kRaw;
   scan.scene.light = LightKind::kSide;
+  scan.scene.table_gap = 0.005;
   const fs::path file = TemporaryPath("scan_settings_color.json");
   std::ofstream(file) << ScanSettings(scan);
   const SimulationOptions read = ReadScanSettings(file);
   EXPECT_EQ(read.color.registration, Registration::kRaw);
   EXPECT_EQ(read.scene.light, LightKind::kSide);
+  EXPECT_EQ(read.scene.table_gap, 0.005);
   fs::remove(file);
 }
 

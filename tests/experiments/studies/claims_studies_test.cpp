@@ -73,5 +73,15 @@ TEST(SensorsStudy, ScansDifferInTheSensorAlone) {
   }
 }
 
+// Fair: the same scan for every method but the one that is about other poses.
+TEST(ComparisonsStudy, EveryMethodSeesTheSameScan) {
+  const auto scans = ScansBy(ComparisonsStudy(), "method");
+  ASSERT_THAT(scans, SizeIs(9));
+  for (const auto& [method, its_scans] : scans) {
+    EXPECT_THAT(its_scans, SizeIs(1));
+    EXPECT_EQ(its_scans == scans.at("paper"), method != "BundleFusion poses") << method;
+  }
+}
+
 }  // namespace
 }  // namespace curvefusion

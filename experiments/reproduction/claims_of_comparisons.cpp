@@ -1,0 +1,140 @@
+// What the paper says of other methods, and of its own limits.
+#include "experiments/reproduction/claim.h"
+#include "experiments/reproduction/measures.h"
+
+namespace curvefusion {
+
+namespace {
+
+constexpr Bound kReconstructed = {.value = 0.9};
+constexpr const char* kNineTenths = "chosen: nine tenths, within 2 mm";
+
+std::vector<Claim> OfOtherMethods() {
+  const char* topic = "Comparisons";
+  const char* fails =
+      "\"fail to reconstruct the thin structures entirely or provide only a noisy "
+      "and partial reconstruction\": ";
+  const auto surface = [&](const std::string& words, const std::vector<std::string>& subjects) {
+    return Claim{.topic = topic,
+                 .words = fails + words,
+                 .place = "4, Comparisons; Fig. 2",
+                 .kind = ClaimKind::kOthersFail,
+                 .study = "comparisons",
+                 .figure = "F at 2 mm of its surface",
+                 .measure = MedianOf("F2"),
+                 .bound = kReconstructed,
+                 .origin = kNineTenths,
+                 .subjects = subjects};
+  };
+  const auto curves = [&](const char* words, const char* place, const char* subject) {
+    return Claim{.topic = topic,
+                 .words = words,
+                 .place = place,
+                 .kind = ClaimKind::kOthersFail,
+                 .study = "comparisons",
+                 .figure = "F at 2 mm of its curves",
+                 .measure = MedianOf("F2"),
+                 .bound = kReconstructed,
+                 .origin = kNineTenths,
+                 .subjects = {subject}};
+  };
+  return {
+      surface("volumetric TSDF", {"VolumeFusion 2 mm", "VolumeFusion 4 mm", "VolumeFusion 5 mm"}),
+      surface("KinectFusion", {"KinectFusion"}),
+      surface("BundleFusion", {"BundleFusion poses"}),
+      curves("the L1 axis of \"the aligned depth data of the whole RGBD sequence ... yields poor "
+             "reconstruction\"",
+             "Fig. 2; 3", "L1 of all frames"),
+      curves("\"simply lifting all the detected RGB edges to 3D would produce an extremely noisy "
+             "point set\"",
+             "3.1; Fig. 2", "colour edges"),
+      {.topic = topic,
+       .words = "\"our approach detects and accumulates ... skeletons\" instead",
+       .place = "4, Comparisons",
+       .study = "comparisons",
+       .figure = "F at 2 mm of the same scans",
+       .measure = MedianOf("F2"),
+       .bound = kReconstructed,
+       .origin = kNineTenths,
+       .cause = "paper_profile.md#what-it-gives"},
+      {.topic = topic,
+       .words = "\"the original method of Huang et al. leads to spurious junctions\", explicit "
+                "junctions do not",
+       .place = "3.2; Fig. 4",
+       .figure = "the original branch strategy is not implemented"},
+      {.topic = topic,
+       .words = "\"a smoother and more complete reconstruction\" than Tabb 2013",
+       .place = "4, Comparisons; Fig. 13",
+       .figure = "Tabb 2013 is not implemented"},
+      {.topic = topic,
+       .words = "Liu et al. 2017 \"results in many spurious 3D curves\"",
+       .place = "4, Comparisons; Fig. 14",
+       .figure = "Liu et al. 2017 is not implemented"},
+      {.topic = topic,
+       .words = "structures over 10 mm \"can be reconstructed with reasonable quality using the "
+                "conventional KinectFusion pipeline\"",
+       .place = "3, assumption (iv)",
+       .figure = "no study gives KinectFusion such an object"}};
+}
+
+std::vector<Claim> OfLimitations() {
+  const char* topic = "Limitations";
+  const char* place = "4, Limitations";
+  const auto of = [](const char* limit) { return Labels{{"limit", limit}}; };
+  return {
+      {.topic = topic,
+       .words = "\"close to a wall or lies on a table ... it will be missing\"",
+       .place = place,
+       .kind = ClaimKind::kFails,
+       .study = "limitations",
+       .figure = "recall of wire with its axis at most 5 mm above the table",
+       .measure = MedianOf("recall_at.2.5", of("surface")),
+       .bound = {.value = 0.9},
+       .origin = "chosen: nine tenths of the curves"},
+      {.topic = topic,
+       .words = "\"sufficiently separated (~2-5 cm depending on depth)\" they can be scanned",
+       .place = "3, assumption (i)",
+       .study = "limitations",
+       .figure = "recall of wire 50 to 60 mm above the table",
+       .measure = MedianOf("recall_at.55", of("surface")),
+       .bound = {.value = 0.9},
+       .origin = "chosen: nine tenths of the curves"},
+      {.topic = topic,
+       .words = "\"very thin structures below 2 mm ... CurveFusion will fail\"",
+       .place = place,
+       .kind = ClaimKind::kFails,
+       .study = "limitations",
+       .figure = "recall of a wire of 1.5 mm",
+       .measure = MedianOf("recall_at.1.5", of("thickness")),
+       .bound = {.value = 0.9},
+       .origin = "chosen: nine tenths of the curves"},
+      {.topic = topic,
+       .words = "\"a junction of valence 6 may instead be interpreted as two ... of valence 3\"",
+       .place = place,
+       .kind = ClaimKind::kFails,
+       .study = "limitations",
+       .figure = "one junction of valence 6 found (1) or not (0)",
+       .measure = MedianOf("whole_at.6", of("valence")),
+       .bound = {.value = 0.5},
+       .origin = "on most seeds"},
+      {.topic = topic,
+       .words = "\"our radius estimation assumes ... a constant radius for all its parts\"",
+       .place = place + std::string("; 3.3"),
+       .kind = ClaimKind::kFails,
+       .study = "limitations",
+       .figure = "relative error of diameters of 3 to 12 mm in one object",
+       .measure = MedianOf("aligned.diameter.relative_error", of("radius")),
+       .bound = {.value = 0.1, .at_most = true},
+       .origin = "chosen: as good as the paper's estimates of one diameter"}};
+}
+
+}  // namespace
+
+std::vector<Claim> ClaimsOfComparisons() {
+  std::vector<Claim> claims = OfOtherMethods();
+  const std::vector<Claim> limitations = OfLimitations();
+  claims.insert(claims.end(), limitations.begin(), limitations.end());
+  return claims;
+}
+
+}  // namespace curvefusion

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+
+#include "experiments/reproduction/claim.h"
+
+namespace curvefusion {
+
+/// The median of a figure over the runs with these labels. A run that found nothing counts with 0
+/// where it has no value.
+Measure MedianOf(const std::string& figure, const Labels& where = {});
+
+/// The least and the greatest value of a figure over the runs with these labels.
+Measure LeastOf(const std::string& figure, const Labels& where = {});
+Measure MostOf(const std::string& figure, const Labels& where = {});
+
+/// The sum of a figure over that of another, as the paper counts its 95 % of all junctions.
+Measure RatioOf(const std::string& part, const std::string& whole, const Labels& where = {});
+
+/// MedianOf(figure, these) - MedianOf(figure, others).
+Measure DifferenceOf(const std::string& figure, const Labels& these, const Labels& others);
+
+/// The amount of it.
+Measure AmountOf(const Measure& measure);
+
+/// The median at one value of a numeric label less the greatest median at any value.
+Measure BelowBestOf(const std::string& figure, const std::string& label, const std::string& value);
+
+/// The least value of a numeric label down to which, without a gap from the greatest one on, a
+/// figure is not zero; infinite where it is zero at the greatest.
+Measure LeastLabelWith(const std::string& figure, const std::string& label);
+
+/// The mean over objects of |diameter - true| / true: one diameter of the whole result against the
+/// nearest of those that the paper's Table 1 gives for the object. Only objects of that table
+/// count.
+Measure TableDiameterError();
+
+}  // namespace curvefusion

@@ -1,0 +1,79 @@
+#include "experiments/studies/method_outcome.h"
+
+#include <string>
+
+#include "experiments/metrics/evaluation_files.h"
+#include "experiments/pictures/mesh_view.h"
+#include "experiments/pictures/orthographic_view.h"
+#include "experiments/pictures/png.h"
+#include "experiments/studies/reconstruction_run.h"
+
+namespace curvefusion {
+
+namespace {
+
+constexpr int kPicture = 420;  // pixels, width and height of a picture
+constexpr double kPointInk = .75;
+constexpr double kFilled = .9;  // share of it that the object fills
+
+// Where the true object stands in every picture of it.
+struct Framing {
+  OrthographicView view;
+  Eigen::AlignedBox3d bounds;
+  double scale = 1;  // pixels per metre
+};
+
+// From the side of -y, where the simulator's camera is, and a little from above.
+Framing FramingOf(const SkeletonGraph& truth) {
+  Framing framing;
+  const Mat3 tilt = Eigen::AngleAxisd(0.3, Vec3::UnitX()).toRotationMatrix();
+  Mat3 front;
+  front << 1, 0, 0, 0, 0, 1, 0, -1, 0;
+  framing.view = {"", tilt * front, false, kPointInk};
+  framing.bounds = ViewBounds(truth, framing.view.R_view_world);
+  framing.scale = kFilled * kPicture / framing.bounds.sizes().head<2>().maxCoeff();
+  return framing;
+}
+
+ColorImage Picture(const SkeletonGraph& graph, const ObservedPoints& points,
+                   const Framing& framing) {
+  return DrawFramedView(graph, points, framing.view, framing.bounds, kPicture, kPicture,
+                        framing.scale);
+}
+
+void AddCommonFigures(const std::string& kind, const std::string& pieces, Figures& figures) {
+  const auto copy = [&](const std::string& from, const char* to) {
+    const auto found = figures.find(from);
+    figures[to] = found == figures.end() ? 0 : found->second;
+  };
+  copy(kind + ".5mm.f", "F5");
+  copy(kind + ".2mm.f", "F2");
+  copy(kind + ".5mm.recall", "recall");
+  copy(kind + ".5mm.precision", "precision");
+  copy(pieces, "pieces");
+}
+
+}  // namespace
+
+RunOutcome KeepSkeletonOfMethod(const RunInput& input, const SkeletonGraph& skeleton,
+                                const ObservedPoints& points, const SkeletonGraph& truth) {
+  const Framing framing = FramingOf(truth);
+  WritePng(input.folder / "points.png", Picture({}, points, framing));
+  WritePng(input.folder / "skeleton.png", Picture(skeleton, {}, framing));
+  RunOutcome outcome = EvaluateAndKeep(skeleton, input);
+  AddCommonFigures("aligned.curves", "components", outcome.figures);
+  return outcome;
+}
+
+RunOutcome KeepSurfaceOfMethod(const RunInput& input, const TriangleMesh& surface,
+                               const SkeletonGraph& truth) {
+  const TriangleMesh mesh = PartAroundTruth(surface, truth).mesh;
+  const Framing framing = FramingOf(truth);
+  WritePng(input.folder / "mesh.png",
+           DrawMesh(mesh, framing.view, framing.bounds, kPicture, kPicture, framing.scale));
+  RunOutcome outcome{!mesh.triangles.empty(), EvaluationFigures(EvaluateMesh(mesh, truth))};
+  AddCommonFigures("aligned.surface", "mesh.components", outcome.figures);
+  return outcome;
+}
+
+}  // namespace curvefusion

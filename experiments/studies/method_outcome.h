@@ -1,0 +1,22 @@
+#pragma once
+
+#include "experiments/studies/study.h"
+#include "graph/skeleton_graph.h"
+#include "kernel/observed_points.h"
+#include "kernel/triangle_mesh.h"
+
+namespace curvefusion {
+
+// Methods of different kinds are compared in the same figures and in pictures of the same view: F5,
+// F2, recall and precision at 5 mm, pieces; all aligned. Those of curves are taken of the curves,
+// those of a surface of the part around the true tubes, against the tubes' surface.
+
+/// Keeps a skeleton (EvaluateAndKeep), skeleton.png and points.png.
+RunOutcome KeepSkeletonOfMethod(const RunInput& input, const SkeletonGraph& skeleton,
+                                const ObservedPoints& points, const SkeletonGraph& truth);
+
+/// Keeps mesh.png.
+RunOutcome KeepSurfaceOfMethod(const RunInput& input, const TriangleMesh& surface,
+                               const SkeletonGraph& truth);
+
+}  // namespace curvefusion

@@ -1,0 +1,151 @@
+#include "experiments/reproduction/verdict.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "experiments/reproduction/measures.h"
+
+namespace curvefusion {
+namespace {
+
+using testing::ElementsAre;
+using testing::Field;
+
+StudyRun Run(const Labels& labels, const Figures& figures, uint64_t seed = 1,
+             const std::string& outcome = "done") {
+  return {labels, seed, outcome, "", "", "", figures};
+}
+
+Claim AtLeast(ClaimKind kind, double bound, std::optional<double> beyond = {}) {
+  return {.topic = "",
+          .words = "",
+          .place = "",
+          .kind = kind,
+          .measure = MedianOf("f"),
+          .bound = {.value = bound, .beyond = beyond}};
+}
+
+TEST(VerdictOn, WhatWorksIsReproducedOrExceeded) {
+  const Claim claim = AtLeast(ClaimKind::kWorks, 0.945, 0.955);
+  EXPECT_EQ(VerdictOn(claim, 0.94), Verdict::kNotReproduced);
+  EXPECT_EQ(VerdictOn(claim, 0.945), Verdict::kReproduced);
+  EXPECT_EQ(VerdictOn(claim, 0.955), Verdict::kExceeded);
+}
+
+TEST(VerdictOn, AFailureOfTheMethodIsReproducedByFailing) {
+  const Claim claim = AtLeast(ClaimKind::kFails, 0.9);
+  EXPECT_EQ(VerdictOn(claim, 0.5), Verdict::kReproduced);
+  EXPECT_EQ(VerdictOn(claim, 0.95), Verdict::kExceeded);
+}
+
+TEST(VerdictOn, AnotherMethodThatDoesNotFailRefutesTheClaim) {
+  const Claim claim = AtLeast(ClaimKind::kOthersFail, 0.9);
+  EXPECT_EQ(VerdictOn(claim, 0.5), Verdict::kReproduced);
+  EXPECT_EQ(VerdictOn(claim, 0.95), Verdict::kNotReproduced);
+}
+
+TEST(VerdictOn, BoundsMayBeUpperOnes) {
+  Claim claim = AtLeast(ClaimKind::kWorks, 18, 16);
+  claim.bound.at_most = true;
+  EXPECT_EQ(VerdictOn(claim, 20), Verdict::kNotReproduced);
+  EXPECT_EQ(VerdictOn(claim, 17), Verdict::kReproduced);
+  EXPECT_EQ(VerdictOn(claim, 8), Verdict::kExceeded);
+}
+
+TEST(Judge, GivesAResultForEachProfileFromItsRunsAlone) {
+  const std::vector<StudyRun> runs = {Run({{"profile", "paper"}}, {{"f", 0.2}}),
+                                      Run({{"profile", "best"}}, {{"f", 0.99}})};
+  EXPECT_THAT(Judge(AtLeast(ClaimKind::kWorks, 0.9), runs),
+              ElementsAre(Field(&ClaimResult::verdict, Verdict::kNotReproduced),
+                          Field(&ClaimResult::verdict, Verdict::kReproduced)));
+}
+
+TEST(Judge, TheMedianOverSeedsDecidesAndDissentIsSaid) {
+  std::vector<StudyRun> runs;
+  for (const double f : {0.95, 0.92, 0.5}) {
+    runs.push_back(Run({{"profile", "paper"}}, {{"f", f}}, runs.size() + 1));
+  }
+  const ClaimResult result = Judge(AtLeast(ClaimKind::kWorks, 0.9), runs).front();
+  EXPECT_EQ(result.verdict, Verdict::kReproduced);
+  EXPECT_EQ(result.seeds, 3);
+  EXPECT_FALSE(result.on_every_seed);
+  EXPECT_EQ(result.figure->median, 0.92);
+}
+
+TEST(Judge, WithoutRunsNothingIsMeasured) {
+  const Claim claim = AtLeast(ClaimKind::kOthersFail, 0.9);
+  const std::vector<StudyRun> failed = {Run({{"profile", "paper"}}, {}, 1, "failed"),
+                                        Run({{"profile", "best"}}, {}, 1, "failed")};
+  for (const auto& runs : {std::vector<StudyRun>(), failed}) {
+    for (const ClaimResult& result : Judge(claim, runs)) {
+      EXPECT_EQ(result.verdict, Verdict::kNotMeasured);
+    }
+  }
+}
+
+RunGroup GroupOf(const std::vector<StudyRun>& runs) {
+  RunGroup group;
+  for (const StudyRun& run : runs) group.runs.push_back(&run);
+  return group;
+}
+
+TEST(Measures, AResultWithoutCurvesCountsAsZero) {
+  const std::vector<StudyRun> runs = {Run({}, {}, 1, "nothing found")};
+  EXPECT_EQ(MedianOf("f")(GroupOf(runs)), 0);
+  const std::vector<StudyRun> done = {Run({}, {})};
+  EXPECT_EQ(MedianOf("f")(GroupOf(done)), std::nullopt);
+}
+
+TEST(Measures, RatiosPoolCounts) {
+  const std::vector<StudyRun> runs = {Run({{"o", "a"}}, {{"found", 1}, {"all", 2}}),
+                                      Run({{"o", "b"}}, {{"found", 9}, {"all", 10}})};
+  EXPECT_DOUBLE_EQ(*RatioOf("found", "all")(GroupOf(runs)), 10.0 / 12);
+  EXPECT_DOUBLE_EQ(*RatioOf("found", "all", {{"o", "a"}})(GroupOf(runs)), 0.5);
+  EXPECT_EQ(RatioOf("found", "all", {{"o", "c"}})(GroupOf(runs)), std::nullopt);
+}
+
+TEST(Measures, DifferencesNeedBothSides) {
+  const std::vector<StudyRun> runs = {Run({{"s", "a"}}, {{"f", 0.5}}),
+                                      Run({{"s", "b"}}, {{"f", 0.8}})};
+  const auto difference = DifferenceOf("f", {{"s", "a"}}, {{"s", "b"}});
+  EXPECT_DOUBLE_EQ(*difference(GroupOf(runs)), -0.3);
+  EXPECT_DOUBLE_EQ(*AmountOf(difference)(GroupOf(runs)), 0.3);
+  EXPECT_EQ(DifferenceOf("f", {{"s", "a"}}, {{"s", "c"}})(GroupOf(runs)), std::nullopt);
+}
+
+TEST(Measures, TheLeastSpacingEndsAtTheFirstThatIsNotResolved) {
+  const auto resolved = [](const std::map<int, int>& spacings) {
+    std::vector<StudyRun> runs;
+    for (const auto& [spacing, is_resolved] : spacings) {
+      runs.push_back(
+          Run({{"spacing", std::to_string(spacing)}}, {{"r", static_cast<double>(is_resolved)}}));
+    }
+    return LeastLabelWith("r", "spacing")(GroupOf(runs));
+  };
+  EXPECT_EQ(resolved({{40, 1}, {20, 1}, {9, 0}, {8, 1}}), 20);  // 100 before 9: numbers, not words
+  EXPECT_EQ(resolved({{100, 1}, {9, 1}}), 9);
+  EXPECT_EQ(resolved({{40, 0}, {20, 1}}), HUGE_VAL);
+  EXPECT_EQ(resolved({}), std::nullopt);
+}
+
+TEST(Measures, BelowBestComparesWithEveryOtherValue) {
+  const std::vector<StudyRun> runs = {Run({{"k", "4"}}, {{"f", 0.7}}),
+                                      Run({{"k", "30"}}, {{"f", 0.8}}),
+                                      Run({{"k", "80"}}, {{"f", 0.9}})};
+  EXPECT_NEAR(*BelowBestOf("f", "k", "30")(GroupOf(runs)), -0.1, 1e-12);
+  EXPECT_EQ(BelowBestOf("f", "k", "240")(GroupOf(runs)), std::nullopt);
+}
+
+TEST(Measures, OneDiameterIsHeldAgainstTheNearestOfTableOne) {
+  const std::vector<StudyRun> runs = {Run({{"object", "dish"}}, {{"global_diameter_mm", 5.4}}),
+                                      Run({{"object", "wine"}}, {{"global_diameter_mm", 5.4}}),
+                                      Run({{"object", "knot"}}, {{"global_diameter_mm", 50}})};
+  // The paper's own estimates of these two: .4 of 5 mm and .6 of 6 mm; a knot is not in its table.
+  EXPECT_NEAR(*TableDiameterError()(GroupOf(runs)), (0.08 + 0.1) / 2, 1e-12);
+}
+
+}  // namespace
+}  // namespace curvefusion
