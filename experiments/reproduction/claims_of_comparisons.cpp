@@ -60,7 +60,7 @@ std::vector<Claim> OfOtherMethods() {
       {.topic = topic,
        .words = "\"the original method of Huang et al. leads to spurious junctions\", explicit "
                 "junctions do not",
-       .place = "3.2; Fig. 4",
+       .place = "3.2; Fig. 5",
        .figure = "the original branch strategy is not implemented"},
       {.topic = topic,
        .words = "\"a smoother and more complete reconstruction\" than Tabb 2013",

@@ -37,7 +37,7 @@ std::vector<Claim> OfObjects() {
        .cause = "paper_profile.md#what-it-gives"},
       {.topic = topic,
        .words = "\"... and provides a faithful 3D reconstruction\"",
-       .place = "4, paragraph 2; Fig. 8",
+       .place = "4, paragraph 2; Fig. 9",
        .study = "objects",
        .figure = "F at 5 mm, aligned, median of objects",
        .measure = MedianOf("aligned.curves.5mm.f"),
@@ -77,7 +77,7 @@ std::vector<Claim> OfObjects() {
 
 std::vector<Claim> OfBundles() {
   const char* topic = "Effect of bundle size";
-  const char* place = "4, Effect of bundle size; Fig. 7";
+  const char* place = "4, Effect of bundle size; Fig. 8";
   const auto frames = [](const char* k) { return Labels{{"frames", k}}; };
   return {{.topic = topic,
            .words = "too few frames, \"e.g. k = 1 or 4\": \"a broken partial skeleton\"",

@@ -42,11 +42,15 @@ std::string ClaimsJson(const Reproduction& reproduction) {
     const Claim& claim = *judged.claim;
     Json results = Json::array();
     for (const ClaimResult& result : judged.results) results.push_back(ResultJson(result));
+    const auto study = reproduction.studies.find(claim.study);
+    const bool is_tested = study != reproduction.studies.end();
     claims.push_back({{"topic", claim.topic},
                       {"claim", claim.words},
                       {"place", claim.place},
                       {"study", claim.study},
                       {"figure", claim.figure},
+                      {"planned_runs", is_tested ? study->second.planned : 0},
+                      {"finished_runs", is_tested ? study->second.finished.runs.size() : 0},
                       {"results", results}});
   }
   return Json({{"format", "curvefusion-claims"}, {"claims", claims}}).dump(1) + "\n";

@@ -59,13 +59,20 @@ std::string TestText(const Claim& claim) {
 
 bool IsProfile(const std::string& subject) { return subject == "paper" || subject == "best"; }
 
-std::string ResultCell(const JudgedClaim& judged) {
+// A study that is not finished gives verdicts of what there is, and says so.
+std::string ResultCell(const JudgedClaim& judged, const Reproduction& reproduction) {
   if (!judged.claim->measure) return "not measured";
   std::vector<std::string> lines;
-  bool failed = false;
+  bool failed = false, measured = false;
   for (const ClaimResult& result : judged.results) {
     lines.push_back(result.subject + ": " + ResultText(*judged.claim, result));
     failed = failed || result.verdict == Verdict::kNotReproduced;
+    measured = measured || result.verdict != Verdict::kNotMeasured;
+  }
+  const StudyState& state = reproduction.studies.at(judged.claim->study);
+  const int finished = static_cast<int>(state.finished.runs.size());
+  if (measured && finished < state.planned) {
+    lines.push_back(fmt::format("from {} of {} runs", finished, state.planned));
   }
   if (failed && !judged.claim->cause.empty()) {
     lines.push_back("why: `docs/" + judged.claim->cause + "`");
@@ -182,7 +189,8 @@ std::string ReproductionPage(const Reproduction& reproduction, const StudyReques
     while (end < reproduction.claims.size() && reproduction.claims[end].claim->topic == topic) {
       const JudgedClaim& judged = reproduction.claims[end++];
       const Claim& claim = *judged.claim;
-      table.rows.push_back({claim.words, claim.place, TestText(claim), ResultCell(judged)});
+      table.rows.push_back(
+          {claim.words, claim.place, TestText(claim), ResultCell(judged, reproduction)});
       if (!claim.study.empty() && shown.insert(claim.study).second) {
         studies.push_back(claim.study);
       }

@@ -33,7 +33,7 @@ std::string PlotCommands(const std::vector<StudyRun>& runs, const std::vector<Ru
       "set grid ytics linecolor rgb '#DDDDDD' linewidth 0.6 dashtype 1\n"
       "set errorbars small linecolor rgb '#222222' linewidth 0.9\nset style fill solid 0.85 "
       "noborder\n" +
-      fmt::format("set multiplot layout {},2 margins 0.055,0.99,0.115,0.89 spacing 0.065,0.21\n",
+      fmt::format("set multiplot layout {},2 margins 0.055,0.99,0.155,0.89 spacing 0.065,0.25\n",
                   (panels.size() + 1) / 2);
   int column = 2;
   for (const BarPanel& panel : panels) {

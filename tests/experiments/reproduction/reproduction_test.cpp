@@ -125,6 +125,13 @@ TEST_F(ReproductionOf, FinishedRunsGiveFigureVerdictPictureAndCommand) {
   EXPECT_EQ(Contents(folder_ / "images/reproduction/objects_train_quick.png"), "picture");
 }
 
+TEST_F(ReproductionOf, VerdictsOfAnUnfinishedStudySaySo) {
+  Finish("poses", {{"aligned.curves.2mm.f", 1}, {"aligned.curves.5mm.f", 1}});
+  EXPECT_THAT(Page(), Not(HasSubstr("<br>from ")));
+  fs::remove_all(folder_ / "runs/poses_train_quick/true_paper_s1");
+  EXPECT_THAT(Page(), HasSubstr("best: 0.00: reproduced<br>from 9 of 10 runs"));
+}
+
 TEST_F(ReproductionOf, RunsWithOtherSettingsDoNotCount) {
   Finish("poses", {{"aligned.curves.2mm.f", 1}, {"aligned.curves.5mm.f", 1}});
   StudyRequest other = request_;

@@ -14,8 +14,8 @@ namespace {
 using testing::ElementsAre;
 using testing::Field;
 
-StudyRun Run(const Labels& labels, const Figures& figures, uint64_t seed = 1,
-             const std::string& outcome = "done") {
+StudyRun MadeUp(const Labels& labels, const Figures& figures, uint64_t seed = 1,
+                const std::string& outcome = "done") {
   return {labels, seed, outcome, "", "", "", figures};
 }
 
@@ -56,8 +56,8 @@ TEST(VerdictOn, BoundsMayBeUpperOnes) {
 }
 
 TEST(Judge, GivesAResultForEachProfileFromItsRunsAlone) {
-  const std::vector<StudyRun> runs = {Run({{"profile", "paper"}}, {{"f", 0.2}}),
-                                      Run({{"profile", "best"}}, {{"f", 0.99}})};
+  const std::vector<StudyRun> runs = {MadeUp({{"profile", "paper"}}, {{"f", 0.2}}),
+                                      MadeUp({{"profile", "best"}}, {{"f", 0.99}})};
   EXPECT_THAT(Judge(AtLeast(ClaimKind::kWorks, 0.9), runs),
               ElementsAre(Field(&ClaimResult::verdict, Verdict::kNotReproduced),
                           Field(&ClaimResult::verdict, Verdict::kReproduced)));
@@ -66,7 +66,7 @@ TEST(Judge, GivesAResultForEachProfileFromItsRunsAlone) {
 TEST(Judge, TheMedianOverSeedsDecidesAndDissentIsSaid) {
   std::vector<StudyRun> runs;
   for (const double f : {0.95, 0.92, 0.5}) {
-    runs.push_back(Run({{"profile", "paper"}}, {{"f", f}}, runs.size() + 1));
+    runs.push_back(MadeUp({{"profile", "paper"}}, {{"f", f}}, runs.size() + 1));
   }
   const ClaimResult result = Judge(AtLeast(ClaimKind::kWorks, 0.9), runs).front();
   EXPECT_EQ(result.verdict, Verdict::kReproduced);
@@ -77,8 +77,8 @@ TEST(Judge, TheMedianOverSeedsDecidesAndDissentIsSaid) {
 
 TEST(Judge, WithoutRunsNothingIsMeasured) {
   const Claim claim = AtLeast(ClaimKind::kOthersFail, 0.9);
-  const std::vector<StudyRun> failed = {Run({{"profile", "paper"}}, {}, 1, "failed"),
-                                        Run({{"profile", "best"}}, {}, 1, "failed")};
+  const std::vector<StudyRun> failed = {MadeUp({{"profile", "paper"}}, {}, 1, "failed"),
+                                        MadeUp({{"profile", "best"}}, {}, 1, "failed")};
   for (const auto& runs : {std::vector<StudyRun>(), failed}) {
     for (const ClaimResult& result : Judge(claim, runs)) {
       EXPECT_EQ(result.verdict, Verdict::kNotMeasured);
@@ -93,23 +93,23 @@ RunGroup GroupOf(const std::vector<StudyRun>& runs) {
 }
 
 TEST(Measures, AResultWithoutCurvesCountsAsZero) {
-  const std::vector<StudyRun> runs = {Run({}, {}, 1, "nothing found")};
+  const std::vector<StudyRun> runs = {MadeUp({}, {}, 1, "nothing found")};
   EXPECT_EQ(MedianOf("f")(GroupOf(runs)), 0);
-  const std::vector<StudyRun> done = {Run({}, {})};
+  const std::vector<StudyRun> done = {MadeUp({}, {})};
   EXPECT_EQ(MedianOf("f")(GroupOf(done)), std::nullopt);
 }
 
 TEST(Measures, RatiosPoolCounts) {
-  const std::vector<StudyRun> runs = {Run({{"o", "a"}}, {{"found", 1}, {"all", 2}}),
-                                      Run({{"o", "b"}}, {{"found", 9}, {"all", 10}})};
+  const std::vector<StudyRun> runs = {MadeUp({{"o", "a"}}, {{"found", 1}, {"all", 2}}),
+                                      MadeUp({{"o", "b"}}, {{"found", 9}, {"all", 10}})};
   EXPECT_DOUBLE_EQ(*RatioOf("found", "all")(GroupOf(runs)), 10.0 / 12);
   EXPECT_DOUBLE_EQ(*RatioOf("found", "all", {{"o", "a"}})(GroupOf(runs)), 0.5);
   EXPECT_EQ(RatioOf("found", "all", {{"o", "c"}})(GroupOf(runs)), std::nullopt);
 }
 
 TEST(Measures, DifferencesNeedBothSides) {
-  const std::vector<StudyRun> runs = {Run({{"s", "a"}}, {{"f", 0.5}}),
-                                      Run({{"s", "b"}}, {{"f", 0.8}})};
+  const std::vector<StudyRun> runs = {MadeUp({{"s", "a"}}, {{"f", 0.5}}),
+                                      MadeUp({{"s", "b"}}, {{"f", 0.8}})};
   const auto difference = DifferenceOf("f", {{"s", "a"}}, {{"s", "b"}});
   EXPECT_DOUBLE_EQ(*difference(GroupOf(runs)), -0.3);
   EXPECT_DOUBLE_EQ(*AmountOf(difference)(GroupOf(runs)), 0.3);
@@ -120,8 +120,8 @@ TEST(Measures, TheLeastSpacingEndsAtTheFirstThatIsNotResolved) {
   const auto resolved = [](const std::map<int, int>& spacings) {
     std::vector<StudyRun> runs;
     for (const auto& [spacing, is_resolved] : spacings) {
-      runs.push_back(
-          Run({{"spacing", std::to_string(spacing)}}, {{"r", static_cast<double>(is_resolved)}}));
+      runs.push_back(MadeUp({{"spacing", std::to_string(spacing)}},
+                            {{"r", static_cast<double>(is_resolved)}}));
     }
     return LeastLabelWith("r", "spacing")(GroupOf(runs));
   };
@@ -132,17 +132,17 @@ TEST(Measures, TheLeastSpacingEndsAtTheFirstThatIsNotResolved) {
 }
 
 TEST(Measures, BelowBestComparesWithEveryOtherValue) {
-  const std::vector<StudyRun> runs = {Run({{"k", "4"}}, {{"f", 0.7}}),
-                                      Run({{"k", "30"}}, {{"f", 0.8}}),
-                                      Run({{"k", "80"}}, {{"f", 0.9}})};
+  const std::vector<StudyRun> runs = {MadeUp({{"k", "4"}}, {{"f", 0.7}}),
+                                      MadeUp({{"k", "30"}}, {{"f", 0.8}}),
+                                      MadeUp({{"k", "80"}}, {{"f", 0.9}})};
   EXPECT_NEAR(*BelowBestOf("f", "k", "30")(GroupOf(runs)), -0.1, 1e-12);
   EXPECT_EQ(BelowBestOf("f", "k", "240")(GroupOf(runs)), std::nullopt);
 }
 
 TEST(Measures, OneDiameterIsHeldAgainstTheNearestOfTableOne) {
-  const std::vector<StudyRun> runs = {Run({{"object", "dish"}}, {{"global_diameter_mm", 5.4}}),
-                                      Run({{"object", "wine"}}, {{"global_diameter_mm", 5.4}}),
-                                      Run({{"object", "knot"}}, {{"global_diameter_mm", 50}})};
+  const std::vector<StudyRun> runs = {MadeUp({{"object", "dish"}}, {{"global_diameter_mm", 5.4}}),
+                                      MadeUp({{"object", "wine"}}, {{"global_diameter_mm", 5.4}}),
+                                      MadeUp({{"object", "knot"}}, {{"global_diameter_mm", 50}})};
   // The paper's own estimates of these two: .4 of 5 mm and .6 of 6 mm; a knot is not in its table.
   EXPECT_NEAR(*TableDiameterError()(GroupOf(runs)), (0.08 + 0.1) / 2, 1e-12);
 }
