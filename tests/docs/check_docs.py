@@ -69,7 +69,7 @@ def problems(root):
             yield f"{page}: {lines} lines, the limit is {MAX_LINES}; split it, or move history to {NOTEBOOK}"
         for revision in REVISION.findall(texts[page]):
             yield f"{page}: revision {revision} belongs to {NOTEBOOK}"
-    images = (root / "docs" / "images").glob("*")
+    images = [path for path in (root / "docs" / "images").rglob("*") if path.is_file()]
     used = {((root / page).parent / link).resolve() for page, text in texts.items() for link in links(text)}
     for image in sorted(images):
         if image.resolve() not in used:

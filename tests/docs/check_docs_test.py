@@ -24,6 +24,7 @@ class CheckDocs(unittest.TestCase):
         self.write("docs/images/picture.png", "")
 
     def write(self, name, text):
+        (self.root / name).parent.mkdir(parents=True, exist_ok=True)
         (self.root / name).write_text(text, encoding="utf-8")
 
     def append(self, name, text):
@@ -75,6 +76,10 @@ class CheckDocs(unittest.TestCase):
     def test_unused_image(self):
         self.write("docs/images/other.png", "")
         self.expect("docs/images/other.png: no page shows it")
+
+    def test_unused_picture_in_a_folder(self):
+        self.write("docs/images/folder/other.png", "")
+        self.expect("docs/images/folder/other.png: no page shows it")
 
 
 if __name__ == "__main__":
