@@ -20,10 +20,10 @@ RunObserver::RunObserver(ProgressPrinter& printer, StageOutputs outputs)
   MakeFolderOf(outputs_.volume);
 }
 
-// What the command does with the result costs about a thirtieth.
+// What the command does with the result: .9 s of a cage, 2.4 of a chair.
 void RunObserver::OnPlan(const std::vector<PlannedStage>& stages) {
   std::vector<PlannedStage> all = stages;
-  all.push_back({kWritingStage, 0});
+  all.push_back({kWritingStage, 1});
   printer_.Plan(all);
 }
 

@@ -21,6 +21,28 @@ Reconstruction ReconstructShared(const std::filesystem::path& folder, Profile pr
   return Reconstruct(OpenSequence(folder), ProfileOptions(profile), silent);
 }
 
+// Follows a run through its plan as the estimate of the time left does.
+struct PlanFollower : PipelineObserver {
+  std::vector<PlannedStage> plan;
+  size_t next = 0;
+  std::string stage;
+  std::vector<std::string> unplanned, left_out;
+
+  void OnPlan(const std::vector<PlannedStage>& stages) override { plan = stages; }
+  void OnProgress(const std::string& name, int64_t done, int64_t /*total*/) override {
+    if (name == stage && done > 0) return;
+    stage = name;
+    size_t at = next;
+    while (at < plan.size() && plan[at].name != name) ++at;
+    if (at == plan.size()) {
+      unplanned.push_back(name);
+      return;
+    }
+    for (; next < at; ++next) left_out.push_back(plan[next].name);
+    ++next;
+  }
+};
+
 std::vector<Vec3> TrueCurvePoints(const std::filesystem::path& path) {
   std::vector<Vec3> points;
   for (const nlohmann::json& curve : nlohmann::json::parse(std::ifstream(path))) {
@@ -69,6 +91,19 @@ TEST(Pipeline, ReconstructsTheSimulatedCube) {
   EXPECT_EQ(result.skeleton.ComponentCount(), 1);
   EXPECT_NEAR(JunctionCount(result.skeleton), 13, 3);
   EXPECT_NEAR(2 * result.radii.global_radius, 0.0045, 0.0005);
+}
+
+// A stage that is not in the plan, or later there than it runs, makes the time left too short.
+TEST(Pipeline, TheStagesOfARunAreThoseOfItsPlan) {
+  const auto folder = SharedData("sim/cubeframe");
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not there";
+  Sequence sequence = OpenSequence(folder);
+  sequence.frames.resize(60);  // enough for curves and an adjustment
+  PlanFollower follower;
+  ASSERT_FALSE(Reconstruct(sequence, ProfileOptions(Profile::kBest), follower).skeleton.empty());
+  EXPECT_EQ(follower.unplanned, std::vector<std::string>());
+  // Radii are measured again only where something was added or left out.
+  for (const std::string& name : follower.left_out) EXPECT_EQ(name, "radius");
 }
 
 TEST(Pipeline, TheSameBytesForAnyNumberOfThreads) {
