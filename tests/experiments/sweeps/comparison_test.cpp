@@ -122,8 +122,10 @@ TEST(ParetoFront, ProbabilityTellsWhatScansLeaveOpen) {
     results.push_back(Result(std::to_string(i), "x.y=1", 0.5 + 0.1 * sign, 1.5));
   }
   for (const ParetoPoint& point : FindParetoFront(results, AccuracyFigure("F2 aligned")).points) {
-    if (point.setting == "default") EXPECT_NEAR(point.front_probability, 1, 1e-9);
-    if (point.setting == "default") continue;
+    if (point.setting == "default") {
+      EXPECT_NEAR(point.front_probability, 1, 1e-9);
+      continue;
+    }
     EXPECT_GT(point.front_probability, 0.1);
     EXPECT_LT(point.front_probability, 0.9);
   }
