@@ -125,8 +125,6 @@ TEST_F(SweepPlanTest, ParamsGiveTheSameCellAgain) {
     EXPECT_EQ(ParamsToml(ReadParams(path)), ParamsToml(cell));
   }
   const fs::path path = plan.folder / "cells" / plan.cells[1].key / "params.toml";
-  std::ofstream(path) << ParamsToml(plan.cells[0]).replace(0, 1, "#");
-  EXPECT_NO_THROW(ReadParams(path));
   SweepCell other = plan.cells[1];
   other.settings[0] = "bundle.min_frames=5";  // and not the key
   std::ofstream(path) << ParamsToml(other);
