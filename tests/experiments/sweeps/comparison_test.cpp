@@ -67,8 +67,8 @@ TEST(PairedComparison, ASettingIsComparedWithTheDefault) {
 }
 
 // The interval of a median of many normal differences has the width of theory: 1.96 standard
-// errors of sqrt(pi / 2) sigma / sqrt(n) to either side, within the fourth that 2000 draws and one
-// sample leave to chance.
+// errors of sqrt(pi / 2) sigma / sqrt(n) to either side. A sample of n knows the density at its
+// median to a share of n^(-1/4), 22 % here: two of these are allowed.
 TEST(PairedComparison, IntervalsHaveTheWidthOfTheory) {
   std::vector<CellResult> before, after;
   uint64_t state = 1;
@@ -84,7 +84,7 @@ TEST(PairedComparison, IntervalsHaveTheWidthOfTheory) {
   }
   const FigureComparison f2 = Figure(CompareSweeps(before, after, 0.02), "F2 aligned");
   const double width = 2 * 1.96 * 1.2533 / 20;
-  EXPECT_NEAR(f2.interval.high - f2.interval.low, width, 0.25 * width);
+  EXPECT_NEAR(f2.interval.high - f2.interval.low, width, 0.45 * width);
 }
 
 TEST(ParetoFront, HasThePointsThatNoOtherBeats) {
