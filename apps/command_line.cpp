@@ -27,6 +27,7 @@ void AddCommandLine(CLI::App& app, int& exit_code) {
   AddSimulateCommand(app, exit_code);
   AddEvaluateCommand(app, exit_code);
   AddExperimentCommand(app, exit_code);
+  AddSweepCommand(app, exit_code);
 }
 
 }  // namespace curvefusion

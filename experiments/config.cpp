@@ -192,17 +192,6 @@ class OptionReader : public OptionVisitor {
   const toml::table* table_ = nullptr;
 };
 
-// TOML has no control characters but tabs and line ends; toml++ asserts that it gets none.
-void RefuseControlCharacters(const std::string& text, const std::string& name) {
-  const auto found = std::find_if(text.begin(), text.end(), [](unsigned char c) {
-    return (c < 0x20 && c != '\t' && c != '\n' && c != '\r') || c == 0x7f;
-  });
-  if (found != text.end()) {
-    ThrowUsage(fmt::format("{}: not valid TOML: it holds the control character {:#x}", name,
-                           static_cast<int>(*found)));
-  }
-}
-
 Source ParseFile(const std::filesystem::path& path) {
   const std::string text = ReadFile(path);
   RefuseControlCharacters(text, path.string());

@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
 #include <optional>
 #include <string_view>
+
+#include "kernel/error.h"
 
 namespace curvefusion {
 
@@ -96,6 +99,16 @@ std::optional<toml::table> TextAssigned(const std::string& assignment) {
   if (name.empty() || dot == 0 || dot + 1 == name.size()) return std::nullopt;
   if (key.empty()) return toml::table{{name, value}};
   return toml::table{{name.substr(0, dot), toml::table{{key, value}}}};
+}
+
+void RefuseControlCharacters(const std::string& text, const std::string& source) {
+  const auto found = std::find_if(text.begin(), text.end(), [](unsigned char c) {
+    return (c < 0x20 && c != '\t' && c != '\n' && c != '\r') || c == 0x7f;
+  });
+  if (found == text.end()) return;
+  throw Error(ErrorKind::kUsage,
+              fmt::format("{}: not valid TOML: it holds the control character {:#x}", source,
+                          static_cast<int>(*found)));
 }
 
 }  // namespace curvefusion

@@ -18,4 +18,8 @@ std::string WrongValueText(const toml::node& value, const OptionInfo& option,
 /// their value is none (4mm, or nothing). Nothing where there is no name or no value at all.
 std::optional<toml::table> TextAssigned(const std::string& assignment);
 
+/// Throws Error(kUsage), naming the source, for control characters that TOML has not: toml++
+/// asserts that it gets none.
+void RefuseControlCharacters(const std::string& text, const std::string& source);
+
 }  // namespace curvefusion

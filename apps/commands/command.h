@@ -21,6 +21,7 @@ void AddConfigCommand(CLI::App& app, int& exit_code);
 void AddSimulateCommand(CLI::App& app, int& exit_code);
 void AddEvaluateCommand(CLI::App& app, int& exit_code);
 void AddExperimentCommand(CLI::App& app, int& exit_code);
+void AddSweepCommand(CLI::App& app, int& exit_code);
 
 /// Exit code of a run that worked but found nothing thin.
 inline constexpr int kNothingThin = 4;

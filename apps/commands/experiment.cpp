@@ -207,14 +207,14 @@ void AddRequestOptions(CLI::App& command, ExperimentArguments& arguments) {
   command
       .add_option(
           "--set", arguments.request.assignments,
-          "A setting of the reconstruction as section.key=value; may be given several times; "
-          "sweep takes values separated by commas")
+          "A setting of the reconstruction as section.key=value; may be given several times")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command
-      .add_option("--objects", arguments.request.objects,
-                  "Objects of the studies objects, bundle-size, ablation and sweep, or families of "
-                  "the study families, separated by commas")
+      .add_option(
+          "--objects", arguments.request.objects,
+          "Objects of the studies objects, bundle-size and ablation, or families of the study "
+          "families, separated by commas")
       ->delimiter(',');
   command
       .add_option(
@@ -260,11 +260,9 @@ void AddExperimentCommand(CLI::App& app, int& exit_code) {
                   "Example:\n  curvefusion experiment objects -o studies --quick\n"
                   "  curvefusion experiment all -o studies --quick\n"
                   "  curvefusion experiment inter-wire -o studies --seeds 1 --set "
-                  "fusion.overlap_distance=0.008\n"
-                  "  curvefusion experiment sweep -o sweep --set bundle.min_frames=1,2,3 --objects "
-                  "cage,cat --seeds 1\n"
+                  "fusion.overlap_distance=0.008 --profile paper\n"
                   "  curvefusion experiment families -o families --profile best --split test\n"
-                  "  curvefusion experiment sweep -o now --objects cage,cat --baseline before");
+                  "  curvefusion experiment objects -o now --objects cage,cat --baseline before");
   command->callback([arguments, &exit_code] { exit_code = RunExperiment(*arguments); });
 }
 

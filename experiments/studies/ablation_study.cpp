@@ -81,9 +81,11 @@ void Report(const StudyResults& results) {
 }  // namespace
 
 Study AblationStudy() {
-  return {"ablation", "What each deviation of the best profile from the paper is worth",
-          false,      Cases,
-          {},         Report};
+  return {"ablation",
+          "What each deviation of the best profile from the paper is worth",
+          Cases,
+          {},
+          Report};
 }
 
 }  // namespace curvefusion

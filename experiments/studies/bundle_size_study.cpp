@@ -244,10 +244,7 @@ void Report(const StudyResults& results) {
 Study BundleSizeStudy() {
   return {"bundle-size",
           "Skeletons of a single bundle of 1 to 300 frames, and VolumeFusion of the same frames",
-          false,
-          Cases,
-          Run,
-          Report};
+          Cases, Run, Report};
 }
 
 }  // namespace curvefusion

@@ -171,7 +171,6 @@ void Report(const StudyResults& results) {
 Study ComparisonsStudy() {
   return {"comparisons",
           "VolumeFusion, KinectFusion, L1 of all frames and colour edges beside both profiles",
-          false,
           Cases,
           Run,
           Report};

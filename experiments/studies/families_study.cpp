@@ -152,11 +152,8 @@ RunOutcome Run(const RunInput& input) {
 
 Study FamiliesStudy() {
   return {"families",
-          "Random scans of every family of objects and rooms, and recordings that are named",
-          false,
-          Cases,
-          Run,
-          ReportFamilies};
+          "Random scans of every family of objects and rooms, and recordings that are named", Cases,
+          Run, ReportFamilies};
 }
 
 }  // namespace curvefusion

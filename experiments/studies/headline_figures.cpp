@@ -90,20 +90,22 @@ size_t HeadlineIndex(const std::string& name) {
   return static_cast<size_t>(found - figures.begin());
 }
 
+std::optional<double> HeadlineValue(const RunGroup& group, const HeadlineFigure& figure) {
+  switch (figure.pooling) {
+    case Pooling::kMeanOfMedians:
+      return MeanOfMedians(group, figure);
+    case Pooling::kRatioOfSums:
+      return RatioOfSums(group, figure);
+    case Pooling::kShareEqual:
+      return ShareEqual(group, figure);
+  }
+  return std::nullopt;
+}
+
 std::vector<std::optional<double>> HeadlineValues(const RunGroup& group) {
   std::vector<std::optional<double>> values;
   for (const HeadlineFigure& figure : HeadlineFigures()) {
-    switch (figure.pooling) {
-      case Pooling::kMeanOfMedians:
-        values.push_back(MeanOfMedians(group, figure));
-        break;
-      case Pooling::kRatioOfSums:
-        values.push_back(RatioOfSums(group, figure));
-        break;
-      case Pooling::kShareEqual:
-        values.push_back(ShareEqual(group, figure));
-        break;
-    }
+    values.push_back(HeadlineValue(group, figure));
   }
   return values;
 }

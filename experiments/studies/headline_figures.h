@@ -32,6 +32,10 @@ const std::vector<HeadlineFigure>& HeadlineFigures();
 /// Where the figure of that name stands in HeadlineFigures(); there must be one.
 size_t HeadlineIndex(const std::string& name);
 
+/// The value of a figure for a group of runs: none where no run has it. A run may stand in a group
+/// more than once.
+std::optional<double> HeadlineValue(const RunGroup& group, const HeadlineFigure& figure);
+
 /// Their values for a group of runs, in that order; none where no run has the figure. A result
 /// without any curve counts with F = 0; failed runs are left out.
 std::vector<std::optional<double>> HeadlineValues(const RunGroup& group);

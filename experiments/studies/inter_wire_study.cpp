@@ -160,11 +160,8 @@ void Report(const StudyResults& results) {
 
 Study InterWireStudy() {
   return {"inter-wire",
-          "Parallel 5 mm wires 40 to 8 mm apart: down to which spacing are they resolved?",
-          false,
-          Cases,
-          Run,
-          Report};
+          "Parallel 5 mm wires 40 to 8 mm apart: down to which spacing are they resolved?", Cases,
+          Run, Report};
 }
 
 }  // namespace curvefusion

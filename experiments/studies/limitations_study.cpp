@@ -175,7 +175,6 @@ void Report(const StudyResults& results) {
 Study LimitationsStudy() {
   return {"limitations",
           "Thin wires, wire near a table, junctions of valence 3 to 8, mixed and varying diameters",
-          false,
           Cases,
           Run,
           Report};

@@ -86,10 +86,11 @@ void Report(const StudyResults& results) {
 }  // namespace
 
 Study ObjectsStudy() {
-  return {
-      "objects", "The eight objects of the paper's Table 1: accuracy, junctions, diameters, cost",
-      false,     Cases,
-      {},        Report};
+  return {"objects",
+          "The eight objects of the paper's Table 1: accuracy, junctions, diameters, cost",
+          Cases,
+          {},
+          Report};
 }
 
 }  // namespace curvefusion

@@ -77,8 +77,7 @@ void Report(const StudyResults& results) {
 }  // namespace
 
 Study PosesStudy() {
-  return {"poses", "The cat with true poses and with those of four trackers", false, Cases, Run,
-          Report};
+  return {"poses", "The cat with true poses and with those of four trackers", Cases, Run, Report};
 }
 
 }  // namespace curvefusion

@@ -28,4 +28,6 @@ Provenance ThisProgram() {
           static_cast<int>(std::thread::hardware_concurrency()), pages * page / 1e9};
 }
 
+std::string MethodVersion() { return CURVEFUSION_METHOD; }
+
 }  // namespace curvefusion

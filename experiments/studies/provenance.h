@@ -17,4 +17,8 @@ struct Provenance {
 /// system does not tell.
 Provenance ThisProgram();
 
+/// A hash of the source code that decides curves and their figures: the same for two builds that
+/// differ in other things only.
+std::string MethodVersion();
+
 }  // namespace curvefusion

@@ -53,7 +53,6 @@ void Report(const StudyResults& results) {
 Study RgbResolutionStudy() {
   return {"rgb-resolution",
           "Cat and decoration with colour images of 640x480 and of 1280x1024",
-          false,
           Cases,
           {},
           Report};

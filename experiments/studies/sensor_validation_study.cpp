@@ -271,10 +271,7 @@ void Report(const StudyResults& results) {
 
 Study SensorValidationStudy() {
   return {"sensor-validation",
-          "Do the simulated sensors and pose sources fail as the real ones do?",
-          false,
-          Cases,
-          Run,
+          "Do the simulated sensors and pose sources fail as the real ones do?", Cases, Run,
           Report};
 }
 

@@ -60,10 +60,11 @@ void Report(const StudyResults& results) {
 }  // namespace
 
 Study SensorsStudy() {
-  return {
-      "sensors", "Breadholder (5 mm) and rack (8 mm) on Kinect V1, PrimeSense, SR300 and Kinect V2",
-      false,     Cases,
-      {},        Report};
+  return {"sensors",
+          "Breadholder (5 mm) and rack (8 mm) on Kinect V1, PrimeSense, SR300 and Kinect V2",
+          Cases,
+          {},
+          Report};
 }
 
 }  // namespace curvefusion

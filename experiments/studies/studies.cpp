@@ -8,8 +8,8 @@ namespace curvefusion {
 std::vector<Study> AllStudies() {
   return {ObjectsStudy(),         BundleSizeStudy(),       SensorsStudy(),   PosesStudy(),
           ThicknessColourStudy(), RgbResolutionStudy(),    InterWireStudy(), LimitationsStudy(),
-          ComparisonsStudy(),     SensorValidationStudy(), AblationStudy(),  SweepStudy(),
-          CheckStudy(),           FamiliesStudy()};
+          ComparisonsStudy(),     SensorValidationStudy(), AblationStudy(),  CheckStudy(),
+          FamiliesStudy()};
 }
 
 Study StudyNamed(const std::string& name) {

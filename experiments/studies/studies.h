@@ -25,7 +25,6 @@ Study LimitationsStudy();
 Study ComparisonsStudy();
 Study SensorValidationStudy();
 Study AblationStudy();
-Study SweepStudy();
 Study CheckStudy();
 Study FamiliesStudy();
 

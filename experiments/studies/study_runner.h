@@ -22,9 +22,8 @@ struct StudyPlan {
   int other_revision = 0;  ///< finished, but by another revision of the program
 };
 
-/// The cases a request gives and which of them are finished in `folder`. Throws Error(kUsage) for a
-/// study that tunes parameters and is asked for another split than train, for two cases of one
-/// name, and for settings that cannot be.
+/// The cases a request gives and which of them are finished in `folder`. Throws Error(kUsage) for
+/// two cases of one name, and for settings that cannot be.
 StudyPlan PlanStudy(const Study& study, const StudyRequest& request,
                     const std::filesystem::path& folder);
 

@@ -104,11 +104,8 @@ void Report(const StudyResults& results) {
 
 Study ThicknessColourStudy() {
   return {"thickness-colour",
-          "Triangles of 1, 2, 3 and 4 mm wire, white to black: which of them are found?",
-          false,
-          Cases,
-          Run,
-          Report};
+          "Triangles of 1, 2, 3 and 4 mm wire, white to black: which of them are found?", Cases,
+          Run, Report};
 }
 
 }  // namespace curvefusion

@@ -176,20 +176,6 @@ TEST_F(StudyRunner, SplitsAndQuickOnesAreKeptApart) {
   EXPECT_EQ(StudyStem(Counting(), {.quick = true, .split = Split::kTest}), "counting_test_quick");
 }
 
-TEST_F(StudyRunner, StudyThatTunesRefusesTheTestSplit) {
-  Study study = Counting();
-  study.tunes_parameters = true;
-  EXPECT_EQ(Run(study, {.seeds = 1}).runs.size(), 3u);
-  try {
-    Run(study, {.seeds = 1, .split = Split::kTest});
-    FAIL() << "no error";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::kUsage);
-    EXPECT_THAT(error.what(), HasSubstr("--split train"));
-  }
-  EXPECT_EQ(calls_, 3);
-}
-
 TEST_F(StudyRunner, TwoCasesOfOneNameAreRefused) {
   Study study = Counting();
   study.cases = [](const StudyRequest&) {

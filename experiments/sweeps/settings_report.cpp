@@ -1,79 +1,21 @@
-// Values of the user's choice for settings of the user's choice, on simulated scans.
+#include "experiments/sweeps/settings_report.h"
+
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <iterator>
-#include <sstream>
 
 #include "experiments/studies/change_chart.h"
 #include "experiments/studies/gnuplot.h"
 #include "experiments/studies/headline_figures.h"
-#include "experiments/studies/studies.h"
-#include "kernel/error.h"
+#include "experiments/studies/result_table.h"
+#include "experiments/sweeps/sweep_cells.h"
+#include "kernel/text_input.h"
 
 namespace curvefusion {
 
 namespace {
-
-constexpr const char* kDefault = "default";
-
-// "key=v1,v2" -> {"key=v1", "key=v2"}.
-std::vector<std::string> ValuesOf(const std::string& assignment) {
-  const size_t equals = assignment.find('=');
-  if (equals == std::string::npos) {
-    throw Error(ErrorKind::kUsage, "--set " + assignment +
-                                       ": write section.key=value,value,..., for example "
-                                       "bundle.min_frames=1,2,3");
-  }
-  std::vector<std::string> values;
-  std::istringstream stream(assignment.substr(equals + 1));
-  for (std::string value; std::getline(stream, value, ',');) {
-    values.push_back(assignment.substr(0, equals + 1) + value);
-  }
-  if (values.empty()) values.push_back(assignment);  // to be refused as any value that is none
-  return values;
-}
-
-// Every combination of the values; the first is the profile as it is.
-std::vector<std::vector<std::string>> Grid(const std::vector<std::string>& assignments) {
-  std::vector<std::vector<std::string>> grid = {{}};
-  for (const std::string& assignment : assignments) {
-    std::vector<std::vector<std::string>> finer;
-    for (const auto& setting : grid) {
-      for (const std::string& value : ValuesOf(assignment)) {
-        finer.push_back(setting);
-        finer.back().push_back(value);
-      }
-    }
-    grid = finer;
-  }
-  if (!assignments.empty()) grid.insert(grid.begin(), std::vector<std::string>{});
-  return grid;
-}
-
-std::string NameOf(const std::vector<std::string>& setting) {
-  return setting.empty() ? kDefault : fmt::format("{}", fmt::join(setting, " "));
-}
-
-std::vector<StudyCase> Cases(const StudyRequest& request) {
-  const auto grid = Grid(request.assignments);
-  const Profile profile = request.profiles.back();
-  StudyRequest plain = request;
-  plain.assignments.clear();
-  std::vector<StudyCase> cases;
-  for (const std::string& object : ObjectsOf(request)) {
-    for (const uint64_t seed : SeedsOf(request)) {
-      for (const auto& setting : grid) {
-        cases.push_back({{{"object", object}, {"setting", NameOf(setting)}},
-                         seed,
-                         ObjectScan(request, object, seed),
-                         CaseConfig(plain, profile, setting)});
-      }
-    }
-  }
-  return cases;
-}
 
 std::string RatioText(const std::optional<double>& value, const std::optional<double>& reference,
                       int decimals) {
@@ -83,13 +25,19 @@ std::string RatioText(const std::optional<double>& value, const std::optional<do
   return fmt::format("{} ({:.2f})", number, *value / *reference);
 }
 
-// The number in "key=number" where all but the default are settings of one key; none otherwise.
-std::optional<double> NumberOf(const std::string& setting) {
-  const std::string text = setting.substr(setting.find('=') + 1);
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  if (text.empty() || *end != '\0') return std::nullopt;
-  return value;
+// "section.key=3" in two.
+struct SingleSetting {
+  std::string key;
+  double value = 0;
+};
+
+// None where a setting is no number, or there are several of them.
+std::optional<SingleSetting> SingleSettingOf(const std::string& setting) {
+  const size_t equals = setting.find('=');
+  if (equals == std::string::npos) return std::nullopt;
+  const auto value = ParseNumber(std::string_view(setting).substr(equals + 1));
+  if (!value) return std::nullopt;
+  return SingleSetting{setting.substr(0, equals), *value};
 }
 
 struct CurvePoint {
@@ -97,17 +45,23 @@ struct CurvePoint {
   std::vector<std::optional<double>> figures;
 };
 
-// The points of the curves by value; none where the settings are not numbers of one key.
-std::vector<CurvePoint> CurveOf(const std::vector<RunGroup>& groups) {
-  std::vector<CurvePoint> curve;
+// Figures over the values of one setting, by value; no points where other settings differ, too.
+struct SettingCurve {
+  std::string key;
+  std::vector<CurvePoint> points;
+};
+
+SettingCurve CurveOf(const std::vector<RunGroup>& groups) {
+  SettingCurve curve;
   for (const RunGroup& group : groups) {
-    const std::string setting = LabelOf(group.labels, "setting");
-    if (setting == kDefault) continue;
-    const std::optional<double> value = NumberOf(setting);
-    if (!value) return {};
-    curve.push_back({*value, HeadlineValues(group)});
+    const std::string name = LabelOf(group.labels, "setting");
+    if (name == kDefaultSetting) continue;
+    const auto setting = SingleSettingOf(name);
+    if (!setting || (!curve.key.empty() && setting->key != curve.key)) return {};
+    curve.key = setting->key;
+    curve.points.push_back({setting->value, HeadlineValues(group)});
   }
-  std::sort(curve.begin(), curve.end(),
+  std::sort(curve.points.begin(), curve.points.end(),
             [](const CurvePoint& a, const CurvePoint& b) { return a.value < b.value; });
   return curve;
 }
@@ -197,35 +151,35 @@ std::string CurveCommands(const std::string& key, const std::vector<CurvePoint>&
   return commands + "unset multiplot";
 }
 
-void Report(const StudyResults& results) {
-  const std::vector<RunGroup> groups = GroupRuns(results.runs, {"setting"});
-  const auto reference = HeadlineValues(groups.front());
-  std::vector<ChangeRow> changes;
-  for (const RunGroup& group : groups) {
-    changes.push_back(
-        {LabelOf(group.labels, "setting"), ChangesOf(reference, HeadlineValues(group))});
-  }
-  Table table = MedianTable(groups, {});
-  AddHeadlineColumns(table, [&](size_t row, size_t figure) {
-    return RatioText(HeadlineValues(groups[row])[figure], reference[figure],
-                     HeadlineFigures()[figure].decimals);
-  });
-  WriteTable(results.folder, results.stem, table);
-  DrawChanges(results.folder, results.stem, changes);
-  const std::vector<CurvePoint> curve = CurveOf(groups);
-  if (curve.size() < 2) return;
-  const std::string setting = LabelOf(groups[1].labels, "setting");
-  DrawPlot(results.folder, results.stem + "_curves",
-           {CurveData(curve, reference), CurveCommands(setting.substr(0, setting.find('=')), curve),
-            6.5, 4.2});
-}
+// More rows than that are no picture any more: the table has them.
+constexpr size_t kMostBars = 40;
 
 }  // namespace
 
-Study SweepStudy() {
-  return {"sweep", "Settings tried in all combinations: --set section.key=value,value,...",
-          true,    Cases,
-          {},      Report};
+void ReportSettings(const StudyResults& results, bool draws) {
+  const std::vector<RunGroup> groups = GroupRuns(results.runs, {"setting"});
+  const auto standard = std::find_if(groups.begin(), groups.end(), [](const RunGroup& group) {
+    return LabelOf(group.labels, "setting") == kDefaultSetting;
+  });
+  const auto reference =
+      standard != groups.end() ? HeadlineValues(*standard) : HeadlineValues(RunGroup{});
+  std::vector<ChangeRow> changes;
+  std::vector<std::vector<std::optional<double>>> values;
+  for (const RunGroup& group : groups) {
+    values.push_back(HeadlineValues(group));
+    changes.push_back({LabelOf(group.labels, "setting"), ChangesOf(reference, values.back())});
+  }
+  Table table = MedianTable(groups, {});
+  AddHeadlineColumns(table, [&](size_t row, size_t figure) {
+    return RatioText(values[row][figure], reference[figure], HeadlineFigures()[figure].decimals);
+  });
+  WriteTable(results.folder, results.stem, table);
+  if (!draws || standard == groups.end() || groups.size() < 2) return;
+  if (groups.size() <= kMostBars) DrawChanges(results.folder, results.stem, changes);
+  const SettingCurve curve = CurveOf(groups);
+  if (curve.points.size() < 2) return;
+  DrawPlot(results.folder, results.stem + "_curves",
+           {CurveData(curve.points, reference), CurveCommands(curve.key, curve.points), 6.5, 4.2});
 }
 
 }  // namespace curvefusion

@@ -1,0 +1,87 @@
+#include "experiments/sweeps/cell_measurement.h"
+
+#include <cmath>
+#include <new>
+
+#include "experiments/simulation/scan_settings.h"
+#include "experiments/studies/provenance.h"
+#include "experiments/studies/reconstruction_run.h"
+#include "experiments/studies/run_files.h"
+#include "kernel/error.h"
+#include "kernel/free_space.h"
+#include "kernel/partial_folder.h"
+
+namespace curvefusion {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+StudyCase CaseOf(const SweepCell& cell) {
+  return {{{"object", cell.object},
+           {"sensor", cell.sensor},
+           {"poses", cell.poses},
+           {"profile", ProfileName(cell.profile)},
+           {"setting", SettingName(cell)}},
+          cell.seed,
+          {},
+          ReadConfig({cell.profile, {}, cell.settings}),
+          {}};
+}
+
+// What the same program would do again, whenever and wherever it is run.
+bool IsLasting(const Error& error) {
+  return error.kind() == ErrorKind::kBadInput || error.kind() == ErrorKind::kUsage;
+}
+
+StudyRun Measured(const StudyCase& study_case, const fs::path& scan, const fs::path& folder,
+                  const Progress& progress) {
+  StudyRun run{study_case.labels, study_case.seed, "failed", "", ThisProgram().revision, {}, {}};
+  try {
+    const RunOutcome outcome = ReconstructAndEvaluate({study_case, scan, folder, progress});
+    run.outcome = outcome.found ? "done" : "nothing found";
+    run.figures = outcome.figures;
+    std::erase_if(run.figures, [](const auto& f) { return !std::isfinite(f.second); });
+  } catch (const Error& error) {
+    if (!IsLasting(error)) throw;
+    run.message = error.what();
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const fs::filesystem_error&) {
+    throw;
+  } catch (const std::exception& error) {
+    run.message = error.what();
+  }
+  return run;
+}
+
+}  // namespace
+
+CellOutcome MeasureCell(const SweepCell& cell, const fs::path& scan, const fs::path& result,
+                        const Progress& progress) {
+  if (const auto earlier = ReadRunFile(result)) {
+    return {earlier->run.outcome, earlier->run.message};
+  }
+  if (fs::absolute(scan).lexically_normal().filename() != cell.scan) {
+    throw Error(ErrorKind::kUsage,
+                scan.string() + ": is not the scan of the cell, which is " + cell.scan);
+  }
+  RequireFreeSpace(result, kCellBytes);
+  PartialFolder partial(result);
+  const StudyRun run = Measured(CaseOf(cell), scan, partial.path(), progress);
+  WriteRunFile(partial.path(), {run, CellSettings(cell)});
+  if (!ReadRunFile(result)) partial.Finish();
+  return {run.outcome, run.message};
+}
+
+void MakeSweepScan(const fs::path& settings, const fs::path& folder, const Progress& progress) {
+  const auto is_there = [&] { return fs::exists(folder / "truth" / "settings.json"); };
+  if (is_there()) return;
+  try {
+    SimulateScan(ReadScanSettings(settings), folder, progress);
+  } catch (const Error&) {
+    if (!is_there()) throw;
+  }
+}
+
+}  // namespace curvefusion
