@@ -46,7 +46,8 @@ constexpr int kMinStrips = 300;
 constexpr double kMinAcceptedShare = 0.1;
 // Curves that fit come to .1; more is a wire taken for the next.
 constexpr double kMaxResidualPx = 0.4;
-constexpr double kMinGain = 0.8;  // of the residual
+constexpr double kFittedPx = 0.25;  // curves that lie on their strips need not come nearer
+constexpr double kMinGain = 0.8;    // of the residual
 constexpr int kHeldOutFrames = 40;
 constexpr size_t kMinHeldOut = 300;  // places seen; fewer tell nothing
 // chosen after the values were seen: four adjustments that were good read .70 to .76 px before and
@@ -274,8 +275,8 @@ std::string ReasonToSkip(const ColourAdjustment& result) {
         "looked at)",
         result.strips, 100 * result.accepted_share);
   }
-  if (result.residual_px > kMaxResidualPx ||
-      result.residual_px > kMinGain * result.start_residual_px) {
+  const bool fits = CameNearer(result) || result.residual_px <= kFittedPx;
+  if (result.residual_px > kMaxResidualPx || !fits) {
     return fmt::format("curves did not come nearer to their strips: {:.2f} px before, {:.2f} after",
                        result.start_residual_px, result.residual_px);
   }
@@ -308,6 +309,10 @@ void VisitOptions(ColourAdjustmentOptions& options, OptionVisitor& visitor) {
                  "Deviation: strips that other wires touch on one side are found by their edge on "
                  "the other: a bar with a row of wires shows no strip of its own."},
                 options.edges);
+}
+
+bool CameNearer(const ColourAdjustment& adjusted) {
+  return adjusted.residual_px <= kMinGain * adjusted.start_residual_px;
 }
 
 ColourAdjustment AdjustToColours(const SkeletonGraph& skeleton, const Sequence& sequence,

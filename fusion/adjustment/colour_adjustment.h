@@ -44,6 +44,9 @@ struct ColourAdjustment {
   double residual_px = 0;                  ///< and after
 };
 
+/// Whether curves came nearer to their strips; they do not where they lay on them before.
+bool CameNearer(const ColourAdjustment& adjusted);
+
 /// Bundle adjustment of curves and camera poses: vertices every few millimetres along the edges,
 /// strips of wire colour found across them in every third colour image, of long sequences in 120
 /// (of vertices with few strips also single edges), and Gauss-Newton over all vertices and poses,

@@ -1,5 +1,6 @@
 #include "fusion/best/colour_stages.h"
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>
@@ -29,6 +30,9 @@ constexpr double kHardlyAWire = 0.4;  // times evidence.min_probability
 // Measured (docs/wires_from_colour.md): 1.7 to 4.7 where depth shows wires in their places, 5.7 and
 // more with time of flight.
 constexpr double kWrongScatter = 6;
+// Chosen on training scans of random families and of the paper's objects (docs/lab_notebook.md).
+constexpr int kColourRounds = 6;
+constexpr double kLittle = 0.01;  // of the length; less is not worth another round
 
 // Thin by proof: what is a wire with less than `min_probability` leaves the result, by so many
 // depth images at most and the strips of all radii, which come before. Whether any wire left: then
@@ -70,7 +74,6 @@ void CorrectBySilhouettes(const ColourAdjustment& adjusted, const StripViews& st
     reporter.log.Remark(stage, kImagesDoNotTell);
     return;
   }
-  // Two strands of noise that the adjustment has led into one wire.
   // Strands of noise that the adjustment has led into one wire: axes of two wires are never so
   // near.
   ResolveIntersections(result.skeleton, result.radii.global_radius);
@@ -97,9 +100,9 @@ void CorrectBySilhouettes(const ColourAdjustment& adjusted, const StripViews& st
 }
 
 // Deviation: wires that depth has lost, where colour images show strips that no curve explains.
-// Whether there are any.
-bool AddWiresFromColour(StripViews& views, const RidgeOptions& options,
-                        const StageReporter& reporter, Reconstruction& result) {
+// How many metres.
+double AddWiresFromColour(StripViews& views, const RidgeOptions& options,
+                          const StageReporter& reporter, Reconstruction& result) {
   const char* stage = "wires from colour";
   const StageLog::Timer timer = reporter.Begin(stage);
   views.ExplainAll(result.skeleton);
@@ -112,12 +115,12 @@ bool AddWiresFromColour(StripViews& views, const RidgeOptions& options,
   reporter.log.Count(stage, "points", static_cast<double>(candidates.size()));
   reporter.log.Count(stage, "added, m", added);
   reporter.observer.OnPoints("colour_candidates", candidates);
-  if (added == 0) return false;
+  if (added == 0) return 0;
   CloseFreeEnds(result.skeleton, options.free_ends, candidates);
   TidyRidgeSkeleton(result.skeleton, options);
   result.trust.wire_length += added;
   reporter.observer.OnGraph("with_colour", result.skeleton);
-  return true;
+  return added;
 }
 
 // Deviation: wires that depth has missed and colour images show.
@@ -160,6 +163,28 @@ bool UsesColourStart(const BestOptions& options, const std::optional<ColourAdjus
   return !adjusted || adjusted->depth_scatter > kWrongScatter;
 }
 
+// Adds wires that colour images show, fits curves and poses to the images again and corrects them,
+// until little is added: a new curve lies where places were found, some millimetres beside its
+// strips, and explains strips for which lines of sight had several places. Depth looks past most of
+// these wires: they have their proof from the images that show them.
+void CompleteByColour(const Sequence& given, StripViews strips, double row_diameter,
+                      const BestOptions& options, const StageReporter& reporter,
+                      Reconstruction& result) {
+  for (int round = 0; round < kColourRounds; ++round) {
+    const double added = AddWiresFromColour(strips, options.ridge, reporter, result);
+    if (added == 0) break;
+    AssignMeasuredRadii(row_diameter, options.radius, reporter, result);
+    if (added < kLittle * result.skeleton.TotalLength()) break;
+    const std::optional<ColourAdjustment> adjusted = AdjustCurvesAndPoses(
+        given, WireDepth::kShown, PoseErrors::kDrift, options.colour_adjustment, reporter, result);
+    if (!adjusted) break;
+    strips = LookForStrips(*adjusted, reporter, result);
+    CorrectBySilhouettes(*adjusted, strips, WireDepth::kShown, options, reporter, result);
+    AssignMeasuredRadii(row_diameter, options.radius, reporter, result);
+  }
+  result.trust.wire_length = std::min(result.trust.wire_length, result.skeleton.TotalLength());
+}
+
 // In how many images every place of the result was looked for and seen.
 void LookForEvidence(const ViewEvidenceOptions& options, const StageReporter& reporter,
                      Reconstruction& result) {
@@ -191,8 +216,9 @@ void RefineByColour(const Sequence& given, const SegmentationModel& model,
   std::optional<ColourAdjustment> adjusted = AdjustCurvesAndPoses(
       given, depth, PoseErrors::kDrift, options.colour_adjustment, reporter, result);
   if (UsesColourStart(options, adjusted, result)) {
+    const DepthCurves depth_curves = adjusted ? DepthCurves::kMisplaced : DepthCurves::kDoubtful;
     std::optional<ColourAdjustment> from_colour =
-        StartFromColour(given, model.colours, options, reporter, result);
+        StartFromColour(given, model.colours, depth_curves, options, reporter, result);
     if (from_colour) {
       adjusted = std::move(from_colour);
       depth = WireDepth::kNotShown;
@@ -207,11 +233,9 @@ void RefineByColour(const Sequence& given, const SegmentationModel& model,
   }
   measure_radii();
   keep_proven("evidence", 1);
-  // Depth looks past most of these: they have their proof from the images that show them.
   // Curves that came from colour alone are all that it shows.
-  if (strips && depth == WireDepth::kShown &&
-      AddWiresFromColour(*strips, options.ridge, reporter, result)) {
-    measure_radii();
+  if (adjusted && depth == WireDepth::kShown) {
+    CompleteByColour(given, std::move(*strips), model.row_diameter, options, reporter, result);
   }
   LookForEvidence(options.evidence, reporter, result);
 }

@@ -50,8 +50,9 @@ struct ShownCurves {
   double shown = 0;
 
   // What is shown speaks for curves as much as what is not shown speaks against them.
-  bool IsBetterThan(const ShownCurves& other) const {
-    return 2 * shown - length > 2 * other.shown - other.length;
+  bool IsBetterThan(const ShownCurves& other, DepthCurves others) const {
+    const bool is_more = others == DepthCurves::kMisplaced || shown > other.shown;
+    return is_more && 2 * shown - length > 2 * other.shown - other.length;
   }
 };
 
@@ -134,7 +135,7 @@ std::optional<ColourAdjustment> FitCurvesOfColour(const StartPoses& start,
     std::optional<ColourAdjustment> again =
         AdjustCurvesAndPoses(start.sequence, WireDepth::kNotShown, start.errors,
                              options.colour_adjustment, reporter, next);
-    if (!again) break;  // also where the curves are as exact already
+    if (!again || !CameNearer(*again)) break;  // as exact already
     adjusted = std::move(again);
     images = {adjusted->frames, adjusted->posteriors};
     colour = std::move(next);
@@ -145,6 +146,7 @@ std::optional<ColourAdjustment> FitCurvesOfColour(const StartPoses& start,
 }  // namespace
 
 std::optional<ColourAdjustment> StartFromColour(const Sequence& given, const WireColours& colours,
+                                                DepthCurves depth_curves,
                                                 const BestOptions& options,
                                                 const StageReporter& reporter,
                                                 Reconstruction& result) {
@@ -171,7 +173,8 @@ std::optional<ColourAdjustment> StartFromColour(const Sequence& given, const Wir
   const ShownCurves after = CountShown(colour.sequence, images, colour.skeleton);
   reporter.log.Count(kStage, "of depth shown as wire, m", before.shown);
   reporter.log.Count(kStage, "shown as wire, m", after.shown);
-  if (!options.colour_start.always && !after.IsBetterThan(before)) return std::nullopt;
+  if (!options.colour_start.always && !after.IsBetterThan(before, depth_curves))
+    return std::nullopt;
   result.sequence = std::move(colour.sequence);
   result.points = std::move(colour.points);
   result.skeleton = std::move(colour.skeleton);

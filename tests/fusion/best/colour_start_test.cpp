@@ -47,13 +47,18 @@ class ColourStart : public testing::Test {
   // Starts with curves of depth that are off by so much.
   std::optional<ColourAdjustment> Start(double depth,
                                         const BestOptions& options = DefaultBestOptions()) {
-    result_.sequence = scan_.sequence();
     result_.skeleton = WiresOffBy(depth);
+    return StartWithCurves(options, DepthCurves::kDoubtful);
+  }
+
+  std::optional<ColourAdjustment> StartWithCurves(const BestOptions& options,
+                                                  DepthCurves depth_curves) {
+    result_.sequence = scan_.sequence();
     for (const EdgeId id : result_.skeleton.Edges()) {
       for (const Vec3& p : result_.skeleton.edge(id).points)
         result_.points.Add(p, Vec3::UnitZ(), 1);
     }
-    return StartFromColour(scan_.sequence(), ColoursOf(scan_.sequence()), options,
+    return StartFromColour(scan_.sequence(), ColoursOf(scan_.sequence()), depth_curves, options,
                            StageReporter{observer_, log_}, result_);
   }
 
@@ -97,13 +102,32 @@ TEST_F(ColourStart, ReplacesThemWhereItIsToldTo) {
   EXPECT_LT(MedianDistance(), 0.001);
 }
 
+// Depth's curves are shown twice over, and more of them not at all: no reason to give up what is
+// shown, unless depth is known to be wrong.
+TEST_F(ColourStart, DoubtfulCurvesGiveWayOnlyWhereMoreIsShown) {
+  const auto with_what_nothing_shows = [&](DepthCurves depth_curves) {
+    result_ = {};
+    result_.skeleton = WiresOffBy(0);
+    for (const Polyline& wire : kWires) AddTestEdge(result_.skeleton, wire);
+    for (int i = 0; i < 25; ++i) {
+      const double x = -0.04 + 0.0015 * i;
+      AddTestEdge(result_.skeleton, TestLine({x, 0.04, 0}, {x, 0.08, 0}));
+    }
+    return StartWithCurves(DefaultBestOptions(), depth_curves).has_value();
+  };
+  EXPECT_FALSE(with_what_nothing_shows(DepthCurves::kDoubtful));
+  EXPECT_TRUE(with_what_nothing_shows(DepthCurves::kMisplaced));
+}
+
 TEST_F(ColourStart, NeedsColoursAndAPlaceToLookAt) {
   result_.sequence = scan_.sequence();
   const StageReporter reporter{observer_, log_};
-  EXPECT_FALSE(StartFromColour(scan_.sequence(), ColoursOf(scan_.sequence()), {}, reporter, result_)
+  EXPECT_FALSE(StartFromColour(scan_.sequence(), ColoursOf(scan_.sequence()),
+                               DepthCurves::kDoubtful, {}, reporter, result_)
                    .has_value());
   result_.points.Add(Vec3::Zero(), Vec3::UnitZ(), 1);
-  EXPECT_FALSE(StartFromColour(scan_.sequence(), {}, {}, reporter, result_).has_value());
+  EXPECT_FALSE(StartFromColour(scan_.sequence(), {}, DepthCurves::kDoubtful, {}, reporter, result_)
+                   .has_value());
 }
 
 }  // namespace
