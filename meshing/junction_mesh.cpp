@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <numbers>
 #include <tuple>
 #include <utility>
 
 #include "kernel/disjoint_sets.h"
 #include "kernel/geometry.h"
 #include "meshing/hashed_number.h"
-#include "meshing/junction_resampling.h"
 #include "meshing/junction_union.h"
+#include "meshing/junction_wrap.h"
 #include "meshing/self_intersections.h"
 #include "meshing/sweep.h"
 #include "meshing/union_cleaning.h"
@@ -26,21 +25,12 @@ constexpr double kMinEdge = 0.06;
 constexpr double kMinHeight = 0.02;
 constexpr double kZoneRadius = 0.2;
 constexpr double kTinyHollow = 0.05;  // across; radii larger by a fortieth close it
-// Likewise where tubes were resampled: on a grid gaps between them come apart in hollows.
-constexpr double kResampledHollow = 2.0;
 
-// A crowded junction has so many creases that some place fails in nearly every attempt, and an
-// attempt takes long: a planar fan of 50 tubes fails in 24 of 24. Up to kUncrowded tubes it has all
-// its attempts, beyond it fewer, so that their product stays the same, and then it is resampled.
-constexpr int kUncrowded = 16;
 constexpr int kCleaningRounds = 7;
-// From so many tubes on it has one attempt only, without exact constructions, and few rounds: what
-// comes out at all does so then (200 tubes of random directions), and the rest would take a minute.
-constexpr int kVeryCrowded = 40;
-constexpr int kFewRounds = 2;
-// Radii: so many tubes that overlap for so long in the mean never come out (73 to 146 where 100 to
-// 200 meet in a plane or on a cone; below 40 where they are spread over the sphere).
-constexpr double kLongOverlap = 60;
+// A crowded junction has so many creases that some place fails in nearly every attempt, and an
+// attempt takes long: a planar fan of 50 tubes fails in 24 of 24. Up to this many tubes it has all
+// its attempts, beyond it fewer, so that their product stays the same, and then it is wrapped.
+constexpr int kUncrowded = 16;
 constexpr std::array<double, 5> kZoneFactors = {0.3, 0.03, 0.7, 0.1, 0.01};
 
 using Place = std::tuple<float, float, float>;
@@ -151,8 +141,7 @@ class ZoneList {
 // Cleans a union until nothing collides.
 std::optional<TriangleMesh> CleanSoundly(const UnionMesh& united, const Junction& junction) {
   ZoneList zones(kZoneRadius * junction.radius);
-  const int rounds = junction.stubs.size() < kVeryCrowded ? kCleaningRounds : kFewRounds;
-  for (int round = 0; round < rounds; ++round) {
+  for (int round = 0; round < kCleaningRounds; ++round) {
     std::optional<TriangleMesh> clean =
         CleanUnion(united, junction.cut_rings,
                    {kMinEdge * junction.radius, kMinHeight * junction.radius, zones.Zones()});
@@ -192,38 +181,20 @@ void CloseTinyHollows(UnionMesh& united, double size) {
 
 // What is left to do for the union of a junction's stubs.
 std::optional<TriangleMesh> Finished(std::optional<UnionMesh> united, const Junction& junction,
-                                     const std::map<Place, int>& rings, double tiny_hollow) {
+                                     const std::map<Place, int>& rings) {
   if (!united) return std::nullopt;
-  CloseTinyHollows(*united, tiny_hollow * junction.radius);
+  CloseTinyHollows(*united, kTinyHollow * junction.radius);
   Roughen(*united, kSurfaceRoughness * junction.radius, rings);
   std::optional<TriangleMesh> clean = CleanSoundly(*united, junction);
   if (!clean) return std::nullopt;
   return OpenAtCutRings(std::move(*clean), junction, rings);
 }
 
-// The mean length of the stubs, in radii, by their area.
-double MeanLength(const Junction& junction) {
-  double area = 0;
-  for (const TriangleMesh& stub : junction.stubs) {
-    for (const auto& [a, b, c] : stub.triangles) {
-      const Vec3f& p = stub.vertices[a];
-      area += 0.5 * (stub.vertices[b] - p).cross(stub.vertices[c] - p).norm();
-    }
-  }
-  const double squares = area / (junction.radius * junction.radius);
-  return squares / (2 * std::numbers::pi * static_cast<double>(junction.stubs.size()));
-}
-
-JunctionMeshOptions WithinBudget(const JunctionMeshOptions& options, const Junction& junction) {
-  const int count = static_cast<int>(junction.stubs.size());
+JunctionMeshOptions WithinBudget(const JunctionMeshOptions& options, size_t stubs) {
+  const int count = static_cast<int>(stubs);
   if (count <= kUncrowded) return options;
-  const int one = std::min(options.max_attempts, 1);
-  if (count >= kVeryCrowded) return {MeanLength(junction) < kLongOverlap ? one : 0, true};
-  return {std::max(one, options.max_attempts * kUncrowded / count), true};
-}
-
-std::optional<UnionMesh> Unite(const std::vector<TriangleMesh>& stubs) {
-  return stubs.size() < kVeryCrowded ? UniteSolids(stubs) : UniteSolidsDirectly(stubs);
+  return {std::max(std::min(options.max_attempts, 1), options.max_attempts * kUncrowded / count),
+          true};
 }
 
 }  // namespace
@@ -231,15 +202,15 @@ std::optional<UnionMesh> Unite(const std::vector<TriangleMesh>& stubs) {
 JunctionMesh MeshJunction(const Junction& junction, const JunctionMeshOptions& options,
                           uint64_t seed) {
   const std::map<Place, int> rings = RingsByPlace(junction);
-  const auto [max_attempts, last_resort] = WithinBudget(options, junction);
+  const auto [max_attempts, last_resort] = WithinBudget(options, junction.stubs.size());
   JunctionMesh result;
   while (!result.surface && result.attempts < max_attempts) {
-    auto united = Unite(PerturbedStubs(junction, rings, result.attempts++, seed));
-    result.surface = Finished(std::move(united), junction, rings, kTinyHollow);
+    auto united = UniteSolids(PerturbedStubs(junction, rings, result.attempts++, seed));
+    result.surface = Finished(std::move(united), junction, rings);
   }
   if (!result.surface && last_resort) {
-    result.surface = Finished(ResampleJunction(junction), junction, rings, kResampledHollow);
-    result.resampled = result.surface.has_value();
+    result.surface = Finished(WrapJunction(junction), junction, rings);
+    result.wrapped = result.surface.has_value();
   }
   return result;
 }

@@ -19,21 +19,20 @@ struct Junction {
 struct JunctionMesh {
   std::optional<TriangleMesh> surface;  ///< nothing where every attempt failed
   int attempts = 0;                     ///< how many it took
-  bool resampled = false;               ///< by the last resort (ResampleJunction)
+  bool wrapped = false;                 ///< by the last resort (WrapJunction)
 };
 
 /// What is done about a junction that does not come out.
 struct JunctionMeshOptions {
   int max_attempts = 8;      ///< >= 0
-  bool last_resort = false;  ///< then resample it
+  bool last_resort = false;  ///< then wrap it
 };
 
 /// Unites the stubs of a junction exactly, cleans and rounds the union, checks that it is
 /// free of self-intersections in metres and in millimetres, and opens it at the cut rings, whose
 /// vertices stay in place. Where something fails it tries again with the other vertices moved by a
 /// few thousandths of the radius and a coarser cleaning. Of more than 16 stubs it makes fewer
-/// attempts, of 40 and more at most one, and resamples them then. The same seed gives the same
-/// result.
+/// attempts and wraps them then. The same seed gives the same result.
 JunctionMesh MeshJunction(const Junction& junction, const JunctionMeshOptions& options,
                           uint64_t seed);
 

@@ -84,10 +84,10 @@ void AppendJunction(const Junction& junction, const JunctionMesh& part, Assembly
     assembly.failure_place = place;
     return;
   }
-  if (part.resampled) {
+  if (part.wrapped) {
     assembly.fallbacks.push_back({place, static_cast<int>(junction.stubs.size()), part.attempts,
-                                  "resampled on a grid of half the radius: finer gaps and "
-                                  "crotches are not to be relied on there",
+                                  "wrapped: crotches and gaps narrower than two thirds of the "
+                                  "radius are closed there",
                                   true});
   } else if (part.attempts > 1) {
     assembly.fallbacks.push_back({place, static_cast<int>(junction.stubs.size()), part.attempts,

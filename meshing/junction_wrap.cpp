@@ -1,29 +1,33 @@
-#include "meshing/junction_resampling.h"
+#include "meshing/junction_wrap.h"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/alpha_wrap_3.h>
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <set>
 #include <tuple>
 #include <utility>
 #include <vector>
 
-#include "meshing/union_resampling.h"
-
 namespace curvefusion {
 
 namespace {
 
-// In radii. A tube has a dozen corners on such a grid, and loses 2 % of its section.
-constexpr double kSpacing = 0.5;
-// A surface on the grid begins so far inside a cut ring, in parts of the segment there; the
-// unchanged end of the stub reaches twice as far and gets thinner on the way, so that the two meet
-// at an angle.
-constexpr double kGridStart = 0.3;
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Point = Kernel::Point_3;
+using Wrap = CGAL::Surface_mesh<Point>;
+
+// In radii.
+constexpr double kAlpha = 1.0 / 3;
+constexpr double kOffset = 0.02;
+// The wrap begins so far inside a cut ring, in parts of the segment there; the unchanged end of the
+// stub reaches twice as far and gets thinner on the way, so that the two meet at an angle.
+constexpr double kWrapStart = 0.3;
 constexpr double kCollarEnd = 0.6;
 constexpr double kCollarTaper = 0.85;
-// The rim of a flat end loses a cell, which must not reach the end of the collar. Shorter segments
-// than some radii, as of curves with noise, are left to chance.
-constexpr double kLeastSpacing = 0.15;
 
 // Where a tube is cut: the ring and the way to the next one inwards.
 struct Cut {
@@ -66,7 +70,7 @@ TriangleMesh Shortened(const TriangleMesh& stub, const Junction& junction, std::
     }
     if (static_cast<size_t>(std::count(in_ring.begin(), in_ring.end(), 1)) != ring.size()) continue;
     cuts.push_back(CutAt(stub, in_ring, ring));
-    const Vec3f shift = (kGridStart * cuts.back().inwards).cast<float>();
+    const Vec3f shift = (kWrapStart * cuts.back().inwards).cast<float>();
     for (size_t v = 0; v < stub.vertices.size(); ++v) {
       if (in_ring[v]) shortened.vertices[v] += shift;
     }
@@ -99,36 +103,49 @@ TriangleMesh Collar(const Cut& cut) {
   return collar;
 }
 
-double SpacingFor(const std::vector<Cut>& cuts, double radius) {
-  double spacing = kSpacing * radius;
-  for (const Cut& cut : cuts) {
-    spacing = std::min(spacing, (kCollarEnd - kGridStart) * cut.inwards.norm());
+TriangleMesh WrapAround(const std::vector<TriangleMesh>& stubs, double radius) {
+  std::vector<Point> points;
+  std::vector<std::array<std::size_t, 3>> faces;
+  for (const TriangleMesh& stub : stubs) {
+    const std::size_t first = points.size();
+    for (const Vec3f& v : stub.vertices) points.emplace_back(v.x(), v.y(), v.z());
+    for (const auto& [a, b, c] : stub.triangles) {
+      faces.push_back({first + static_cast<std::size_t>(a), first + static_cast<std::size_t>(b),
+                       first + static_cast<std::size_t>(c)});
+    }
   }
-  return std::max(spacing, kLeastSpacing * radius);
-}
-
-TriangleMesh ToFloat(const UnionMesh& mesh) {
-  TriangleMesh rounded{{}, mesh.triangles};
-  for (const Vec3& v : mesh.vertices) rounded.vertices.push_back(v.cast<float>());
-  return rounded;
+  Wrap wrap;
+  CGAL::alpha_wrap_3(points, faces, kAlpha * radius, kOffset * radius, wrap);
+  TriangleMesh mesh;
+  std::vector<int> index(wrap.number_of_vertices() + wrap.number_of_removed_vertices());
+  for (const Wrap::Vertex_index v : wrap.vertices()) {
+    index[v] = static_cast<int>(mesh.vertices.size());
+    const Point& p = wrap.point(v);
+    mesh.vertices.push_back(Vec3(p.x(), p.y(), p.z()).cast<float>());
+  }
+  for (const Wrap::Face_index face : wrap.faces()) {
+    std::array<int, 3> triangle{};
+    int corner = 0;
+    for (const Wrap::Vertex_index v : wrap.vertices_around_face(wrap.halfedge(face))) {
+      triangle[corner++] = index[v];
+    }
+    mesh.triangles.push_back(triangle);
+  }
+  return mesh;
 }
 
 }  // namespace
 
-std::optional<UnionMesh> ResampleJunction(const Junction& junction) {
+std::optional<UnionMesh> WrapJunction(const Junction& junction) {
   std::vector<Cut> cuts;
   std::vector<TriangleMesh> shortened;
   for (const TriangleMesh& stub : junction.stubs) {
     shortened.push_back(Shortened(stub, junction, cuts));
   }
   if (cuts.size() != junction.cut_rings.size()) return std::nullopt;
-  std::vector<TriangleMesh> collars;
-  for (const Cut& cut : cuts) collars.push_back(Collar(cut));
-  // The collars first: they are small, and what is on the grid is large.
-  const std::optional<UnionMesh> ends = UniteSolids(collars);
-  if (!ends) return std::nullopt;
-  const UnionMesh core = ResampleUnion(shortened, SpacingFor(cuts, junction.radius));
-  return UniteSolids({ToFloat(core), ToFloat(*ends)});
+  std::vector<TriangleMesh> solids = {WrapAround(shortened, junction.radius)};
+  for (const Cut& cut : cuts) solids.push_back(Collar(cut));
+  return UniteSolids(solids);
 }
 
 }  // namespace curvefusion
