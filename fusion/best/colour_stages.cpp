@@ -167,11 +167,12 @@ bool UsesColourStart(const BestOptions& options, const std::optional<ColourAdjus
 // until little is added: a new curve lies where places were found, some millimetres beside its
 // strips, and explains strips for which lines of sight had several places. Depth looks past most of
 // these wires: they have their proof from the images that show them.
-void CompleteByColour(const Sequence& given, StripViews strips, double row_diameter,
+void CompleteByColour(const Sequence& given, std::optional<StripViews> strips, double row_diameter,
                       const BestOptions& options, const StageReporter& reporter,
                       Reconstruction& result) {
   for (int round = 0; round < kColourRounds; ++round) {
-    const double added = AddWiresFromColour(strips, options.ridge, reporter, result);
+    const double added = AddWiresFromColour(*strips, options.ridge, reporter, result);
+    strips.reset();  // its images take as much memory as the next adjustment
     if (added == 0) break;
     AssignMeasuredRadii(row_diameter, options.radius, reporter, result);
     if (added < kLittle * result.skeleton.TotalLength()) break;
@@ -179,7 +180,7 @@ void CompleteByColour(const Sequence& given, StripViews strips, double row_diame
         given, WireDepth::kShown, PoseErrors::kDrift, options.colour_adjustment, reporter, result);
     if (!adjusted) break;
     strips = LookForStrips(*adjusted, reporter, result);
-    CorrectBySilhouettes(*adjusted, strips, WireDepth::kShown, options, reporter, result);
+    CorrectBySilhouettes(*adjusted, *strips, WireDepth::kShown, options, reporter, result);
     AssignMeasuredRadii(row_diameter, options.radius, reporter, result);
   }
   result.trust.wire_length = std::min(result.trust.wire_length, result.skeleton.TotalLength());
@@ -235,7 +236,9 @@ void RefineByColour(const Sequence& given, const SegmentationModel& model,
   keep_proven("evidence", 1);
   // Curves that came from colour alone are all that it shows.
   if (adjusted && depth == WireDepth::kShown) {
-    CompleteByColour(given, std::move(*strips), model.row_diameter, options, reporter, result);
+    adjusted.reset();  // its images are not needed any more
+    CompleteByColour(given, std::move(strips), model.row_diameter, options, reporter, result);
+    strips.reset();
   }
   LookForEvidence(options.evidence, reporter, result);
 }
