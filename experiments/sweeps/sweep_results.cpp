@@ -18,7 +18,8 @@ namespace {
 
 // Those that differ from run to run, or from machine to machine.
 bool IsCost(const std::string& figure) {
-  return figure.find("seconds") != std::string::npos || figure.starts_with("peak_memory");
+  return figure.find("seconds") != std::string::npos || figure.starts_with("peak_memory") ||
+         figure == "contraction_share";  // of the seconds
 }
 
 CellResult ResultOf(const SweepPlan& plan, const SweepCell& cell) {
