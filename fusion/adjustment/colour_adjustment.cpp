@@ -46,8 +46,10 @@ constexpr int kMinStrips = 300;
 constexpr double kMinAcceptedShare = 0.1;
 // Curves that fit come to .1; more is a wire taken for the next.
 constexpr double kMaxResidualPx = 0.4;
-constexpr double kFittedPx = 0.25;  // curves that lie on their strips need not come nearer
-constexpr double kMinGain = 0.8;    // of the residual
+// Chosen: above what fitted curves come to (.1 to .2). Those that lay on their strips before need
+// not come nearer.
+constexpr double kFittedPx = 0.25;
+constexpr double kMinGain = 0.8;  // of the residual
 constexpr int kHeldOutFrames = 40;
 constexpr size_t kMinHeldOut = 300;  // places seen; fewer tell nothing
 // chosen after the values were seen: four adjustments that were good read .70 to .76 px before and

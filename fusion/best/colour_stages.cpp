@@ -176,9 +176,14 @@ void CompleteByColour(const Sequence& given, std::optional<StripViews> strips, d
     if (added == 0) break;
     AssignMeasuredRadii(row_diameter, options.radius, reporter, result);
     if (added < kLittle * result.skeleton.TotalLength()) break;
+    const auto before = result.trust;
     const std::optional<ColourAdjustment> adjusted = AdjustCurvesAndPoses(
         given, WireDepth::kShown, PoseErrors::kDrift, options.colour_adjustment, reporter, result);
-    if (!adjusted) break;
+    if (!adjusted) {
+      result.trust = before;  // of the adjustment that stands
+      break;
+    }
+    result.trust.residual_before_px = before.residual_before_px;
     strips = LookForStrips(*adjusted, reporter, result);
     CorrectBySilhouettes(*adjusted, *strips, WireDepth::kShown, options, reporter, result);
     AssignMeasuredRadii(row_diameter, options.radius, reporter, result);
