@@ -28,9 +28,8 @@ endfunction()
 function(curvefusion_add_test name)
   cmake_parse_arguments(arg "" "" "SOURCES;LIBRARIES" ${ARGN})
   add_executable(${name} ${arg_SOURCES})
-  target_link_libraries(${name} PRIVATE ${arg_LIBRARIES} curvefusion_warnings GTest::gtest_main
-                                        GTest::gmock)
+  target_link_libraries(${name} PRIVATE ${arg_LIBRARIES} curvefusion_warnings
+                                        curvefusion_source_folder GTest::gtest_main GTest::gmock)
   target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}")
-  target_compile_definitions(${name} PRIVATE CURVEFUSION_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
 endfunction()

@@ -2,6 +2,8 @@
 
 #include <filesystem>
 
+#include "tests/source_folder.h"
+
 namespace curvefusion {
 
 /// A file or folder of the shared data, which lies beside the project and is never part of it.
@@ -9,7 +11,7 @@ namespace curvefusion {
 ///   const auto path = SharedData("clouds/cageB.xyz");
 ///   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
 inline std::filesystem::path SharedData(const std::filesystem::path& relative) {
-  return std::filesystem::path(CURVEFUSION_SOURCE_DIR).parent_path() / "shared" / "data" / relative;
+  return SourceFolder().parent_path() / "shared" / "data" / relative;
 }
 
 }  // namespace curvefusion

@@ -1,10 +1,8 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -26,21 +24,19 @@ class CommandLine : public testing::Test {
 
   // Runs `curvefusion ARGUMENTS` inside folder_.
   Outcome Run(const std::string& arguments) const {
-    return RunShell("'" CURVEFUSION_PROGRAM "' " + arguments + " >output.txt 2>&1");
+    return RunShell("\"$CURVEFUSION\" " + arguments + " >output.txt 2>&1");
   }
 
   // The same, with SIGINT sent as soon as the folder `awaited` is there (or after 20 s).
   Outcome RunAndInterrupt(const std::string& arguments, const std::string& awaited) const {
-    return RunShell("'" CURVEFUSION_PROGRAM "' " + arguments +
-                    " >output.txt 2>&1 & i=0; while [ ! -d " + awaited +
+    return RunShell("\"$CURVEFUSION\" " + arguments + " >output.txt 2>&1 & i=0; while [ ! -d " +
+                    awaited +
                     " ] && [ $i -lt 2000 ]; do i=$((i+1)); sleep 0.01; done; "
                     "kill -INT $!; wait $!");
   }
 
-  Outcome RunShell(const std::string& command) const {
-    const int status = std::system(("cd '" + folder_.string() + "' || exit; " + command).c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, Text("output.txt")};
-  }
+  // Runs a command of the shell, for which $CURVEFUSION is the program.
+  Outcome RunShell(const std::string& command) const;
 
   // A scan of the wire cube without noise into the folder `scan`.
   Outcome SimulateCube(int frames) const {

@@ -67,8 +67,7 @@ TEST_F(CommandLine, FilesOfUnknownFormatsAreRefusedBeforeWork) {
 TEST_F(CommandLine, CheckPrintsOneJsonObject) {
   ASSERT_EQ(SimulateCube(3).exit_code, 0);
   for (const char* scan : {"scan", "none"}) {
-    RunShell("'" CURVEFUSION_PROGRAM "' check --json " + std::string(scan) +
-             " >output.txt 2>errors.txt");
+    RunShell("\"$CURVEFUSION\" check --json " + std::string(scan) + " >output.txt 2>errors.txt");
     const auto json = nlohmann::json::parse(Text("output.txt"), nullptr, false);
     ASSERT_FALSE(json.is_discarded()) << Text("output.txt");
     EXPECT_EQ(json["figures"]["frames"], std::string(scan) == "scan" ? 3 : 0);

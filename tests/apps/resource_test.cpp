@@ -28,7 +28,7 @@ class Resources : public CommandLine {
  protected:
   // The program after some shell commands, which may set limits; their failure skips nothing.
   Outcome RunAfter(const std::string& before, const std::string& arguments) const {
-    return RunShell(before + "exec '" CURVEFUSION_PROGRAM "' " + arguments + " >output.txt 2>&1");
+    return RunShell(before + "exec \"$CURVEFUSION\" " + arguments + " >output.txt 2>&1");
   }
 
   // Whether another user than root can be had who can run the program.
@@ -36,7 +36,7 @@ class Resources : public CommandLine {
     return ::geteuid() == 0 && RunShell(kAsNobody + "--version >output.txt 2>&1").exit_code == 0;
   }
 
-  const std::string kAsNobody = "setpriv --reuid=65534 --clear-groups '" CURVEFUSION_PROGRAM "' ";
+  const std::string kAsNobody = "setpriv --reuid=65534 --clear-groups \"$CURVEFUSION\" ";
 };
 
 TEST_F(Resources, ASecondRunInOnePlaceIs75) {
@@ -55,11 +55,10 @@ TEST_F(Resources, ASecondRunInOnePlaceIs75) {
 
 TEST_F(Resources, WhatAKilledRunHasLeftIsCleaned) {
   ASSERT_EQ(SimulateCube(3).exit_code, 0);
-  const Outcome killed =
-      RunShell("'" CURVEFUSION_PROGRAM
-               "' reconstruct scan -o out >output.txt 2>&1 & i=0; while [ ! -f "
-               "out/curvefusion.lock ] && [ $i -lt 2000 ]; do i=$((i+1)); sleep 0.01; done; "
-               "kill -KILL $!; wait $!");
+  const Outcome killed = RunShell(
+      "\"$CURVEFUSION\" reconstruct scan -o out >output.txt 2>&1 & i=0; while [ ! -f "
+      "out/curvefusion.lock ] && [ $i -lt 2000 ]; do i=$((i+1)); sleep 0.01; done; "
+      "kill -KILL $!; wait $!");
   ASSERT_EQ(killed.exit_code, 128 + SIGKILL);
   const pid_t child = ::fork();
   if (child == 0) {
@@ -74,7 +73,7 @@ TEST_F(Resources, WhatAKilledRunHasLeftIsCleaned) {
 }
 
 TEST_F(Resources, OutputThatCannotBeWrittenIsFive) {
-  const Outcome full = RunShell("'" CURVEFUSION_PROGRAM "' config >/dev/full 2>output.txt");
+  const Outcome full = RunShell("\"$CURVEFUSION\" config >/dev/full 2>output.txt");
   EXPECT_EQ(full.exit_code, 5);
   EXPECT_THAT(full.output, HasSubstr("No space left on device"));
   const Outcome limited = RunAfter("ulimit -f 4; ", "simulate cage --frames 1 -o new");
@@ -85,8 +84,8 @@ TEST_F(Resources, OutputThatCannotBeWrittenIsFive) {
 }
 
 TEST_F(Resources, AReaderThatHasGoneAwayIsNoError) {
-  const Outcome outcome = RunShell("{ { sleep 0.3; '" CURVEFUSION_PROGRAM
-                                   "' config; echo $? >code; } 2>output.txt | true; }; cat code");
+  const Outcome outcome = RunShell(
+      "{ { sleep 0.3; \"$CURVEFUSION\" config; echo $? >code; } 2>output.txt | true; }; cat code");
   EXPECT_EQ(outcome.output, "");
   EXPECT_THAT(Text("code"), AnyOf("0\n", "141\n"));
 }
@@ -118,8 +117,8 @@ TEST_F(Resources, PipesDevicesAndFoldersAreRefusedAsInput) {
         "mesh p.json -o a.ply", "mesh --check p.obj", "config --config p", "config --config scan",
         "evaluate p.json --truth p.json", "check scan", "check scan2", "reconstruct scan -o out",
         "simulate p.json --frames 1 -o new", "mesh --check scan/depth.txt/x.obj"}) {
-    const Outcome outcome = RunShell("timeout 20 '" CURVEFUSION_PROGRAM "' " +
-                                     std::string(arguments) + " >output.txt 2>&1");
+    const Outcome outcome =
+        RunShell("timeout 20 \"$CURVEFUSION\" " + std::string(arguments) + " >output.txt 2>&1");
     EXPECT_EQ(outcome.exit_code, 3) << arguments << "\n" << outcome.output;
     EXPECT_THAT(outcome.output,
                 AnyOf(HasSubstr("is a pipe or a device, not a regular file"),
@@ -163,10 +162,10 @@ TEST_F(Resources, WhatMayNotBeReadIsBadInput) {
 TEST_F(Resources, NamesNeedNotBeUtf8) {
   ASSERT_EQ(SimulateCube(3).exit_code, 0);
   fs::rename(folder_ / "scan", folder_ / "sc\xff\xfe");
-  const Outcome outcome = RunShell("'" CURVEFUSION_PROGRAM
-                                   "' reconstruct sc* -o \"$(printf "
-                                   "'o\\377t')\"" +
-                                   std::string(kNothing) + " >output.txt 2>&1");
+  const Outcome outcome = RunShell(
+      "\"$CURVEFUSION\" reconstruct sc* -o \"$(printf "
+      "'o\\377t')\"" +
+      std::string(kNothing) + " >output.txt 2>&1");
   EXPECT_EQ(outcome.exit_code, 4) << outcome.output;
   const auto report = nlohmann::json::parse(Text("o\xfft/report.json"));
   EXPECT_EQ(report.at("sequence").at("folder"), "sc\uFFFD\uFFFD");
@@ -176,8 +175,8 @@ TEST_F(Resources, TooFewThreadsAreFive) {
   if (!HasOtherUser()) GTEST_SKIP() << "root has no limit of threads";
   ASSERT_EQ(SimulateCube(8).exit_code, 0);
   const Outcome outcome = RunShell(
-      "setpriv --reuid=65533 --clear-groups bash -c \"ulimit -u 1; exec '" CURVEFUSION_PROGRAM
-      "' check scan\" >output.txt 2>&1");
+      "setpriv --reuid=65533 --clear-groups bash -c \"ulimit -u 1; exec '$CURVEFUSION' "
+      "check scan\" >output.txt 2>&1");
   EXPECT_EQ(outcome.exit_code, 5) << outcome.output;
   EXPECT_THAT(outcome.output, HasSubstr("no more threads can be started"));
 }

@@ -10,6 +10,7 @@
 #include <set>
 #include <string>
 
+#include "tests/source_folder.h"
 #include "tests/temporary_path.h"
 
 namespace {
@@ -53,7 +54,7 @@ std::vector<std::string> IncludesAgainstTheArrows(const fs::path& root, const st
 
 TEST(IncludeArrows, EveryIncludeRunsDownwards) {
   for (const auto& [folder, allowed] : kMayInclude) {
-    for (const std::string& violation : IncludesAgainstTheArrows(CURVEFUSION_SOURCE_DIR, folder)) {
+    for (const std::string& violation : IncludesAgainstTheArrows(curvefusion::SourceFolder(), folder)) {
       ADD_FAILURE() << violation;
     }
   }
@@ -114,7 +115,7 @@ std::vector<RoomInclude> IncludesBetweenRooms(const fs::path& root, const std::s
 
 TEST(IncludeArrows, RoomsOfAFloorKnowOnlyThoseTheyMay) {
   for (const auto& [floor, rooms] : kRoomsMayInclude) {
-    const std::vector<RoomInclude> includes = IncludesBetweenRooms(CURVEFUSION_SOURCE_DIR, floor);
+    const std::vector<RoomInclude> includes = IncludesBetweenRooms(curvefusion::SourceFolder(), floor);
     EXPECT_GT(includes.size(), 5u) << floor;  // includes are read at all
     for (const RoomInclude& include : includes) {
       const auto room = rooms.find(include.from);
