@@ -149,10 +149,6 @@ std::vector<Ablation> OfRidges() {
 // What colour images tell of finished curves.
 std::vector<Ablation> OfColours() {
   return {
-      {"missed wires",
-       {"wire_completion.enabled=false"},
-       "Depth loses thin wires along the line of sight that colour images show.",
-       {"wire_completion"}},
       {"colour adjustment",
        {"colour_adjustment.enabled=false"},
        "Colour images show curves and poses to a tenth of a pixel.",

@@ -26,7 +26,6 @@ BestOptions DefaultBestOptions() {
   options.registration.max_points = 700;
   options.registration.max_iterations = 12;
   options.axis_depth = 0.8;
-  options.completion.enabled = true;
   options.resolved_spacing = 0.014;
   options.colour_adjustment.enabled = true;
   return options;
@@ -70,8 +69,6 @@ void VisitOptions(BestOptions& options, OptionVisitor& visitor) {
   VisitOptions(options.ridge, visitor);
   visitor.BeginSection("radius");
   VisitOptions(options.radius, visitor);
-  visitor.BeginSection("wire_completion");
-  VisitOptions(options.completion, visitor);
   visitor.BeginSection("colour_adjustment");
   VisitOptions(options.colour_adjustment, visitor);
   visitor.BeginSection("colour_start");

@@ -7,7 +7,6 @@
 #include "fusion/segmentation/segmentation.h"
 #include "fusion/silhouettes/silhouette_topology.h"
 #include "fusion/silhouettes/view_evidence.h"
-#include "fusion/silhouettes/wire_completion.h"
 #include "fusion/strips/radius.h"
 #include "fusion/volume/tsdf_volume.h"
 #include "graph/contraction/ridge_skeleton.h"
@@ -34,7 +33,6 @@ struct BestOptions {
   double resolved_spacing = 0;
   RidgeOptions ridge;
   RadiusOptions radius;
-  WireCompletionOptions completion;
   ColourAdjustmentOptions colour_adjustment;
   ColourStartOptions colour_start;
   SilhouetteOptions silhouettes;

@@ -67,7 +67,6 @@ std::vector<PlannedStage> BestStages(const Amounts& a) {
           {"radius", radius},
           {"evidence", evidence},
           {"radius", 0},
-          {"wire completion", 0.05 * a.length},
           {"colour adjustment", a.adjusted * (0.03 * a.size + 0.006 * a.seen)},
           {"strips", 0.042 * a.size * a.adjusted},
           {"silhouettes", 0.003 * a.size * a.adjusted * a.length},

@@ -90,9 +90,7 @@ void CorrectBySilhouettes(const ColourAdjustment& adjusted, const StripViews& st
   TidyRidgeSkeleton(result.skeleton, options.ridge);
   result.funnel.curves.looked_past += changes.removed;
   reporter.log.Count(stage, "removed, m", changes.removed);
-  reporter.log.Count(stage, "rungs", changes.rungs);
   reporter.log.Count(stage, "continued", changes.continued);
-  reporter.log.Count(stage, "forks", changes.forks);
   reporter.log.Count(stage, "bridges", changes.bridges);
   reporter.log.Count(stage, "joins", changes.joins);
   reporter.log.Count(stage, "weak wires", weak_wires);
@@ -121,18 +119,6 @@ double AddWiresFromColour(StripViews& views, const RidgeOptions& options,
   result.trust.wire_length += added;
   reporter.observer.OnGraph("with_colour", result.skeleton);
   return added;
-}
-
-// Deviation: wires that depth has missed and colour images show.
-void AddMissedWires(const WireCompletionOptions& options, const StageReporter& reporter,
-                    Reconstruction& result) {
-  if (!options.enabled || result.skeleton.empty()) return;
-  const StageLog::Timer timer = reporter.Begin("wire completion");
-  CompletedWires completed = CompleteWires(result.skeleton, result.sequence, options);
-  result.skeleton = std::move(completed.skeleton);
-  reporter.log.Count("wire completion", "added", completed.added);
-  reporter.log.Count("wire completion", "rejected", completed.rejected);
-  reporter.observer.OnGraph("completed", result.skeleton);
 }
 
 // Deviation: rows of close wires have no strips to be adjusted to; what the images look past
@@ -218,7 +204,6 @@ void RefineByColour(const Sequence& given, const SegmentationModel& model,
   measure_radii();
   // Nothing is to be added to what is hardly a wire.
   keep_proven("evidence_before_colour", kHardlyAWire);
-  AddMissedWires(options.completion, reporter, result);
   std::optional<ColourAdjustment> adjusted = AdjustCurvesAndPoses(
       given, depth, PoseErrors::kDrift, options.colour_adjustment, reporter, result);
   if (UsesColourStart(options, adjusted, result)) {

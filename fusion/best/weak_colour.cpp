@@ -13,7 +13,6 @@ void SwitchOffColour(BestOptions& options) {
   options.segmentation.max_row_spacing = 0;
   options.segmentation.ghosts.verified_share = 0;
   options.segmentation.ghosts.verified_outline = 0;
-  options.completion.enabled = false;
   options.colour_adjustment.enabled = false;
   options.silhouettes.max_frames = 0;
 }

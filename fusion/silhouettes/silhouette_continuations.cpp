@@ -4,7 +4,6 @@
 #include <utility>
 #include <vector>
 
-#include "fusion/silhouettes/silhouette_rungs.h"
 #include "graph/branch_continuations.h"
 
 namespace curvefusion {
@@ -12,10 +11,15 @@ namespace curvefusion {
 namespace {
 
 constexpr int kMaxRounds = 8;
-constexpr double kStep = 0.002;       // metres
-constexpr double kMinLength = 0.012;  // metres; shorter ways lie beside curves
-constexpr double kEndReach = 0.008;   // metres; so near to its ends a way lies beside others
-constexpr double kClearance = 0.004;  // metres
+constexpr double kStep = 0.002;         // metres
+constexpr double kMinLength = 0.012;    // metres; shorter ways lie beside curves
+constexpr double kEndReach = 0.008;     // metres; so near to its ends a way lies beside others
+constexpr double kClearance = 0.004;    // metres
+constexpr double kBeside = 0.008;       // metres; clear of the way itself
+constexpr double kTargetReach = 0.005;  // metres; wires at its ends are next to it there
+constexpr double kSheetStep = 0.001;    // metres
+constexpr double kMinCovered = 0.8;     // of the way
+constexpr double kMinAcross = 0.5;      // of a unit vector
 
 // The least share of the images that show a place of a curve as wire.
 double LeastShare(const WireSilhouettes& silhouettes, const Polyline& curve) {
@@ -31,6 +35,26 @@ bool RunsBeside(const Polyline& curve, const Polyline& other) {
     if (Project(other, curve[i]).distance < kClearance) return true;
   }
   return false;
+}
+
+// Whether images show wire on both sides of a curve along most of it, in a direction across: the
+// curve lies in a sheet of wires that no image looks through, which shows any curve as wire.
+bool IsInSheet(const WireSilhouettes& silhouettes, double min_share, const Polyline& curve,
+               const Vec3& across) {
+  const Vec3 along = (curve.back() - curve.front()).normalized();
+  const Vec3 aside = across - across.dot(along) * along;
+  if (aside.norm() < kMinAcross) return false;
+  const Vec3 beside = kBeside * aside.normalized();
+  int looked = 0, covered = 0;
+  for (const Vec3& p : Resample(curve, kSheetStep)) {
+    const bool is_inside =
+        (p - curve.front()).norm() >= kTargetReach && (p - curve.back()).norm() >= kTargetReach;
+    if (!is_inside) continue;
+    ++looked;
+    covered +=
+        silhouettes.Share(p + beside) >= min_share && silhouettes.Share(p - beside) >= min_share;
+  }
+  return looked > 0 && covered >= kMinCovered * looked;
 }
 
 // Whether a way ends inside an edge, where it may cross a sheet of wires seen along their plane.

@@ -4,10 +4,8 @@
 #include <vector>
 
 #include "fusion/curve_graph/refuted_parts.h"
-#include "fusion/silhouettes/narrow_forks.h"
 #include "fusion/silhouettes/silhouette_continuations.h"
 #include "fusion/silhouettes/silhouette_pruning.h"
-#include "fusion/silhouettes/silhouette_rungs.h"
 #include "graph/corners.h"
 #include "kernel/quantile.h"
 
@@ -57,10 +55,8 @@ SilhouetteChanges CorrectTopology(const WireSilhouettes& silhouettes, const Shar
   MoveJunctionsIntoWires(silhouettes, options.bridges.min_share, skeleton);
   RerouteCurves(silhouettes, options.bridges.min_share, skeleton);
   changes.removed = DropRefutedParts(strips, kMinStripShare, shown_by_depth, skeleton);
-  changes.rungs = DropRungsInSheets(silhouettes, options.bridges.min_share, skeleton);
   changes.continued = ContinueWires(silhouettes, options.bridges.min_share, skeleton);
   SplitAtCorners(skeleton, kCorner);
-  changes.forks = PartNarrowForks(silhouettes, skeleton);
   changes.bridges = BridgeOpenEnds(silhouettes, options.bridges, skeleton);
   changes.joins = JoinEndsToSides(silhouettes, options.bridges, skeleton);
   return changes;

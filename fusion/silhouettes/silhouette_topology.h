@@ -20,9 +20,7 @@ void VisitOptions(SilhouetteOptions& options, OptionVisitor& visitor);
 /// What has been changed.
 struct SilhouetteChanges {
   double removed = 0;  ///< metres of curve
-  int rungs = 0;       ///< removed between wires that no image looks through
   int continued = 0;   ///< pieces of wire between others, straight ahead of an end
-  int forks = 0;       ///< parted into the two wires that meet there
   int bridges = 0;     ///< between ends
   int joins = 0;       ///< of an end to the side of a curve
 };
