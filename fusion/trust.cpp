@@ -105,4 +105,14 @@ std::vector<std::string> Doubts(const Trust& trust) {
   return doubts;
 }
 
+std::string PlacesWarning(const Trust& trust) {
+  if (!trust.is_judged() || trust.adjusted) return {};
+  return fmt::format(
+      "the colour images could not confirm where the curves lie (a strip was seen along {:.0f} % "
+      "of "
+      "them): places are as exact as depth and camera poses, some millimetres. Poses were "
+      "corrected by {:.0f} mm; where that is more than a few, take better ones, or try --track",
+      100 * trust.colour_share, 1000 * trust.pose_shift);
+}
+
 }  // namespace curvefusion

@@ -35,4 +35,8 @@ Trust MeasureTrust(const Sequence& given, const Reconstruction& result);
 /// where there is no result.
 std::vector<std::string> Doubts(const Trust& trust);
 
+/// What to know about where curves lie that could not be adjusted to colours; empty where they
+/// were, or where there is no result. For results whose colour images were to be used.
+std::string PlacesWarning(const Trust& trust);
+
 }  // namespace curvefusion

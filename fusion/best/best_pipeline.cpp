@@ -287,6 +287,8 @@ Reconstruction ReconstructThinParts(const TsdfVolume& volume, const Sequence& se
   RefineByColour(sequence, model, options, reporter, result);
   result.funnel.curves.curves = result.skeleton.TotalLength();
   result.trust = MeasureTrust(sequence, result);
+  const std::string places = PlacesWarning(result.trust);
+  if (options.colour_adjustment.enabled && !places.empty()) result.warnings.push_back(places);
   result.stages = reporter.log.stages();
   return result;
 }

@@ -72,5 +72,15 @@ TEST(Trust, IsDoubtedWhereMuchIsHardlyAWire) {
   EXPECT_TRUE(Doubts(Trust()).empty());  // no result: nothing to doubt
 }
 
+TEST(Trust, WarnsOfPlacesThatColourCouldNotConfirm) {
+  TwoEdges two;
+  Trust trust = two.Measure();
+  trust.pose_shift = 0.016;
+  EXPECT_NE(PlacesWarning(trust).find("by 16 mm"), std::string::npos);
+  trust.adjusted = true;
+  EXPECT_EQ(PlacesWarning(trust), "");
+  EXPECT_EQ(PlacesWarning(Trust()), "");  // no result
+}
+
 }  // namespace
 }  // namespace curvefusion

@@ -54,7 +54,8 @@ std::vector<std::string> IncludesAgainstTheArrows(const fs::path& root, const st
 
 TEST(IncludeArrows, EveryIncludeRunsDownwards) {
   for (const auto& [folder, allowed] : kMayInclude) {
-    for (const std::string& violation : IncludesAgainstTheArrows(curvefusion::SourceFolder(), folder)) {
+    for (const std::string& violation :
+         IncludesAgainstTheArrows(curvefusion::SourceFolder(), folder)) {
       ADD_FAILURE() << violation;
     }
   }
@@ -115,7 +116,8 @@ std::vector<RoomInclude> IncludesBetweenRooms(const fs::path& root, const std::s
 
 TEST(IncludeArrows, RoomsOfAFloorKnowOnlyThoseTheyMay) {
   for (const auto& [floor, rooms] : kRoomsMayInclude) {
-    const std::vector<RoomInclude> includes = IncludesBetweenRooms(curvefusion::SourceFolder(), floor);
+    const std::vector<RoomInclude> includes =
+        IncludesBetweenRooms(curvefusion::SourceFolder(), floor);
     EXPECT_GT(includes.size(), 5u) << floor;  // includes are read at all
     for (const RoomInclude& include : includes) {
       const auto room = rooms.find(include.from);
