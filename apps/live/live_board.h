@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "fusion/live/live_reconstruction.h"
 #include "kernel/camera.h"
 #include "kernel/geometry.h"
 
@@ -34,10 +35,10 @@ struct LiveState {
   double seconds = 0;  ///< since the first frame
   int arrived = 0;     ///< frames
   int used = 0;
-  int dropped = 0;          ///< as there was no time for them
-  int lost = 0;             ///< that the tracker could not place
-  double frame_rate = 0;    ///< used frames a second, of the last seconds
-  double processor_ms = 0;  ///< processor time a used frame, all threads
+  int dropped = 0;        ///< as there was no time for them
+  int lost = 0;           ///< that the tracker could not place
+  double frame_rate = 0;  ///< frames a second that were kept, of the last seconds
+  LiveCost cost;
   size_t volume_bytes = 0;  ///< of the model of large surfaces
   SnapshotFigures snapshot;
   std::optional<RigidTransform> T_world_camera;  ///< of the last used frame

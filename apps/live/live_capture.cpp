@@ -1,14 +1,15 @@
 #include "apps/live/live_capture.h"
 
+#include <algorithm>
 #include <chrono>
-#include <ctime>
 #include <deque>
+#include <future>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <thread>
 #include <utility>
 
-#include "apps/live/latest_worker.h"
+#include "apps/live/frame_queue.h"
 #include "apps/live/live_json.h"
 #include "apps/live/live_poses.h"
 #include "fusion/live/live_reconstruction.h"
@@ -21,44 +22,34 @@ namespace curvefusion {
 
 namespace {
 
-// Seconds that a frame may wait. Chosen: with the time of a bundle and its snapshot, what is shown
-// is to be no more than 1.5 s old.
-constexpr double kMostWaiting = 1;
+// Derived: so many frames come while a bundle of 30 is worked on, where that takes no longer than
+// its frames.
+constexpr size_t kMostWaiting = 30;
 constexpr double kRateWindow = 2;  // seconds over which the frame rate is counted
-constexpr std::chrono::milliseconds kNap(4);
+constexpr std::chrono::milliseconds kStep(4);
 
-double ProcessorSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
-
-// What a snapshot is made from.
-struct SnapshotJob {
-  LiveEvidence evidence;
-  Sequence sample;
-  double last_arrival = 0;  // of its frames
-};
-
+// This thread takes frames as they come; another works on them, one after the other.
 class Capture {
  public:
   Capture(LiveSource& source, const LiveCapture& setup, LiveBoard& board)
-      : source_(source),
-        setup_(setup),
-        board_(board),
-        snapshots_([this](SnapshotJob job) { ShowSnapshot(job); }) {}
+      : source_(source), setup_(setup), board_(board) {}
+
+  // Where the capture fails, the frames that wait are left out.
+  ~Capture() {
+    queue_.Close();
+    while (queue_.Pop()) {
+    }
+  }
 
   CaptureEnd Run() {
     CaptureEnd end;
-    while (!(end.by_user = setup_.wants_end()) && !IsDone()) {
-      ThrowIfCancelled();
+    while (!(end.by_user = setup_.wants_end()) && !HasEnded()) {
       if (!cameras_) FindCameras();
       if (cameras_) TakeArrived(end);
-      if (waiting_.empty()) {
-        std::this_thread::sleep_for(kNap);
-      } else {
-        TakeNext();
-      }
-      ShowProgress();
+      Step();
     }
-    snapshots_.Wait();
-    ShowProgress();
+    queue_.Close();
+    while (work_.valid()) Step();
     return end;
   }
 
@@ -67,77 +58,85 @@ class Capture {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   }
 
-  bool IsDone() { return cameras_ && waiting_.empty() && source_.HasEnded(Now()); }
+  bool HasEnded() { return cameras_ && source_.HasEnded(Now()); }
 
   void FindCameras() {
     cameras_ = source_.Cameras();
     if (!cameras_) return;
-    live_.emplace(*cameras_, setup_.options);
-    poses_.emplace(*cameras_);
     board_.Update([&](LiveState& state) { state.camera = cameras_->depth_camera; });
+    work_ = std::async(std::launch::async, [this] { Work(); });
   }
 
   void TakeArrived(CaptureEnd& end) {
     for (ArrivedFrame& frame : source_.Arrived(Now())) {
-      if (!first_arrival_) {
-        first_arrival_ = frame.arrival;
-        processor_start_ = ProcessorSeconds();
-      }
+      if (!first_arrival_) first_arrival_ = frame.arrival;
       end.last_arrived = frame.frame.name;
-      waiting_.push_back(std::move(frame));
-      board_.Update([](LiveState& state) {
+      const RigidTransform T_world_camera = frame.frame.T_world_camera;
+      const bool dropped = queue_.Push(std::move(frame));
+      if (!dropped) kept_at_.push_back(Now());
+      board_.Update([&](LiveState& state) {
         state.phase = LivePhase::kScanning;
         ++state.arrived;
+        state.dropped += dropped ? 1 : 0;
+        if (cameras_->has_poses) state.T_world_camera = T_world_camera;
       });
     }
   }
 
-  void TakeNext() {
-    ArrivedFrame next = std::move(waiting_.front());
-    waiting_.pop_front();
-    if (Now() - next.arrival > kMostWaiting) {
-      board_.Update([](LiveState& state) { ++state.dropped; });
-      return;
+  // Waits for a moment. Throws what the work has thrown.
+  void Step() {
+    ThrowIfCancelled();
+    if (!work_.valid()) {
+      std::this_thread::sleep_for(kStep);
+    } else if (work_.wait_for(kStep) == std::future_status::ready) {
+      work_.get();
     }
-    if (!poses_->Place(next.frame)) {
-      board_.Update([](LiveState& state) { ++state.lost; });
-      return;
-    }
-    if (live_->AddFrame(next.frame)) {
-      snapshots_.Offer({live_->evidence(), live_->sample(), next.arrival});
-    }
-    used_at_.push_back(Now());
-    board_.Update([&](LiveState& state) {
-      ++state.used;
-      state.T_world_camera = next.frame.T_world_camera;
-      state.volume_bytes = live_->volume_bytes();
-    });
+    ShowProgress();
   }
 
   void ShowProgress() {
     const double now = Now();
-    while (!used_at_.empty() && used_at_.front() < now - kRateWindow) used_at_.pop_front();
+    while (!kept_at_.empty() && kept_at_.front() < now - kRateWindow) kept_at_.pop_front();
     board_.Update([&](LiveState& state) {
       if (!first_arrival_) return;
       state.seconds = now - *first_arrival_;
       const double window = std::min(kRateWindow, std::max(state.seconds, 0.1));
-      state.frame_rate = static_cast<double>(used_at_.size()) / window;
-      state.processor_ms = 1000 * (ProcessorSeconds() - processor_start_) / std::max(1, state.used);
+      state.frame_rate = static_cast<double>(kept_at_.size()) / window;
     });
     setup_.on_step(now);
   }
 
-  // On the thread of the snapshots.
-  void ShowSnapshot(const SnapshotJob& job) {
-    const LiveSnapshot snapshot = MakeSnapshot(job.evidence, setup_.options);
+  // On the thread that works, as what follows.
+  void Work() {
+    LivePoses poses(*cameras_);
+    LiveReconstruction live(*cameras_, setup_.options);
+    while (std::optional<ArrivedFrame> next = queue_.Pop()) {
+      SequenceFrame& frame = next->frame;
+      if (!poses.Place(frame)) {
+        board_.Update([](LiveState& state) { ++state.lost; });
+        continue;
+      }
+      const bool bundle_ended = live.AddFrame(frame);
+      board_.Update([&](LiveState& state) {
+        ++state.used;
+        state.volume_bytes = live.volume_bytes();
+        state.cost = live.cost();
+        if (!cameras_->has_poses) state.T_world_camera = frame.T_world_camera;
+      });
+      if (bundle_ended) ShowSnapshot(live, next->arrival);
+    }
+  }
+
+  void ShowSnapshot(LiveReconstruction& live, double last_arrival) {
+    const LiveSnapshot snapshot = live.Snapshot();
     const GraphFigures figures = MeasureGraph(snapshot.graph);
     const int number = board_.state().snapshot.number + 1;
-    board_.SetCurves(CurvesJson(snapshot, number, job.sample).dump());
+    board_.SetCurves(CurvesJson(snapshot, number, live.sample()).dump());
     WriteSkeleton(setup_.folder / kSnapshotFile, snapshot.graph);
     board_.Update([&](LiveState& state) {
       SnapshotFigures& shown = state.snapshot;
       shown.number = number;
-      shown.seconds_behind = Now() - job.last_arrival;
+      shown.seconds_behind = Now() - last_arrival;
       shown.most_behind = std::max(shown.most_behind, shown.seconds_behind);
       shown.curves = figures.edges;
       shown.free_ends = figures.free_ends;
@@ -152,13 +151,10 @@ class Capture {
   LiveBoard& board_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::optional<Sequence> cameras_;
-  std::optional<LiveReconstruction> live_;
-  std::optional<LivePoses> poses_;
-  std::deque<ArrivedFrame> waiting_;
-  std::deque<double> used_at_;
   std::optional<double> first_arrival_;
-  double processor_start_ = 0;
-  LatestWorker<SnapshotJob> snapshots_;  // last: its thread uses the rest
+  std::deque<double> kept_at_;  // frames that cost no other one, within the window of the rate
+  FrameQueue queue_{kMostWaiting};
+  std::future<void> work_;  // last: waits for its thread, which uses the rest
 };
 
 }  // namespace

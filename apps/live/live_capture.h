@@ -28,9 +28,9 @@ struct CaptureEnd {
   std::string last_arrived;  ///< name of the last frame that came; empty where none did
 };
 
-/// Takes the frames of a source as they come and reconstructs them live; after each bundle a
-/// snapshot is contracted on a thread of its own, written, and put on the board. A frame that has
-/// waited too long is dropped. Throws what LiveReconstruction and the source throw.
+/// Takes the frames of a source as they come; a thread of its own reconstructs them live and, after
+/// each bundle, writes a snapshot and puts it on the board. Where it falls behind, frames are
+/// dropped evenly (FrameQueue). Throws what LiveReconstruction and the source throw.
 CaptureEnd CaptureLive(LiveSource& source, const LiveCapture& capture, LiveBoard& board);
 
 /// Replaces the state file in the folder by what the board shows. Not while CaptureLive runs, which

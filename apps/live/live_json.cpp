@@ -99,6 +99,19 @@ Json FiguresJson(const LiveSnapshot& snapshot) {
   return figures;
 }
 
+// Milliseconds of all threads a used frame.
+Json CostJson(const LiveState& state) {
+  const auto per_frame = [&](double seconds) {
+    return Rounded(1000 * seconds / std::max(1, state.used), 10);
+  };
+  const LiveCost& cost = state.cost;
+  return {{"volume", per_frame(cost.volume)},
+          {"learning", per_frame(cost.learning)},
+          {"segmentation", per_frame(cost.segmentation)},
+          {"registration", per_frame(cost.registration)},
+          {"snapshots", per_frame(cost.snapshots)}};
+}
+
 }  // namespace
 
 Json StateJson(const LiveState& state) {
@@ -113,7 +126,7 @@ Json StateJson(const LiveState& state) {
             {"dropped", state.dropped},
             {"lost", state.lost}}},
           {"frame_rate", Rounded(state.frame_rate, 10)},
-          {"processor_ms_per_frame", Rounded(state.processor_ms, 10)},
+          {"processor_ms_per_frame", CostJson(state)},
           {"volume_bytes", state.volume_bytes},
           {"snapshot",
            {{"number", snapshot.number},

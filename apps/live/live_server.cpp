@@ -28,10 +28,9 @@ double Now() {
 
 // Otherwise the page of any site could read here by giving its own name this address (DNS
 // rebinding).
-bool AsksForThisMachine(const httplib::Request& request) {
+bool AsksForThisServer(const httplib::Request& request, int port) {
   const std::string host = request.get_header_value("Host");
-  const std::string name = host.substr(0, host.rfind(':'));
-  return name == kLoopback || name == "localhost";
+  return host == fmt::format("{}:{}", kLoopback, port) || host == fmt::format("localhost:{}", port);
 }
 
 }  // namespace
@@ -51,11 +50,12 @@ struct LiveServer::Impl {
 void LiveServer::Impl::Answer(const LiveBoard& board) {
   server.set_default_headers(
       {{"Cache-Control", "no-store"}, {"X-Content-Type-Options", "nosniff"}});
-  server.set_pre_routing_handler([](const httplib::Request& request, httplib::Response& response) {
-    if (AsksForThisMachine(request)) return httplib::Server::HandlerResponse::Unhandled;
-    response.status = 403;
-    return httplib::Server::HandlerResponse::Handled;
-  });
+  server.set_pre_routing_handler(
+      [this](const httplib::Request& request, httplib::Response& response) {
+        if (AsksForThisServer(request, port)) return httplib::Server::HandlerResponse::Unhandled;
+        response.status = 403;
+        return httplib::Server::HandlerResponse::Handled;
+      });
   server.Get("/", [](const httplib::Request&, httplib::Response& response) {
     response.set_content(AssemblePage("live.html", ""), "text/html; charset=utf-8");
   });

@@ -109,7 +109,7 @@ const LivePage = (() => {
           page.turned = true;
           if (page.viewer) page.viewer.follow(hint);
         },
-      }, `curve ${hint.curve + 1}: ${grouped(figures.length_mm)} mm seen from ${figures.spread_degrees} degrees`));
+      }, `Curve ${hint.curve + 1}, ${grouped(figures.length_mm)} mm: sides ${figures.spread_degrees}° apart`));
     }));
   }
 
@@ -194,6 +194,13 @@ const LivePage = (() => {
       page.fitted = 0;
       if (page.curves) showView();
     });
+    const turnTo = (button, view) => byId(button).addEventListener("click", () => {
+      if (!page.viewer || !page.curves || !page.state.camera) return;
+      page.turned = true;
+      view();
+    });
+    turnTo("fit-cameras", () => page.viewer.fitCameraPath());
+    turnTo("from-camera", () => page.viewer.lookFrom(page.state.camera));
     for (const touch of ["pointerdown", "wheel", "keydown"]) {
       byId("canvas").addEventListener(touch, () => { page.turned = true; });
     }

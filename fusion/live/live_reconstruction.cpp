@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "fusion/live/processor_timer.h"
 #include "fusion/registration/bundle_ridges.h"
 #include "fusion/registration/ray_noise.h"
 
@@ -33,23 +34,29 @@ LiveReconstruction::LiveReconstruction(const Sequence& cameras, const BestOption
       volume_(options.volume),
       bundle_(WithoutFrames(cameras)),
       sample_(WithoutFrames(cameras)),
-      carried_(options.carried) {}
+      evidence_{CarriedPoints(options.carried), {}} {}
 
 bool LiveReconstruction::AddFrame(const SequenceFrame& frame) {
-  Integrate(frame);
-  AddToSample(frame);
   bundle_.frames.push_back(frame);
+  IntegrateLatest();
+  AddToSample(frame);
   ++frame_count_;
   if (bundle_.frame_count() < options_.segmentation.bundle.frames) return false;
-  EndBundle();
+  LearnIfDue();
+  Register(SegmentFrames());
   return true;
 }
 
-void LiveReconstruction::Integrate(const SequenceFrame& frame) {
+LiveSnapshot LiveReconstruction::Snapshot() {
+  const ProcessorTimer timer(cost_.snapshots);
+  return MakeSnapshot(evidence_, options_);
+}
+
+void LiveReconstruction::IntegrateLatest() {
   if (frame_count_ % options_.volume_stride != 0) return;
-  Sequence single = WithoutFrames(bundle_);
-  single.frames = {frame};
-  volume_.Integrate(LoadDepth(single, 0), single.depth_camera, frame.T_world_camera);
+  const ProcessorTimer timer(cost_.volume);
+  volume_.Integrate(LoadDepth(bundle_, bundle_.frame_count() - 1), bundle_.depth_camera,
+                    bundle_.frames.back().T_world_camera);
 }
 
 // Once there are too many, every second one is forgotten.
@@ -67,31 +74,36 @@ void LiveReconstruction::AddToSample(const SequenceFrame& frame) {
 // Each time the frames have doubled: the work of one frame stays the same on average.
 void LiveReconstruction::LearnIfDue() {
   if (frame_count_ < learn_at_) return;
+  const ProcessorTimer timer(cost_.learning);
   model_ = LearnSegmentation(sample_, volume_, options_.segmentation);
   model_.frame_stride = kFrameStride;
   learn_at_ = 2 * frame_count_;
 }
 
-void LiveReconstruction::EndBundle() {
-  LearnIfDue();
-  const SegmentedBundle segmented = SegmentBundle(bundle_, 0, bundle_.frame_count(), volume_,
-                                                  model_, options_.segmentation, [] {});
+SegmentedBundle LiveReconstruction::SegmentFrames() {
+  const ProcessorTimer timer(cost_.segmentation);
+  SegmentedBundle segmented = SegmentBundle(bundle_, 0, bundle_.frame_count(), volume_, model_,
+                                            options_.segmentation, [] {});
   bundle_.frames.clear();
-  const ObservedPoints points = Transformed(segmented.points, segmented.T_world_bundle);
+  return segmented;
+}
+
+void LiveReconstruction::Register(const SegmentedBundle& bundle) {
+  const ProcessorTimer timer(cost_.registration);
+  const ObservedPoints points = Transformed(bundle.points, bundle.T_world_bundle);
   const RidgeProjectionOptions& ridges = options_.ridge.projection;
   const RidgePoints found = ProjectToRidges(points, ForBundles(ridges));
   const RigidTransform T_registered_world =
-      carried_.AddBundle(points, found, ridges.spacing, options_.registration).T_target_source;
-  for (const ObservedPoints& frame : segmented.frames) {
+      evidence_.carried.AddBundle(points, found, ridges.spacing, options_.registration)
+          .T_target_source;
+  for (const ObservedPoints& frame : bundle.frames) {
     if (frame.empty()) continue;
-    evidence_.sightings.AddFrame(Transformed(frame, T_registered_world * segmented.T_world_bundle));
+    evidence_.sightings.AddFrame(Transformed(frame, T_registered_world * bundle.T_world_bundle));
   }
   if (points.size() > largest_bundle_) {
     largest_bundle_ = points.size();
     evidence_.ray_noise_ratio = RayNoiseRatio(points, options_.min_linearity);
   }
-  evidence_.points = carried_.points();
-  evidence_.ridges = carried_.ridges();
 }
 
 }  // namespace curvefusion

@@ -3,11 +3,19 @@
 #include "capture/sequence.h"
 #include "fusion/best/best_options.h"
 #include "fusion/live/live_snapshot.h"
-#include "fusion/registration/carried_points.h"
 #include "fusion/segmentation/segmentation.h"
 #include "fusion/volume/tsdf_volume.h"
 
 namespace curvefusion {
+
+/// Processor seconds so far, of all threads, by what took them.
+struct LiveCost {
+  double volume = 0;  ///< reading depth and integrating it
+  double learning = 0;
+  double segmentation = 0;
+  double registration = 0;  ///< of bundles, with their ridges and sightings
+  double snapshots = 0;
+};
 
 /// The curves of a scan while it is being made: the best profile up to its first contraction, frame
 /// by frame. Memory and work of a frame depend on what was scanned, not on for how long. Against
@@ -30,16 +38,17 @@ class LiveReconstruction {
   /// Some of all frames, evenly spread: at most 64.
   const Sequence& sample() const { return sample_; }
 
-  LiveSnapshot Snapshot() const { return MakeSnapshot(evidence_, options_); }
+  LiveSnapshot Snapshot();
 
-  int frame_count() const { return frame_count_; }
   size_t volume_bytes() const { return volume_.memory_bytes(); }
+  const LiveCost& cost() const { return cost_; }
 
  private:
-  void Integrate(const SequenceFrame& frame);
+  void IntegrateLatest();
   void AddToSample(const SequenceFrame& frame);
   void LearnIfDue();
-  void EndBundle();
+  SegmentedBundle SegmentFrames();
+  void Register(const SegmentedBundle& bundle);
 
   BestOptions options_;
   TsdfVolume volume_;
@@ -48,10 +57,10 @@ class LiveReconstruction {
   Sequence sample_;        ///< what colours and grilles are learned from
   int sample_stride_ = 1;  ///< every so many-th frame is one of it
   SegmentationModel model_;
-  int learn_at_ = 0;  ///< frames: the model is learned again once there are so many
-  CarriedPoints carried_;
+  int learn_at_ = 0;           ///< frames: the model is learned again once there are so many
   size_t largest_bundle_ = 0;  ///< points
   LiveEvidence evidence_;
+  LiveCost cost_;
 };
 
 }  // namespace curvefusion

@@ -60,13 +60,14 @@ double EvidenceOf(int frames, double spread) {
 }
 
 LiveSnapshot MakeSnapshot(const LiveEvidence& evidence, const BestOptions& options) {
+  const ObservedPoints& points = evidence.carried.points();
   const ContractionSpace space = {1, evidence.ray_noise_ratio};
   std::optional<RidgePoints> ridge;
   if (space.IsWorld()) {
-    ridge = FollowRidges(evidence.points, evidence.ridges, options.ridge.projection);
+    ridge = FollowRidges(points, evidence.carried.ridges(), options.ridge.projection);
   }
   LiveSnapshot snapshot;
-  snapshot.graph = ContractIn(space, evidence.points, ridge, options.ridge);
+  snapshot.graph = ContractIn(space, points, ridge, options.ridge);
   const SkeletonGraph& graph = snapshot.graph;
   for (const EdgeId id : graph.Edges()) {
     const SkeletonEdge& edge = graph.edge(id);

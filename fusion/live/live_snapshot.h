@@ -5,18 +5,16 @@
 
 #include "fusion/best/best_options.h"
 #include "fusion/live/sighting_grid.h"
-#include "graph/contraction/ridge_points.h"
+#include "fusion/registration/carried_points.h"
 #include "graph/skeleton_graph.h"
 #include "kernel/geometry.h"
-#include "kernel/observed_points.h"
 
 namespace curvefusion {
 
 /// What a scan has shown so far, world frame: all that a snapshot is made from.
 struct LiveEvidence {
-  ObservedPoints points;       ///< of all bundles
-  RidgePoints ridges;          ///< of single bundles
-  SightingGrid sightings;      ///< of single frames
+  CarriedPoints carried{CarriedPointsOptions()};  ///< of all bundles
+  SightingGrid sightings;                         ///< of single frames
   double ray_noise_ratio = 1;  ///< of noise along the viewing rays to that across them
 };
 

@@ -8,7 +8,7 @@ const [chromium, address, seconds, png] = process.argv.slice(2);
 const kPatience = 300000; // ms
 
 const browser = await openBrowser(chromium);
-const page = await browser.openPage(address, { width: 1280, height: png ? 900 : 1000, offline: false });
+const page = await browser.openPage(address, { width: 1280, height: 1000, offline: false });
 const text = (selector) => page.evaluate(`document.querySelector(${JSON.stringify(selector)}).innerText`);
 const state = () => page.evaluate("LivePage.page.state");
 
@@ -70,6 +70,11 @@ async function look() {
   await page.evaluate(`document.querySelector("#hints button").click()`);
   assert.match(await text("#selection"), /Evidence\s+\d+ %/);
   assert.ok((await ink()) > 500, "looking from a hint shows nothing");
+
+  for (const button of ["#fit-cameras", "#from-camera"]) {
+    await page.evaluate(`document.querySelector("${button}").click()`);
+    assert.ok((await ink()) > 200, `${button} shows nothing`);
+  }
 
   await until("another snapshot", `LivePage.page.state.snapshot.number > ${first.snapshot.number} &&
                                    LivePage.page.curves.number === LivePage.page.state.snapshot.number`);

@@ -5,6 +5,7 @@
 #include <httplib.h>
 
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "kernel/error.h"
 
@@ -66,12 +67,16 @@ TEST(LiveServer, OtherNamesOfThisMachineAreRefused) {
   LiveBoard board;
   const LiveServer server(0, board);
   httplib::Client client("127.0.0.1", server.port());
-  const auto with_host = [&](const char* host) {
+  const auto with_host = [&](const std::string& host) {
     return client.Get("/state.json", httplib::Headers{{"Host", host}})->status;
   };
-  EXPECT_EQ(with_host("elsewhere.example:8700"), 403);
-  EXPECT_EQ(with_host("localhost:8700"), 200);
-  EXPECT_EQ(with_host("127.0.0.1"), 200);
+  const std::string port = ":" + std::to_string(server.port());
+  for (const char* name : {"localhost", "127.0.0.1"}) EXPECT_EQ(with_host(name + port), 200);
+  for (const char* name : {"elsewhere.example", "localhost.elsewhere.example", ""}) {
+    EXPECT_EQ(with_host(name + port), 403) << name;
+  }
+  EXPECT_EQ(with_host("localhost:1"), 403);
+  EXPECT_EQ(with_host("localhost"), 403);
 }
 
 TEST(LiveServer, APortThatIsTakenIsRefused) {

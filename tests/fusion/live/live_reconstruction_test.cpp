@@ -72,12 +72,12 @@ TEST_F(LiveCube, SnapshotsGrowAndTellWhatTheyRestOn) {
 TEST_F(LiveCube, MemoryDoesNotGrowWithTheFrames) {
   LiveReconstruction live = Start();
   Add(0, 30, live);
-  const size_t points = live.evidence().points.size();
+  const size_t points = live.evidence().carried.points().size();
   const int cells = live.evidence().sightings.cell_count();
   const size_t volume = live.volume_bytes();
   for (int time = 0; time < 3; ++time) Add(0, 30, live);
   // Registration moves some points into cells beside theirs.
-  EXPECT_LT(live.evidence().points.size(), 1.5 * points);
+  EXPECT_LT(live.evidence().carried.points().size(), 1.5 * points);
   EXPECT_LT(live.evidence().sightings.cell_count(), 1.5 * cells);
   EXPECT_LT(live.volume_bytes(), 1.1 * volume);
   EXPECT_LE(live.sample().frame_count(), 64);
