@@ -7,6 +7,7 @@
 #include <string>
 
 #include "tests/apps/command_line_fixture.h"
+#include "tests/source_folder.h"
 
 namespace curvefusion {
 namespace {
@@ -47,9 +48,9 @@ TEST_F(LiveCommand, EndsWithTheBytesOfTheBatchAndTellsHowItWent) {
 TEST_F(LiveCommand, AFirstInterruptEndsTheCaptureAndStillReconstructs) {
   ASSERT_EQ(SimulateCube(70).exit_code, 0);
   // At 4 frames a second most of the scan is still to come.
-  const Outcome live = RunShell("'" CURVEFUSION_PROGRAM
-                                "' live scan -o out --rate 4 >output.txt 2>&1 & "
-                                "sleep 6; kill -INT $!; wait $!");
+  const Outcome live = RunShell(
+      "\"$CURVEFUSION\" live scan -o out --rate 4 >output.txt 2>&1 & "
+      "sleep 6; kill -INT $!; wait $!");
   ASSERT_EQ(live.exit_code, 0) << live.output;
   const int arrived = State()["frames"]["arrived"];
   EXPECT_GT(arrived, 10);
@@ -59,10 +60,9 @@ TEST_F(LiveCommand, AFirstInterruptEndsTheCaptureAndStillReconstructs) {
 
 TEST_F(LiveCommand, TwoInterruptsEndTheProgram) {
   ASSERT_EQ(SimulateCube(10).exit_code, 0);
-  const Outcome live =
-      RunShell("'" CURVEFUSION_PROGRAM
-               "' live scan -o out --rate 0.2 >output.txt 2>&1 & "
-               "sleep 2; kill -INT $!; kill -INT $!; sleep 0.05; kill -INT $!; wait $!");
+  const Outcome live = RunShell(
+      "\"$CURVEFUSION\" live scan -o out --rate 0.2 >output.txt 2>&1 & "
+      "sleep 2; kill -INT $!; kill -INT $!; sleep 0.05; kill -INT $!; wait $!");
   EXPECT_NE(live.exit_code, 0);
   EXPECT_FALSE(fs::exists(folder_ / "out/skeleton.json"));
 }
@@ -71,10 +71,10 @@ TEST_F(LiveCommand, FollowsAFolderThatGrows) {
   ASSERT_EQ(SimulateCube(40).exit_code, 0);
   const Outcome live = RunShell(
       "mkdir -p cam/color cam/depth cam/pose; "
-      "'" CURVEFUSION_PROGRAM
-      "' live cam -o out --follow --idle 60 --quiet >output.txt 2>&1 & "
-      "python3 '" CURVEFUSION_SOURCE_DIR
-      "/tests/apps/live/write_like_a_camera.py' scan cam 0.02; "
+      "\"$CURVEFUSION\" live cam -o out --follow --idle 60 --quiet >output.txt 2>&1 & "
+      "python3 '" +
+      (SourceFolder() / "tests/apps/live/write_like_a_camera.py").string() +
+      "' scan cam 0.02; "
       "wait $!");
   ASSERT_EQ(live.exit_code, 0) << live.output;
   EXPECT_EQ(State()["frames"]["arrived"], 40);
