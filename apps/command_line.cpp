@@ -18,6 +18,7 @@ void AddCommandLine(CLI::App& app, int& exit_code) {
       "interrupted.\n"
       "`curvefusion help COMMAND` tells more and gives examples.");
   AddReconstructCommand(app, exit_code);
+  AddLiveCommand(app, exit_code);
   AddTrackCommand(app, exit_code);
   AddCheckCommand(app, exit_code);
   AddContractCommand(app, exit_code);

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -57,16 +58,38 @@ void StartWatching() {
   }
 }
 
+// What a signal handler may call, too.
+void HandleOnce(int signal, void (*handler)(int)) {
+  struct sigaction action = {};
+  action.sa_handler = handler;
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  sigemptyset(&action.sa_mask);
+  sigaction(signal, &action, nullptr);
+}
+
+static_assert(std::atomic<bool>::is_always_lock_free);
+std::atomic<bool> capture_end_requested{false};
+
+void OnCaptureSignal(int signal) {
+  capture_end_requested = true;
+  HandleOnce(signal, OnSignal);
+}
+
 }  // namespace
 
 void CatchInterrupts() {
   StartWatching();
-  struct sigaction action = {};
-  action.sa_handler = OnSignal;
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
-  sigemptyset(&action.sa_mask);
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
+  HandleOnce(SIGINT, OnSignal);
+  HandleOnce(SIGTERM, OnSignal);
 }
+
+CaptureInterrupt::CaptureInterrupt() {
+  capture_end_requested = false;
+  HandleOnce(SIGINT, OnCaptureSignal);
+}
+
+CaptureInterrupt::~CaptureInterrupt() { HandleOnce(SIGINT, OnSignal); }
+
+bool CaptureInterrupt::requested() const { return capture_end_requested; }
 
 }  // namespace curvefusion

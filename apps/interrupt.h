@@ -8,4 +8,16 @@ namespace curvefusion {
 /// ends the program at once.
 void CatchInterrupts();
 
+/// While it lives, the first SIGINT (Ctrl-C) only asks for the end of a capture; a second one is
+/// what the first is otherwise. SIGTERM stays as it is. One at a time, after CatchInterrupts.
+class CaptureInterrupt {
+ public:
+  CaptureInterrupt();
+  ~CaptureInterrupt();
+  CaptureInterrupt(const CaptureInterrupt&) = delete;
+  CaptureInterrupt& operator=(const CaptureInterrupt&) = delete;
+
+  bool requested() const;
+};
+
 }  // namespace curvefusion

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/page_curves.h"
+#include "apps/page_parts.h"
 #include "apps/preview.h"
-#include "apps/report_page_text.h"
 #include "apps/run_account.h"
 
 namespace curvefusion {
@@ -112,10 +112,7 @@ std::string ReportPage(const RunRecord& record, const PagePictures& pictures,
   // Names of files need not be UTF-8.
   const std::string data =
       PageData(record, pictures, files).dump(-1, ' ', false, Json::error_handler_t::replace);
-  std::string page(kReportPageBeforeData);
-  page += ForScriptElement(data);
-  page += kReportPageAfterData;
-  return page;
+  return AssemblePage("report.html", ForScriptElement(data));
 }
 
 }  // namespace curvefusion

@@ -12,6 +12,7 @@ namespace curvefusion {
 // Each command adds itself to the command line; parsing a line that names it runs it and sets the
 // exit code. Errors leave as exceptions: main tells the user and turns them into exit codes.
 void AddReconstructCommand(CLI::App& app, int& exit_code);
+void AddLiveCommand(CLI::App& app, int& exit_code);
 void AddTrackCommand(CLI::App& app, int& exit_code);
 void AddCheckCommand(CLI::App& app, int& exit_code);
 void AddContractCommand(CLI::App& app, int& exit_code);

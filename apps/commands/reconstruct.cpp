@@ -1,40 +1,22 @@
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
+#include <utility>
 
 #include "apps/commands/command.h"
 #include "apps/commands/config_arguments.h"
 #include "apps/output_guard.h"
-#include "apps/preview.h"
-#include "apps/report.h"
-#include "apps/report_page.h"
-#include "apps/result_folder.h"
-#include "apps/run_observer.h"
-#include "capture/content/colour_findings.h"
-#include "capture/trajectory.h"
-#include "experiments/pictures/png.h"
-#include "fusion/tracking/tracked_poses.h"
-#include "graph/io/graph_io.h"
-#include "kernel/atomic_file.h"
-#include "kernel/cancellation.h"
-#include "kernel/error.h"
+#include "apps/result_run.h"
 #include "kernel/free_space.h"
-#include "kernel/peak_memory.h"
-#include "meshing/io/mesh_io.h"
-#include "meshing/tube_warnings.h"
 
 namespace curvefusion {
 
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
 
 struct ReconstructArguments {
   fs::path sequence;
@@ -46,84 +28,6 @@ struct ReconstructArguments {
   std::string colour_camera = "auto";
   RunOptions run;
 };
-
-double SecondsSince(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-void WriteText(const fs::path& path, const std::string& text) {
-  WriteStreamAtomically(path, [&](std::ostream& stream) { stream << text; });
-}
-
-void WriteUncertain(const Reconstruction& reconstruction, const fs::path& folder) {
-  if (reconstruction.uncertain.graph.empty()) return;
-  WriteSkeleton(folder / "uncertain.json", reconstruction.uncertain.graph);
-}
-
-// Returns the picture.
-ColorImage WriteSkeletonAndPicture(const RunRecord& record, const fs::path& folder) {
-  const Reconstruction& reconstruction = record.reconstruction;
-  WriteSkeleton(folder / "skeleton.json", reconstruction.skeleton);
-  WriteUncertain(reconstruction, folder);
-  WriteTumTrajectory(folder / "trajectory.txt", PosesOf(reconstruction.sequence));
-  ColorImage preview =
-      DrawPreview(reconstruction.skeleton, reconstruction.uncertain.graph, reconstruction.points,
-                  reconstruction.sequence, FiguresLine(MeasureGraph(reconstruction.skeleton)));
-  WritePng(folder / "preview.png", preview);
-  return preview;
-}
-
-MeshRecord WriteTubes(const RunRecord& record, const fs::path& folder) {
-  const auto start = Clock::now();
-  const TubeMesh tubes = BuildTubes(record.reconstruction.skeleton, record.config.tubes);
-  WriteMesh(folder / "mesh.ply", ToTriangleMesh(tubes.surface), {});
-  return {tubes.report, SecondsSince(start),
-          TubeWarnings(record.reconstruction.skeleton, tubes, record.config.tubes)};
-}
-
-// The page tells what else will be there, by the names that it will have.
-std::vector<std::string> FilesBesideThePage(const ResultFolder& output, const fs::path& folder) {
-  const bool found = fs::exists(folder / "skeleton.json");
-  const std::string nothing_report = output.NothingFoundName("report.json");
-  if (!found && nothing_report != "report.json") {
-    return {nothing_report, output.NothingFoundName("config.toml")};
-  }
-  std::vector<std::string> files;
-  for (const std::string& name : ResultNames()) {
-    if (fs::exists(folder / name) || name == "report.json") files.push_back(name);
-  }
-  return files;
-}
-
-// The report and its page tell of all that came before them.
-void WriteReport(RunRecord& record, const ColorImage& preview, Clock::time_point start,
-                 const ResultFolder& output, const fs::path& folder) {
-  WriteText(folder / "config.toml", ConfigToml(record.config));
-  const PagePictures pictures = MakePagePictures(record.reconstruction, preview);
-  record.seconds = SecondsSince(start);
-  record.peak_memory = PeakMemory();
-  WriteText(folder / "report.html",
-            ReportPage(record, pictures, FilesBesideThePage(output, folder)));
-  WriteText(folder / "report.json", ReportJson(record));
-}
-
-// Where the curves have no sound mesh the other files are complete without it; the error follows.
-void WriteResult(RunRecord& record, Clock::time_point start, const ResultFolder& output) {
-  std::optional<Error> failure;
-  output.Replace([&](const fs::path& folder) {
-    const ColorImage preview = WriteSkeletonAndPicture(record, folder);
-    try {
-      record.mesh = WriteTubes(record, folder);
-    } catch (const Error& error) {
-      if (error.kind() != ErrorKind::kBadInput) throw;
-      failure = WithPathReplaced(error, folder, output.path());
-    }
-    WriteReport(record, preview, start, output, folder);
-  });
-  if (!failure) return;
-  throw Error(failure->kind(), fmt::format("{}; {} is complete", failure->what(),
-                                           (output.path() / "skeleton.json").string()));
-}
 
 void RequireInputStays(const ReconstructArguments& arguments) {
   const fs::path& volume = arguments.stages.volume;
@@ -147,7 +51,7 @@ void RequireRoom(const ReconstructArguments& arguments, const Sequence& sequence
 }
 
 int RunReconstruct(const ReconstructArguments& arguments) {
-  const auto start = Clock::now();
+  const auto start = std::chrono::steady_clock::now();
   const Config config = ReadConfig(Sources(arguments.config));
   LimitThreads(arguments.run);
   Sequence sequence =
@@ -157,32 +61,9 @@ int RunReconstruct(const ReconstructArguments& arguments) {
   const ResultFolder output(arguments.output, {arguments.stages.folder, arguments.stages.volume},
                             arguments.force);
   ProgressPrinter printer = MakeProgressPrinter(arguments.run.quiet);
-  const bool fitted = arguments.colour_camera == "auto" && UseFittedColourCamera(sequence);
-  const std::optional<TrackingResult> tracking =
-      FindPoses(sequence, InterruptibleProgress(printer));
-  RunObserver observer(printer, arguments.stages);
-  const Reconstruction reconstruction = Reconstruct(sequence, config.pipeline, observer);
-  printer.Report(kWritingStage, 0, 1);
-  ThrowIfCancelled();
-
-  RunRecord record{sequence, config, reconstruction, {}, 0, 0, fitted, tracking};
-  const bool found = !reconstruction.skeleton.empty();
-  const auto final_path = [&](const char* name) {
-    return output.path() / (found ? name : output.NothingFoundName(name));
-  };
-  const fs::path page = final_path("report.html");
-  const fs::path report = final_path("report.json");
-  if (found) {
-    WriteResult(record, start, output);
-  } else {
-    output.AddNothingFound([&](const fs::path& folder) {
-      WriteUncertain(reconstruction, folder);
-      WriteReport(record, {}, start, output, folder);
-    });
-  }
-  printer.Finish();
-  if (!arguments.run.quiet) fmt::print("{}", Summary(record, output.path(), page, report));
-  return found ? 0 : kNothingThin;
+  const ResultRun run{config, arguments.colour_camera == "auto", arguments.stages,
+                      arguments.run.quiet, start};
+  return ReconstructInto(output, std::move(sequence), run, printer);
 }
 
 }  // namespace

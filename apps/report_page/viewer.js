@@ -17,6 +17,7 @@ const CurveViewer = (() => {
   ];
   const GREY = [150, 154, 160];
   const SELECTED = [226, 0, 122];
+  const HINT = [216, 100, 0];
 
   // The colour at a share of a ramp from 0 to 1.
   function rampColour(ramp, share) {
@@ -99,6 +100,7 @@ const CurveViewer = (() => {
       uncertain: true,
       nodes: true,
       cameras: true,
+      hints: true,
     };
     let content = null; // what show() was given, prepared
     let chosen = null;
@@ -145,7 +147,7 @@ const CurveViewer = (() => {
       const box = new THREE.Box3();
       for (const edge of shown) for (const p of pointsOf(edge)) box.expandByPoint(vector(p));
       if (box.isEmpty()) box.setFromCenterAndSize(new THREE.Vector3(), vector([100, 100, 100]));
-      const center = box.getCenter(new THREE.Vector3());
+      const center = data.center ? vector(data.center) : box.getCenter(new THREE.Vector3());
       let radius = 5;
       for (const edge of shown) {
         for (const p of pointsOf(edge)) radius = Math.max(radius, vector(p).distanceTo(center));
@@ -282,6 +284,27 @@ const CurveViewer = (() => {
       if (lines.length) addLines(lines, THREE.LineSegments, 0x4a7bd0, 0.7);
     }
 
+    // Arrows towards places, from where more is to be seen of them.
+    function addHints() {
+      if (!options.hints) return;
+      const stem = content.radius / 3;
+      const head = content.radius / 14;
+      const colour = new THREE.Color(css(HINT));
+      const lines = [];
+      for (const hint of content.data.hints || []) {
+        const at = vector(hint.at).sub(content.center);
+        const from = vector(hint.from);
+        const along = (distance) => at.clone().addScaledVector(from, distance);
+        lines.push(...along(head).toArray(), ...along(stem).toArray());
+        const cone = new THREE.Mesh(new THREE.ConeBufferGeometry(head / 3, head, 12),
+                                    new THREE.MeshLambertMaterial({ color: colour }));
+        cone.quaternion.setFromUnitVectors(new THREE.Vector3(0, -1, 0), from);
+        cone.position.copy(along(0.8 * head));
+        layers.add(cone);
+      }
+      if (lines.length) addLines(lines, THREE.LineSegments, colour, 1);
+    }
+
     // What is chosen shines through what is before it, faintly.
     function markChosen() {
       clear(mark);
@@ -298,7 +321,7 @@ const CurveViewer = (() => {
     function rebuild() {
       if (!content) return;
       clear(layers);
-      for (const add of [addProven, addUncertain, addNodes, addCameras]) add();
+      for (const add of [addProven, addUncertain, addNodes, addCameras, addHints]) add();
       markChosen();
     }
 
@@ -352,7 +375,9 @@ const CurveViewer = (() => {
 
     return {
       // `data`: curves and uncertain (nodes, edges), figures (evidence from 0 to 1 and diameter of
-      // each curve), up, towards_viewer, camera_path, frames; millimetres.
+      // each curve), up, towards_viewer, camera_path, frames; millimetres. Of a scan that grows also
+      // center, around which all is drawn while that stays the same, and hints (at, from: a place
+      // and the direction from which to look at it).
       show(data) {
         const first = content === null;
         content = prepare(data);
@@ -375,6 +400,12 @@ const CurveViewer = (() => {
         const { position, axes } = poseOf(frame);
         orbit.lookFrom(position, axes[2].normalize());
       },
+      // Looks at a place as a hint asks to.
+      follow(hint) {
+        const from = vector(hint.from);
+        const at = vector(hint.at).sub(content.center);
+        orbit.lookFrom(at.addScaledVector(from, 3 * content.radius), from.negate());
+      },
       // Where the middle of a curve is drawn, in pixels of the view.
       pixelOf(index) {
         const points = content.curves[index].points;
@@ -396,5 +427,5 @@ const CurveViewer = (() => {
     };
   }
 
-  return { create, ramps, palette, css, GREY, SELECTED };
+  return { create, ramps, palette, css, GREY, SELECTED, HINT };
 })();

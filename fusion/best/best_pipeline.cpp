@@ -10,8 +10,10 @@
 #include "fusion/best/best_plan.h"
 #include "fusion/best/colour_fit.h"
 #include "fusion/best/colour_stages.h"
+#include "fusion/best/contraction_space.h"
 #include "fusion/best/weak_colour.h"
 #include "fusion/registration/axis_correction.h"
+#include "fusion/registration/bundle_ridges.h"
 #include "fusion/registration/close_wires.h"
 #include "fusion/registration/frame_points.h"
 #include "fusion/registration/ray_noise.h"
@@ -26,8 +28,6 @@ namespace {
 
 // Bundles segmented at the same time, at most: much of a bundle is done one step after the other.
 constexpr size_t kBundlesAtOnce = 4;
-// Ridge points by which a bundle is registered are so many times as far apart as those of curves.
-constexpr double kBundleSpacing = 1.5;
 // What frames saw takes up to 110 MB: all points of the first 100 to 400 frames.
 constexpr size_t kMaxFramePoints = 2'000'000;
 
@@ -126,31 +126,12 @@ SegmentedScan SegmentBundles(const Sequence& sequence, const TsdfVolume& volume,
   return scan;
 }
 
-// The space in which points are contracted.
-struct ContractionSpace {
-  double magnification = 1;    // of rows of close wires
-  double ray_noise_ratio = 1;  // of noise along the viewing rays to that across them
-
-  bool IsWorld() const { return ray_noise_ratio <= 1 && magnification <= 1; }
-  AffineTransform T_space_world(const ObservedPoints& points) const {
-    return ray_noise_ratio > 1 ? NoiseMetric(points, ray_noise_ratio)
-                               : AffineTransform(Eigen::Scaling(magnification));
-  }
-};
-
 // `ridge` holds the ridges of the points where they are known already.
 SkeletonGraph Contract(const ObservedPoints& points, const std::optional<RidgePoints>& ridge,
                        const std::string& name, const ContractionSpace& space,
                        const RidgeOptions& options, const StageReporter& reporter) {
   const StageLog::Timer timer = reporter.Begin("contraction");
-  SkeletonGraph skeleton;
-  if (!space.IsWorld()) {
-    skeleton = ExtractRidgeSkeleton(points, options, space.T_space_world(points));
-  } else if (ridge) {
-    skeleton = ExtractRidgeSkeleton(points, *ridge, options);
-  } else {
-    skeleton = ExtractRidgeSkeleton(points, options);
-  }
+  SkeletonGraph skeleton = ContractIn(space, points, ridge, options);
   reporter.log.Count("contraction", "ray noise ratio", space.ray_noise_ratio);
   reporter.observer.OnPoints(name + "_points", points);
   reporter.observer.OnGraph(name + "_skeleton", skeleton);
@@ -171,8 +152,7 @@ RegisteredBundles RegisterBundles(const SegmentedScan& scan, double row_spacing,
   StageProgress progress(reporter.observer, "bundle registration",
                          static_cast<int64_t>(scan.bundles.size()));
   CarriedPoints carried(options.carried);
-  RidgeProjectionOptions coarse = ridges;
-  coarse.spacing *= kBundleSpacing;
+  const RidgeProjectionOptions coarse = ForBundles(ridges);
   // Side by side, as much of a projection is done one step after the other.
   std::vector<RidgePoints> ridge_of_bundle(scan.bundles.size());
   ParallelFor(0, static_cast<int64_t>(scan.bundles.size()), 1,

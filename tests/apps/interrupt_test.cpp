@@ -72,5 +72,44 @@ TEST(InterruptDeathTest, ASecondSignalEndsTheProgram) {
       testing::KilledBySignal(SIGINT), "");
 }
 
+TEST(InterruptDeathTest, TheFirstOfACaptureOnlyEndsTheCapture) {
+  EXPECT_EXIT(
+      {
+        CatchInterrupts();
+        {
+          const CaptureInterrupt interrupt;
+          if (interrupt.requested()) std::exit(1);
+          std::raise(SIGINT);
+          if (!interrupt.requested()) std::exit(2);
+        }
+        ThrowIfCancelled();  // does not: what was captured is still to be reconstructed
+        std::exit(3);
+      },
+      testing::ExitedWithCode(3), "");
+}
+
+TEST(InterruptDeathTest, TheSecondOfACaptureEndsTheRun) {
+  EXPECT_EXIT(
+      {
+        CatchInterrupts();
+        const CaptureInterrupt interrupt;
+        std::raise(SIGINT);
+        std::raise(SIGINT);
+        ExitAsMainWould();
+      },
+      testing::ExitedWithCode(130), "");
+}
+
+TEST(InterruptDeathTest, OneAfterTheCaptureEndsTheRun) {
+  EXPECT_EXIT(
+      {
+        CatchInterrupts();
+        { const CaptureInterrupt interrupt; }
+        std::raise(SIGINT);
+        ExitAsMainWould();
+      },
+      testing::ExitedWithCode(130), "");
+}
+
 }  // namespace
 }  // namespace curvefusion

@@ -91,7 +91,7 @@ TEST_P(WriteFaultTest, LeavesNothingHalfWritten) {
   const long writes = Count({.kind = "write"});
   ASSERT_GT(writes, 2) << "at least a file is opened, written and renamed";
   std::mt19937 random(1);
-  // Each of reconstruct takes 0.6 s, of the others some hundredths.
+  // Each of reconstruct and live takes 0.6 s, of the others some hundredths.
   const long some = GetParam().name == "reconstruct" ? 8 : 5;
   for (const long number : Spread(writes, TriesEverything() ? writes : some, random)) {
     for (const int error : {ENOSPC, EIO}) {

@@ -68,6 +68,7 @@ bool IsTemporary(const std::string& name) {
 std::vector<WritingCommand> WritingCommands() {
   std::vector<WritingCommand> commands = {
       {"reconstruct", {"reconstruct", "@/scan", "-o", "out", "--threads", "1"}},
+      {"live", {"live", "@/scan", "-o", "out", "--rate", "1000", "--threads", "1"}},
       {"simulate",
        {"simulate", "@/object.json", "-o", "out", "--frames", "1", "--threads", "1", "--sensor",
         "ideal"},

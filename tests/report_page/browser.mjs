@@ -51,8 +51,9 @@ export async function openBrowser(program, switches = []) {
     return answer;
   }
 
-  // A page of a size in pixels, without any network. `problems` collects what goes wrong in it.
-  async function openPage(url, { width, height, dark = false }) {
+  // A page of a size in pixels; without any network unless `offline` is false. `problems` collects
+  // what goes wrong in it.
+  async function openPage(url, { width, height, dark = false, offline = true }) {
     const { targetId } = await send("Target.createTarget", { url: "about:blank" });
     const { sessionId } = await send("Target.attachToTarget", { targetId, flatten: true });
     const problems = [];
@@ -75,7 +76,7 @@ export async function openBrowser(program, switches = []) {
     const call = (method, params) => send(method, params, sessionId);
     for (const domain of ["Runtime", "Log", "Network", "Page"]) await call(`${domain}.enable`);
     await call("Network.emulateNetworkConditions",
-               { offline: true, latency: 0, downloadThroughput: 0, uploadThroughput: 0 });
+               { offline, latency: 0, downloadThroughput: offline ? 0 : -1, uploadThroughput: offline ? 0 : -1 });
     await call("Emulation.setDeviceMetricsOverride",
                { width, height, deviceScaleFactor: 1, mobile: false });
     await call("Emulation.setEmulatedMedia",

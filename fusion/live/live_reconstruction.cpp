@@ -1,0 +1,109 @@
+#include "fusion/live/live_reconstruction.h"
+
+#include <utility>
+
+#include "fusion/live/processor_timer.h"
+#include "fusion/registration/bundle_ridges.h"
+#include "fusion/registration/ray_noise.h"
+
+namespace curvefusion {
+
+namespace {
+
+// Of a bundle's frames every second is segmented: neighbours see the same.
+constexpr int kFrameStride = 2;
+// Frames that colours and grilles are learned from, at most; some ten are asked for each.
+constexpr size_t kSample = 64;
+
+BestOptions ForLive(BestOptions options) {
+  // Rows of close wires take a model of all frames; the batch resolves them.
+  options.segmentation.max_row_spacing = 0;
+  options.segmentation.max_frame_points = 0;  // decides on the stride, which is fixed here
+  return options;
+}
+
+Sequence WithoutFrames(Sequence sequence) {
+  sequence.frames.clear();
+  return sequence;
+}
+
+}  // namespace
+
+LiveReconstruction::LiveReconstruction(const Sequence& cameras, const BestOptions& options)
+    : options_(ForLive(options)),
+      volume_(options.volume),
+      bundle_(WithoutFrames(cameras)),
+      sample_(WithoutFrames(cameras)),
+      evidence_{CarriedPoints(options.carried), {}} {}
+
+bool LiveReconstruction::AddFrame(const SequenceFrame& frame) {
+  bundle_.frames.push_back(frame);
+  IntegrateLatest();
+  AddToSample(frame);
+  ++frame_count_;
+  if (bundle_.frame_count() < options_.segmentation.bundle.frames) return false;
+  LearnIfDue();
+  Register(SegmentFrames());
+  return true;
+}
+
+LiveSnapshot LiveReconstruction::Snapshot() {
+  const ProcessorTimer timer(cost_.snapshots);
+  return MakeSnapshot(evidence_, options_);
+}
+
+void LiveReconstruction::IntegrateLatest() {
+  if (frame_count_ % options_.volume_stride != 0) return;
+  const ProcessorTimer timer(cost_.volume);
+  volume_.Integrate(LoadDepth(bundle_, bundle_.frame_count() - 1), bundle_.depth_camera,
+                    bundle_.frames.back().T_world_camera);
+}
+
+// Once there are too many, every second one is forgotten.
+void LiveReconstruction::AddToSample(const SequenceFrame& frame) {
+  if (frame_count_ % sample_stride_ != 0) return;
+  std::vector<SequenceFrame>& frames = sample_.frames;
+  frames.push_back(frame);
+  if (frames.size() <= kSample) return;
+  std::vector<SequenceFrame> kept;
+  for (size_t i = 0; i < frames.size(); i += 2) kept.push_back(std::move(frames[i]));
+  frames = std::move(kept);
+  sample_stride_ *= 2;
+}
+
+// Each time the frames have doubled: the work of one frame stays the same on average.
+void LiveReconstruction::LearnIfDue() {
+  if (frame_count_ < learn_at_) return;
+  const ProcessorTimer timer(cost_.learning);
+  model_ = LearnSegmentation(sample_, volume_, options_.segmentation);
+  model_.frame_stride = kFrameStride;
+  learn_at_ = 2 * frame_count_;
+}
+
+SegmentedBundle LiveReconstruction::SegmentFrames() {
+  const ProcessorTimer timer(cost_.segmentation);
+  SegmentedBundle segmented = SegmentBundle(bundle_, 0, bundle_.frame_count(), volume_, model_,
+                                            options_.segmentation, [] {});
+  bundle_.frames.clear();
+  return segmented;
+}
+
+void LiveReconstruction::Register(const SegmentedBundle& bundle) {
+  const ProcessorTimer timer(cost_.registration);
+  const ObservedPoints points = Transformed(bundle.points, bundle.T_world_bundle);
+  const RidgeProjectionOptions& ridges = options_.ridge.projection;
+  const RidgePoints found = ProjectToRidges(points, ForBundles(ridges));
+  const RigidTransform T_registered_world =
+      evidence_.carried.AddBundle(points, found, ridges.spacing, options_.registration)
+          .T_target_source;
+  for (const ObservedPoints& frame : bundle.frames) {
+    if (frame.empty()) continue;
+    evidence_.sightings.AddFrame(Transformed(frame, T_registered_world * bundle.T_world_bundle));
+  }
+  if (points.size() > largest_bundle_) {
+    largest_bundle_ = points.size();
+    evidence_.ray_noise_ratio = RayNoiseRatio(points, options_.min_linearity);
+  }
+}
+
+}  // namespace curvefusion

@@ -1,0 +1,97 @@
+// Runs `curvefusion live` as a user does.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "tests/apps/command_line_fixture.h"
+#include "tests/source_folder.h"
+
+namespace curvefusion {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::HasSubstr;
+
+class LiveCommand : public CommandLine {
+ protected:
+  json State() const { return json::parse(Text("out/state.json")); }
+};
+
+// Whatever was dropped, the result is that of all frames.
+TEST_F(LiveCommand, EndsWithTheBytesOfTheBatchAndTellsHowItWent) {
+  ASSERT_EQ(SimulateCube(70).exit_code, 0);
+  ASSERT_EQ(Run("reconstruct scan -o batch --quiet").exit_code, 0);
+  const Outcome live = Run("live scan -o out --rate 20 --serve --port 0");
+  ASSERT_EQ(live.exit_code, 0) << live.output;
+  EXPECT_THAT(live.output, HasSubstr("Open http://127.0.0.1:"));
+  EXPECT_THAT(live.output, HasSubstr("70 frames"));
+  EXPECT_EQ(Text("out/skeleton.json"), Text("batch/skeleton.json"));
+  EXPECT_EQ(Text("out/mesh.ply"), Text("batch/mesh.ply"));
+  for (const char* name : {"report.html", "report.json", "snapshot.json"}) {
+    EXPECT_TRUE(fs::exists(folder_ / "out" / name)) << name;
+  }
+  const json state = State();
+  EXPECT_EQ(state["phase"], "done");
+  EXPECT_EQ(state["frames"]["arrived"], 70);
+  EXPECT_EQ(state["frames"]["used"].get<int>() + state["frames"]["dropped"].get<int>(), 70);
+  ASSERT_GE(state["snapshot"]["number"], 1);
+  EXPECT_EQ(state["curves"].size(), json::parse(Text("out/snapshot.json"))["edges"].size());
+  EXPECT_EQ(Run("graph out/snapshot.json --validate").exit_code, 0);
+  // Its own files do not keep the next run from the folder.
+  EXPECT_EQ(Run("live scan -o out --rate 200 --quiet").exit_code, 0);
+}
+
+TEST_F(LiveCommand, AFirstInterruptEndsTheCaptureAndStillReconstructs) {
+  ASSERT_EQ(SimulateCube(70).exit_code, 0);
+  // At 4 frames a second most of the scan is still to come.
+  const Outcome live = RunShell(
+      "\"$CURVEFUSION\" live scan -o out --rate 4 >output.txt 2>&1 & "
+      "sleep 6; kill -INT $!; wait $!");
+  ASSERT_EQ(live.exit_code, 0) << live.output;
+  const int arrived = State()["frames"]["arrived"];
+  EXPECT_GT(arrived, 10);
+  EXPECT_LT(arrived, 40);
+  EXPECT_EQ(json::parse(Text("out/report.json"))["sequence"]["frames"], arrived);
+}
+
+TEST_F(LiveCommand, TwoInterruptsEndTheProgram) {
+  ASSERT_EQ(SimulateCube(10).exit_code, 0);
+  const Outcome live = RunShell(
+      "\"$CURVEFUSION\" live scan -o out --rate 0.2 >output.txt 2>&1 & "
+      "sleep 2; kill -INT $!; kill -INT $!; sleep 0.05; kill -INT $!; wait $!");
+  EXPECT_NE(live.exit_code, 0);
+  EXPECT_FALSE(fs::exists(folder_ / "out/skeleton.json"));
+}
+
+TEST_F(LiveCommand, FollowsAFolderThatGrows) {
+  ASSERT_EQ(SimulateCube(40).exit_code, 0);
+  const Outcome live = RunShell(
+      "mkdir -p cam/color cam/depth cam/pose; "
+      "\"$CURVEFUSION\" live cam -o out --follow --idle 60 --quiet >output.txt 2>&1 & "
+      "python3 '" +
+      (SourceFolder() / "tests/apps/live/write_like_a_camera.py").string() +
+      "' scan cam 0.02; "
+      "wait $!");
+  ASSERT_EQ(live.exit_code, 0) << live.output;
+  EXPECT_EQ(State()["frames"]["arrived"], 40);
+  ASSERT_EQ(Run("reconstruct cam -o batch --quiet").exit_code, 0);
+  EXPECT_EQ(Text("out/skeleton.json"), Text("batch/skeleton.json"));
+}
+
+TEST_F(LiveCommand, WhatCannotBeIsToldBeforeAnyFrame) {
+  ASSERT_EQ(SimulateCube(2).exit_code, 0);
+  EXPECT_EQ(Run("live scan -o out --profile paper").exit_code, 2);
+  EXPECT_EQ(Run("live scan -o out --rate 0").exit_code, 2);
+  EXPECT_EQ(Run("live scan -o out --follow --rate 5").exit_code, 2);
+  EXPECT_EQ(Run("live scan -o out --idle 5").exit_code, 2);
+  EXPECT_EQ(Run("live scan -o scan/out").exit_code, 2);
+  EXPECT_EQ(Run("live nowhere -o out --follow").exit_code, 3);
+  EXPECT_EQ(Run("live nowhere -o out").exit_code, 3);
+}
+
+}  // namespace
+}  // namespace curvefusion
