@@ -6,7 +6,6 @@
 
 #include "fusion/silhouettes/silhouette_path.h"
 #include "fusion/silhouettes/silhouette_pruning.h"
-#include "fusion/silhouettes/silhouette_rungs.h"
 #include "graph/validate.h"
 #include "tests/fusion/silhouettes/silhouette_scan.h"
 
@@ -191,43 +190,6 @@ TEST(SilhouettePruning, LeavesAJunctionFarFromAllWires) {
     AddTestEdge(graph, graph.AddNode({x, 0, 0}), corner, TestLine({x, 0, 0}, away));
   MoveJunctionsIntoWires(scan.Silhouettes(), 0.9, graph);
   EXPECT_EQ(graph.position(corner), away);
-}
-
-// No image looks through between the wires: depth may have joined them anywhere.
-TEST(SilhouetteRungs, AreDroppedFromASheet) {
-  const SilhouetteScan scan(
-      {kUpper, kLower}, {{{-0.03, 0, 0}, {0.03, 0, 0}, {0.03, kSpacing, 0}, {-0.03, kSpacing, 0}}});
-  SkeletonGraph graph = Rows();
-  EXPECT_EQ(DropRungsInSheets(scan.Silhouettes(), 0.9, graph), 1);
-  EXPECT_EQ(graph.edge_count(), 2);
-  EXPECT_TRUE(Faults(graph).empty());
-}
-
-TEST(SilhouetteRungs, StayWhereImagesLookPastThem) {
-  const SilhouetteScan scan({kUpper, kLower, kRung});
-  SkeletonGraph graph = Rows();
-  EXPECT_EQ(DropRungsInSheets(scan.Silhouettes(), 0.9, graph), 0);
-  EXPECT_EQ(graph.edge_count(), 5);
-}
-
-// The end of a ladder: beyond it nothing is seen as wire.
-TEST(SilhouetteRungs, StayAtTheEdgeOfASheet) {
-  const SilhouetteScan scan({kUpper, kLower},
-                            {{{0, 0, 0}, {0.06, 0, 0}, {0.06, kSpacing, 0}, {0, kSpacing, 0}}});
-  SkeletonGraph graph = Rows();
-  EXPECT_EQ(DropRungsInSheets(scan.Silhouettes(), 0.9, graph), 0);
-}
-
-// A wire of a net goes on beyond both.
-TEST(SilhouetteRungs, AreNotPiecesOfAWireThatGoesOn) {
-  const SilhouetteScan scan(
-      {kUpper, kLower}, {{{-0.03, -0.03, 0}, {0.03, -0.03, 0}, {0.03, 0.04, 0}, {-0.03, 0.04, 0}}});
-  SkeletonGraph graph = Rows();
-  NodeId upper = -1;
-  for (const NodeId node : graph.Nodes())
-    if (graph.position(node) == kRung.front()) upper = node;
-  AddTestEdge(graph, graph.AddNode({0, -0.03, 0}), upper, TestLine({0, -0.03, 0}, kRung.front()));
-  EXPECT_EQ(DropRungsInSheets(scan.Silhouettes(), 0.9, graph), 0);
 }
 
 TEST(SilhouetteBridges, JoinEndsThatFaceEachOther) {
