@@ -46,7 +46,8 @@ Rgb Interpolated(const ColorImage& image, const Vec2& pixel) {
 Vec2 Distortion::Apply(const Vec2& ray) const {
   const double x = ray.x(), y = ray.y();
   const double r2 = x * x + y * y;
-  const double radial = 1 + r2 * (k1 + r2 * (k2 + r2 * k3));
+  double radial = 1 + r2 * (k1 + r2 * (k2 + r2 * k3));
+  if (IsRational()) radial /= 1 + r2 * (k4 + r2 * (k5 + r2 * k6));
   return {x * radial + 2 * p1 * x * y + p2 * (r2 + 2 * x * x),
           y * radial + p1 * (r2 + 2 * y * y) + 2 * p2 * x * y};
 }
@@ -55,8 +56,12 @@ double Distortion::ValidRadius(double max_radius) const {
   for (int i = 0; i <= kRadiusSteps; ++i) {
     const double r = max_radius * i / kRadiusSteps;
     const double r2 = r * r;
-    const double slope = 1 + r2 * (3 * k1 + r2 * (5 * k2 + r2 * 7 * k3));
-    if (!(slope > 0)) return max_radius * std::max(0, i - 1) / kRadiusSteps;
+    const double numerator = 1 + r2 * (k1 + r2 * (k2 + r2 * k3));
+    const double denominator = 1 + r2 * (k4 + r2 * (k5 + r2 * k6));
+    // The slope of r numerator / denominator, times denominator^2.
+    const double slope = (1 + r2 * (3 * k1 + r2 * (5 * k2 + r2 * 7 * k3))) * denominator -
+                         numerator * r2 * (2 * k4 + r2 * (4 * k5 + r2 * 6 * k6));
+    if (!(slope > 0 && denominator > 0)) return max_radius * std::max(0, i - 1) / kRadiusSteps;
   }
   return max_radius;
 }

@@ -7,16 +7,23 @@ namespace curvefusion {
 
 /// Lens distortion by Brown and Conrady, with the coefficients of OpenCV. A ray (x, y, 1) is seen
 /// where an ideal camera would see (x', y', 1):
-/// x' = x (1 + k1 r^2 + k2 r^4 + k3 r^6) + 2 p1 x y + p2 (r^2 + 2 x^2), r^2 = x^2 + y^2,
-/// y' = y (1 + k1 r^2 + k2 r^4 + k3 r^6) + p1 (r^2 + 2 y^2) + 2 p2 x y.
+/// x' = x s + 2 p1 x y + p2 (r^2 + 2 x^2), r^2 = x^2 + y^2,
+/// y' = y s + p1 (r^2 + 2 y^2) + 2 p2 x y,
+/// s = (1 + k1 r^2 + k2 r^4 + k3 r^6) / (1 + k4 r^2 + k5 r^4 + k6 r^6).
 struct Distortion {
   double k1 = 0;
   double k2 = 0;
   double p1 = 0;
   double p2 = 0;
   double k3 = 0;
+  double k4 = 0;
+  double k5 = 0;
+  double k6 = 0;
 
-  bool IsZero() const { return k1 == 0 && k2 == 0 && p1 == 0 && p2 == 0 && k3 == 0; }
+  bool IsRational() const { return k4 != 0 || k5 != 0 || k6 != 0; }
+  bool IsZero() const {
+    return k1 == 0 && k2 == 0 && p1 == 0 && p2 == 0 && k3 == 0 && !IsRational();
+  }
   Vec2 Apply(const Vec2& ray) const;
   /// The largest r up to `max_radius` to which the model goes outwards with r; beyond it the same
   /// place would be seen twice.

@@ -43,24 +43,27 @@ double Coefficient(const json& value, const std::string& where, const std::strin
 }
 
 constexpr const char* kSupported =
-    "only Brown-Conrady with k1, k2, p1, p2, k3 is undone; undistort the images and leave the "
-    "coefficients out";
+    "only Brown-Conrady with k1, k2, p1, p2, k3 is undone, and with k4, k5, k6 in a list of 8; "
+    "undistort the images and leave the coefficients out";
 
+// OpenCV's list, with the denominator of the rational model or without.
 Distortion FromList(const json& list, const std::string& where) {
   if (!list.is_array() || list.size() < 4) {
-    Fail(fmt::format("{}: 'distortion' must be a list of 4 or 5 numbers: k1, k2, p1, p2, k3",
-                     where));
+    Fail(
+        fmt::format("{}: 'distortion' must be a list of 4, 5 or 8 numbers: k1, k2, p1, p2, k3, "
+                    "k4, k5, k6",
+                    where));
   }
-  std::array<double, kCoefficients.size()> c{};
+  std::array<double, 8> c{};
   for (size_t i = 0; i < list.size(); ++i) {
     const double value = Coefficient(list[i], where, "distortion");
-    if (i < c.size()) {
+    if (i < 5 || (i < c.size() && list.size() >= c.size())) {
       c[i] = value;
     } else if (value != 0) {
       Fail(fmt::format("{}: 'distortion' has {} coefficients; {}", where, list.size(), kSupported));
     }
   }
-  return {c[0], c[1], c[2], c[3], c[4]};
+  return {c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7]};
 }
 
 Distortion FromKeys(const json& object, const std::string& where) {
@@ -149,10 +152,13 @@ void RequireUnfolded(const PinholeCamera& camera, const Distortion& distortion,
   if (!(distortion.ValidRadius(corner) >= kMinValidShare * corner &&
         LargestShift(camera, distortion) <= kMaxShiftShare * camera.width)) {
     Fail(fmt::format(
-        "{}: the distortion k1 = {}, k2 = {}, p1 = {}, p2 = {}, k3 = {} folds the image "
+        "{}: the distortion k1 = {}, k2 = {}, p1 = {}, p2 = {}, k3 = {}{} folds the image "
         "over or moves pixels by half the image; the coefficients are those of OpenCV, "
         "in the order k1, k2, p1, p2, k3",
-        where, distortion.k1, distortion.k2, distortion.p1, distortion.p2, distortion.k3));
+        where, distortion.k1, distortion.k2, distortion.p1, distortion.p2, distortion.k3,
+        distortion.IsRational() ? fmt::format(", k4 = {}, k5 = {}, k6 = {}", distortion.k4,
+                                              distortion.k5, distortion.k6)
+                                : std::string()));
   }
 }
 

@@ -10,9 +10,9 @@
 namespace curvefusion {
 
 /// The distortion that a camera of intrinsics.json names: k1, k2, p1, p2, k3 as keys, or
-/// "distortion": [k1, k2, p1, p2] or [k1, k2, p1, p2, k3]. Throws Error(kBadInput), naming `where`,
-/// for other models and coefficients that are not zero, for what is no number, and for coefficients
-/// that fold the image over.
+/// "distortion": [k1, k2, p1, p2], [k1, k2, p1, p2, k3] or [k1, k2, p1, p2, k3, k4, k5, k6]. Throws
+/// Error(kBadInput), naming `where`, for other models and coefficients that are not zero, for what
+/// is no number, and for coefficients that fold the image over.
 Distortion ParseDistortion(const nlohmann::json& object, const PinholeCamera& camera,
                            const std::string& where);
 

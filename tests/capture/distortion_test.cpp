@@ -94,6 +94,27 @@ TEST(Distortion, GoesOutwardsOnlyToTheFold) {
   EXPECT_EQ((Distortion{0.5, 0, 0, 0, 0}.ValidRadius(1)), 1);
 }
 
+// The lens of a wide depth camera: as OpenCV's documentation has the rational model, written out.
+TEST(Distortion, OfTheRationalModelHasADenominator) {
+  const Distortion lens = {1.2, 0.3, 0.0001, -0.0002, 0.01, 1.5, 0.5, 0.05};
+  const double r2 = 0.3125;
+  const double radial = (1 + 1.2 * r2 + 0.3 * r2 * r2 + 0.01 * r2 * r2 * r2) /
+                        (1 + 1.5 * r2 + 0.5 * r2 * r2 + 0.05 * r2 * r2 * r2);
+  const Vec2 bent = lens.Apply({0.5, -0.25});
+  EXPECT_NEAR(bent.x(), 0.5 * radial + 2 * 0.0001 * -0.125 - 0.0002 * (r2 + 0.5), 1e-15);
+  EXPECT_NEAR(bent.y(), -0.25 * radial + 0.0001 * (r2 + 0.125) - 2 * 0.0002 * -0.125, 1e-15);
+  EXPECT_TRUE(lens.IsRational());
+  EXPECT_FALSE((Distortion{0, 0, 0, 0, 0, 0, 0.1, 0}.IsZero()));
+}
+
+TEST(Distortion, OfTheRationalModelGoesOutwardsOnlyToTheFold) {
+  // r / (1 + k4 r^2) is largest where k4 r^2 = 1.
+  EXPECT_NEAR((Distortion{0, 0, 0, 0, 0, 4, 0, 0}.ValidRadius(1)), 0.5, 0.01);  // one step
+  EXPECT_EQ((Distortion{0, 0, 0, 0, 0, 0.9, 0, 0}.ValidRadius(1)), 1);
+  // The denominator vanishes at r = .5.
+  EXPECT_LT((Distortion{0, 0, 0, 0, 0, -4, 0, 0}.ValidRadius(1)), 0.5);
+}
+
 class DistortionKeys : public testing::Test {
  protected:
   Intrinsics Read(const std::string& more) {
@@ -126,6 +147,14 @@ TEST_F(DistortionKeys, AreReadByNameAndAsAList) {
   }
 }
 
+TEST_F(DistortionKeys, OfTheRationalModelAreReadAsAList) {
+  const Intrinsics read = Read(R"(,"distortion":[0.2,0.05,0.002,-0.001,0.01,0.3,0.04,0.02])");
+  EXPECT_THAT(findings_, IsEmpty());
+  EXPECT_EQ(read.depth_distortion.k3, 0.01);
+  EXPECT_EQ(read.depth_distortion.k4, 0.3);
+  EXPECT_EQ(read.depth_distortion.k6, 0.02);
+}
+
 TEST_F(DistortionKeys, BelongToTheCameraTheyStandWith) {
   const Intrinsics read = Read(
       R"(,"k1":0.1,"color_camera":{"width":64,"height":48,"fx":60,"fy":60,"cx":31,"cy":23,"k1":-0.1})");
@@ -138,7 +167,7 @@ TEST_F(DistortionKeys, OfOtherModelsAreRefused) {
   EXPECT_THAT(Defect(R"(,"model":"fisheye")"), HasSubstr("fisheye"));
   EXPECT_THAT(Defect(R"(,"model":"inverse_brown_conrady","k1":0.1)"), HasSubstr("inverse"));
   EXPECT_THAT(Defect(R"(,"distortion":[0,0,0,0,0,0.1])"), HasSubstr("6 coefficients"));
-  EXPECT_THAT(Defect(R"(,"distortion":[0.1])"), HasSubstr("4 or 5 numbers"));
+  EXPECT_THAT(Defect(R"(,"distortion":[0.1])"), HasSubstr("4, 5 or 8 numbers"));
   EXPECT_THAT(Defect(R"(,"k1":"big")"), HasSubstr("a number is needed"));
   EXPECT_THAT(Defect(R"(,"k1":-9)"), HasSubstr("folds"));
   EXPECT_THAT(Defect(R"(,"p1":1e300)"), HasSubstr("moves pixels"));
