@@ -32,10 +32,11 @@ struct FrameCheck {
   std::string remark;  // on the colour image
 };
 
-// Calls `decode` on a file whose header is sound: other defects are in the survey of the headers.
+// Calls `decode` for an image whose header is sound: other defects are in the survey of the
+// headers.
 template <class Decode>
-void CollectDefect(const std::filesystem::path& path, const Decode& decode, FrameCheck& check) {
-  if (!ReadImageHeader(path).defect.empty()) return;
+void CollectDefect(const ImageHeader& header, const Decode& decode, FrameCheck& check) {
+  if (!header.defect.empty()) return;
   try {
     decode();
   } catch (const Error& error) {
@@ -46,19 +47,20 @@ void CollectDefect(const std::filesystem::path& path, const Decode& decode, Fram
 FrameCheck CheckFrame(const Sequence& sequence, const SequenceFrame& frame) {
   FrameCheck check;
   const auto decode_depth = [&] {
-    const Image<uint16_t> raw = DecodeDepthImage(frame.depth_path);
+    const Image<uint16_t> raw = DecodeDepthImage(frame.depth_path, frame.depth_part);
     check.depth_thumbnail = ShrunkDepth(sequence, raw);
     check.depth.Add(MetricDepth(raw, sequence.depth_scale, sequence.invalid_depth));
   };
-  if (ReadImageHeader(frame.depth_path).bits == 16) {
-    CollectDefect(frame.depth_path, decode_depth, check);
-  }
+  const ImageHeader depth = ReadImageHeader(frame.depth_path, frame.depth_part);
+  if (depth.bits == 16) CollectDefect(depth, decode_depth, check);
   const auto decode_color = [&] {
-    check.grey_thumbnail = ShrunkColor(sequence, DecodeColorImage(frame.color_path, &check.remark));
+    check.grey_thumbnail =
+        ShrunkColor(sequence, DecodeColorImage(frame.color_path, frame.color_part, &check.remark));
   };
-  CollectDefect(frame.color_path, decode_color, check);
+  CollectDefect(ReadImageHeader(frame.color_path, frame.color_part), decode_color, check);
   if (!check.remark.empty()) {
-    check.remark = fmt::format("{}: may be damaged ({})", frame.color_path.string(), check.remark);
+    check.remark = fmt::format("{}: may be damaged ({})",
+                               ImageName(frame.color_path, frame.color_part), check.remark);
   }
   return check;
 }

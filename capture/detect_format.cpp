@@ -14,6 +14,7 @@
 #include "capture/readers/frame_assembly.h"
 #include "capture/readers/readers.h"
 #include "kernel/error.h"
+#include "kernel/text_input.h"
 
 namespace curvefusion {
 
@@ -62,15 +63,16 @@ bool HasPoseFiles(const fs::path& folder) { return HasFilesEndingWith(folder, ".
 
 using Reader = Sequence (*)(const fs::path& folder, const FindingHandler& on_finding);
 
+// A layout of a folder, or a recording in one file.
 struct Format {
   const char* name;
-  bool (*matches)(const fs::path& folder);
-  bool (*has_poses)(const fs::path& folder);
+  bool (*matches)(const fs::path& path);
+  bool (*has_poses)(const fs::path& path);
   Reader read;
   Reader read_images;
 };
 
-constexpr std::array<Format, 8> kFormats = {{
+constexpr std::array<Format, 8> kFolders = {{
     {"icl-nuim", LooksLikeIclNuim, LooksLikeIclNuim, ReadIclNuim, ReadIclNuimImages},
     {"tum", LooksLikeTum, HasTumTrajectory, ReadTum, ReadTumImages},
     {"redwood", LooksLikeRedwood, HasTrajectoryLog, ReadRedwood, ReadRedwoodImages},
@@ -83,27 +85,39 @@ constexpr std::array<Format, 8> kFormats = {{
     {"colmap", HasColmapModel, HasColmapModel, ReadColmap, ReadColmapImages},
 }};
 
-// The first that matches and has poses, or else the first that matches: a folder may hold the files
-// of several. Null where none does.
-const Format* FormatOf(const fs::path& folder) {
-  const auto matches = [&](const Format& format) { return format.matches(folder); };
-  const auto complete = [&](const Format& format) {
-    return format.matches(folder) && format.has_poses(folder);
-  };
-  auto found = std::find_if(kFormats.begin(), kFormats.end(), complete);
-  if (found == kFormats.end()) found = std::find_if(kFormats.begin(), kFormats.end(), matches);
-  return found == kFormats.end() ? nullptr : &*found;
+constexpr std::array<Format, 3> kRecordings = {{
+    {"azure kinect mkv", IsMkv, HasMkvPoses, ReadAzureKinect, ReadAzureKinectImages},
+    {"realsense bag", IsBag, HasBagPoses, ReadRealSense, ReadRealSenseImages},
+    {"sens", IsSens, HasSensPoses, ReadSens, ReadSensImages},
+}};
+
+// Null where the file is none.
+const Format* RecordingOf(const fs::path& file) {
+  const auto found = std::find_if(kRecordings.begin(), kRecordings.end(),
+                                  [&](const Format& format) { return format.matches(file); });
+  return found == kRecordings.end() ? nullptr : &*found;
 }
 
-// The first scans, by name, among the folders inside a folder. Those that cannot be read are not.
+// The first that matches and has poses, or else the first that matches: a folder may hold the files
+// of several. Null where none does.
+const Format* FormatOf(const fs::path& path) {
+  if (!fs::is_directory(path)) return RecordingOf(path);
+  const auto matches = [&](const Format& format) { return format.matches(path); };
+  const auto complete = [&](const Format& format) {
+    return format.matches(path) && format.has_poses(path);
+  };
+  auto found = std::find_if(kFolders.begin(), kFolders.end(), complete);
+  if (found == kFolders.end()) found = std::find_if(kFolders.begin(), kFolders.end(), matches);
+  return found == kFolders.end() ? nullptr : &*found;
+}
+
+// The first scans, by name, among what is inside a folder. Those that cannot be read are not.
 std::vector<std::string> ScansInside(const fs::path& folder) {
   std::vector<std::string> scans;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
     try {
-      if (entry.is_directory() && FormatOf(entry.path()) != nullptr) {
-        scans.push_back(entry.path().string());
-      }
+      if (FormatOf(entry.path()) != nullptr) scans.push_back(entry.path().string());
     } catch (const fs::filesystem_error&) {
     }
   }
@@ -130,7 +144,8 @@ std::vector<std::string> ScansInside(const fs::path& folder) {
   throw Error(
       ErrorKind::kBadInput,
       fmt::format(
-          "{}: the format of this folder is unknown; it must hold one of: rgb.txt, depth.txt and "
+          "{}: the format of this folder is unknown; name a recording (.sens, RealSense's .bag, "
+          "Azure Kinect's .mkv) or a folder that holds one of: rgb.txt, depth.txt and "
           "trajectory.txt (TUM); color/ (or rgb/, image/), depth/, intrinsics.json and pose/ "
           "(per-frame poses); "
           "color/, depth/ and "
@@ -159,33 +174,42 @@ void ReportDroppedFrames(const Sequence& sequence, const FindingHandler& on_find
   }
 }
 
-// Throws where its files cannot be listed.
-void RequireFolder(const fs::path& folder) {
+// Throws for a file that is no recording.
+void RequireRecording(const fs::path& file) {
+  const std::string obstacle = ReadingObstacle(file);
+  if (!obstacle.empty()) {
+    throw Error(ErrorKind::kBadInput, fmt::format("{}: {}", file.string(), obstacle));
+  }
+  if (RecordingOf(file) != nullptr) return;
+  const std::string remedy = ExportRemedy(file);
+  throw Error(ErrorKind::kBadInput,
+              fmt::format("{}: is {}", file.string(),
+                          remedy.empty() ? "a file; name the folder of the sequence" : remedy));
+}
+
+// Throws for a file that is no recording and for a folder whose files cannot be listed.
+void RequireReadable(const fs::path& path) {
   std::error_code failure;
-  const fs::file_status status = fs::status(folder, failure);
+  const fs::file_status status = fs::status(path, failure);
   if (status.type() == fs::file_type::not_found) {
-    throw Error(ErrorKind::kBadInput, fmt::format("{}: there is no such folder", folder.string()));
-  }
-  if (fs::exists(status) && !fs::is_directory(status)) {
-    const std::string remedy = ExportRemedy(folder);
     throw Error(ErrorKind::kBadInput,
-                fmt::format("{}: is {}", folder.string(),
-                            remedy.empty() ? "a file; name the folder of the sequence" : remedy));
+                fmt::format("{}: there is no such folder or recording", path.string()));
   }
-  if (!failure) fs::directory_iterator(folder, failure);
-  if (!failure && ::access(folder.c_str(), X_OK) != 0) {
+  if (fs::exists(status) && !fs::is_directory(status)) return RequireRecording(path);
+  if (!failure) fs::directory_iterator(path, failure);
+  if (!failure && ::access(path.c_str(), X_OK) != 0) {
     failure = std::error_code(errno, std::generic_category());
   }
   if (failure) {
     throw Error(ErrorKind::kBadInput,
-                fmt::format("{}: cannot be read ({})", folder.string(), failure.message()));
+                fmt::format("{}: cannot be read ({})", path.string(), failure.message()));
   }
 }
 
 }  // namespace
 
 Sequence ReadSequence(const fs::path& folder, PoseUse use, const FindingHandler& on_finding) {
-  RequireFolder(folder);
+  RequireReadable(folder);
   const Format* format = FormatOf(folder);
   if (format == nullptr) FailUnknownFormat(folder);
   const bool with_poses =

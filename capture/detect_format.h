@@ -7,9 +7,10 @@
 
 namespace curvefusion {
 
-/// Detects the format of a folder and reads everything but the images. Reports the defects that
-/// leave something to go on with, also: no frame left (error), frames dropped (warning).
-/// Throws Error(kBadInput) where the format is unknown or a file is missing that the format needs.
+/// Detects the format of a folder or a recording and reads everything but the images. Reports the
+/// defects that leave something to go on with, also: no frame left (error), frames dropped
+/// (warning). Throws Error(kBadInput) where the format is unknown or a file is missing that the
+/// format needs.
 Sequence ReadSequence(const std::filesystem::path& folder, PoseUse use,
                       const FindingHandler& on_finding);
 

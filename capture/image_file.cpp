@@ -30,15 +30,27 @@ constexpr std::string_view kJpegEnd("\xff\xd9", 2);
 constexpr std::uintmax_t kMaxImageBytes = 1u << 30;
 constexpr std::streamoff kTailBytes = 1024;  // cameras append a few bytes of their own
 
-// `count` bytes at an offset; shorter at the end of the file.
-std::string ReadBytes(std::ifstream& stream, std::streamoff offset, std::streamoff count) {
-  std::string bytes(static_cast<size_t>(count), '\0');
-  stream.clear();
-  stream.seekg(offset);
-  stream.read(bytes.data(), count);
-  bytes.resize(static_cast<size_t>(std::max<std::streamsize>(stream.gcount(), 0)));
-  return bytes;
-}
+// The bytes of an image within its file.
+struct ByteRange {
+  std::istream& stream;
+  std::streamoff begin;
+  std::streamoff size;
+
+  // `count` bytes at an offset; shorter at the end of the range.
+  std::string Read(std::streamoff offset, std::streamoff count) {
+    count = std::clamp<std::streamoff>(size - offset, 0, count);
+    std::string bytes(static_cast<size_t>(count), '\0');
+    stream.clear();
+    stream.seekg(begin + offset);
+    stream.read(bytes.data(), count);
+    bytes.resize(static_cast<size_t>(std::max<std::streamsize>(stream.gcount(), 0)));
+    return bytes;
+  }
+  bool EndsWithMarker(std::streamoff first, std::string_view marker) {
+    const std::streamoff tail = std::max(first, size - kTailBytes);
+    return Read(tail, size - tail).rfind(marker) != std::string::npos;
+  }
+};
 
 uint32_t BigEndian(std::string_view bytes) {
   uint32_t value = 0;
@@ -46,14 +58,8 @@ uint32_t BigEndian(std::string_view bytes) {
   return value;
 }
 
-bool EndsWithMarker(std::ifstream& stream, std::streamoff first, std::streamoff size,
-                    std::string_view marker) {
-  const std::streamoff begin = std::max(first, size - kTailBytes);
-  return ReadBytes(stream, begin, size - begin).rfind(marker) != std::string::npos;
-}
-
-ImageHeader ParsePng(std::ifstream& stream, std::streamoff size) {
-  const std::string bytes = ReadBytes(stream, 0, 26);
+ImageHeader ParsePng(ByteRange range) {
+  const std::string bytes = range.Read(0, 26);
   ImageHeader header;
   if (bytes.size() < 26) return {"is truncated", 0, 0, 0, 0};
   const std::string_view view(bytes);
@@ -63,16 +69,16 @@ ImageHeader ParsePng(std::ifstream& stream, std::streamoff size) {
   constexpr int kChannels[] = {1, 0, 3, 3, 2, 0, 4};  // by PNG colour type
   const int color_type = BigEndian(view.substr(25, 1));
   header.channels = color_type <= 6 ? kChannels[color_type] : 0;
-  if (!EndsWithMarker(stream, 26, size, kPngEnd)) header.defect = "is truncated";
+  if (!range.EndsWithMarker(26, kPngEnd)) header.defect = "is truncated";
   return header;
 }
 
 // Walks over the marker segments up to the frame header (SOF) and the first scan (SOS).
-ImageHeader ParseJpeg(std::ifstream& stream, std::streamoff size) {
+ImageHeader ParseJpeg(ByteRange range) {
   ImageHeader header;
   std::streamoff offset = 2;
   while (true) {
-    const std::string bytes = ReadBytes(stream, offset, 10);
+    const std::string bytes = range.Read(offset, 10);
     if (bytes.size() < 4 || bytes[0] != '\xff') break;
     const std::string_view view(bytes);
     const int marker = BigEndian(view.substr(1, 1));
@@ -85,7 +91,7 @@ ImageHeader ParseJpeg(std::ifstream& stream, std::streamoff size) {
       header.channels = BigEndian(view.substr(9, 1));
     }
     if (marker == 0xda) {
-      if (!EndsWithMarker(stream, offset, size, kJpegEnd)) header.defect = "is truncated";
+      if (!range.EndsWithMarker(offset, kJpegEnd)) header.defect = "is truncated";
       return header;
     }
     offset += marker == 0xff ? 1 : 2 + BigEndian(view.substr(2, 2));
@@ -94,19 +100,16 @@ ImageHeader ParseJpeg(std::ifstream& stream, std::streamoff size) {
   return header;
 }
 
-// Throws where the header tells that the file cannot be decoded; returns it otherwise.
-ImageHeader RequireUsable(const std::filesystem::path& path) {
-  const ImageHeader header = ReadImageHeader(path);
-  if (!header.defect.empty()) {
-    throw Error(ErrorKind::kBadInput, fmt::format("{}: {}; copy it again or remove the frame",
-                                                  path.string(), header.defect));
-  }
-  return header;
+[[noreturn]] void FailDecoding(const std::string& name, const std::string& what) {
+  throw Error(ErrorKind::kBadInput,
+              fmt::format("{}: {}; copy it again or remove the frame", name, what));
 }
 
-[[noreturn]] void FailDecoding(const std::filesystem::path& path, const std::string& what) {
-  throw Error(ErrorKind::kBadInput,
-              fmt::format("{}: {}; copy it again or remove the frame", path.string(), what));
+// Throws where the header tells that the image cannot be decoded; returns it otherwise.
+ImageHeader RequireUsable(const std::filesystem::path& path, const ImagePart& part) {
+  const ImageHeader header = ReadImageHeader(path, part);
+  if (!header.defect.empty()) FailDecoding(ImageName(path, part), header.defect);
+  return header;
 }
 
 // The name of the first chunk of a PNG file whose checksum is wrong; empty where all are right.
@@ -126,10 +129,10 @@ std::string DamagedChunk(std::string_view png) {
   return "";
 }
 
-cv::Mat DecodePng(const std::filesystem::path& path, const std::string& bytes, int flags) {
+cv::Mat DecodePng(const std::string& name, const std::string& bytes, int flags) {
   const std::string chunk = DamagedChunk(bytes);
   if (!chunk.empty()) {
-    FailDecoding(path, fmt::format("is damaged (wrong checksum in its part {})", chunk));
+    FailDecoding(name, fmt::format("is damaged (wrong checksum in its part {})", chunk));
   }
   cv::Mat pixels;
   errno = 0;
@@ -142,47 +145,87 @@ cv::Mat DecodePng(const std::filesystem::path& path, const std::string& bytes, i
   }
   // Nothing else tells that libpng found no memory.
   if (pixels.empty() && errno == ENOMEM) throw std::bad_alloc();
-  if (pixels.empty()) FailDecoding(path, "cannot be decoded");
+  if (pixels.empty()) FailDecoding(name, "cannot be decoded");
   return pixels;
+}
+
+ImageHeader HeaderOf(const ImagePart& part, ByteRange range) {
+  if (IsRaw(part.coding)) {
+    return {RawDefect(part), part.width, part.height, BitsOf(part.coding), ChannelsOf(part.coding)};
+  }
+  const std::string signature = range.Read(0, 8);
+  if (range.size == 0) return {"is empty"};
+  if (signature == kPngSignature) return ParsePng(range);
+  if (signature.starts_with(kJpegSignature)) return ParseJpeg(range);
+  return {part.IsWholeFile() ? "is neither a PNG nor a JPEG file" : "is neither PNG nor JPEG data"};
+}
+
+std::string ReadRange(const std::filesystem::path& path, std::uint64_t offset, std::uint64_t count,
+                      const std::string& name) {
+  if (count > kMaxImageBytes) {
+    FailDecoding(name, fmt::format("has {} bytes; more than {} MiB cannot be an image", count,
+                                   kMaxImageBytes >> 20));
+  }
+  std::ifstream stream = OpenFile(path);
+  std::string bytes(count, '\0');
+  stream.seekg(static_cast<std::streamoff>(offset));
+  stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  if (!stream) FailDecoding(name, "is truncated");
+  return bytes;
 }
 
 }  // namespace
 
-ImageHeader ReadImageHeader(const std::filesystem::path& path) {
-  ImageHeader header;
+ImageHeader ReadImageHeader(const std::filesystem::path& path, const ImagePart& part) {
   std::error_code error;
-  header.defect = ReadingObstacle(path);  // opening a pipe would wait for ever
-  if (!header.defect.empty()) return header;
-  const auto size = static_cast<std::streamoff>(std::filesystem::file_size(path, error));
+  std::string obstacle = ReadingObstacle(path);  // opening a pipe would wait for ever
+  if (!obstacle.empty()) return {obstacle};
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
   errno = 0;
   std::ifstream stream(path, std::ios::binary);
   if (!stream && errno == ENOMEM) throw std::bad_alloc();
-  if (error || !stream) {
-    header.defect = "cannot be read";
-    return header;
-  }
-  const std::string signature = ReadBytes(stream, 0, 8);
-  if (size == 0) {
-    header.defect = "is empty";
-  } else if (signature == kPngSignature) {
-    header = ParsePng(stream, size);
-  } else if (signature.starts_with(kJpegSignature)) {
-    header = ParseJpeg(stream, size);
-  } else {
-    header.defect = "is neither a PNG nor a JPEG file";
-  }
-  return header;
+  if (error || !stream) return {"cannot be read"};
+  if (part.IsWholeFile()) return HeaderOf(part, {stream, 0, static_cast<std::streamoff>(size)});
+  const bool is_packed = part.chunk.packing != Packing::kNone;
+  const std::uint64_t offset = is_packed ? part.chunk.offset : part.offset;
+  const std::uint64_t bytes = is_packed ? part.chunk.bytes : part.bytes;
+  if (offset > size || bytes > size - offset) return {"is truncated"};
+  return HeaderOf(part, {stream, static_cast<std::streamoff>(part.offset),
+                         static_cast<std::streamoff>(part.bytes)});
 }
 
-Image<uint16_t> DecodeDepthImage(const std::filesystem::path& path) {
-  const ImageHeader header = RequireUsable(path);
+bool IsJpeg(const std::filesystem::path& path, const ImagePart& part) {
+  std::ifstream stream(path, std::ios::binary);
+  ByteRange range{stream, static_cast<std::streamoff>(part.offset), 2};
+  return range.Read(0, 2) == kJpegSignature;
+}
+
+std::string ReadImageBytes(const std::filesystem::path& path, const ImagePart& part) {
+  if (part.IsWholeFile()) return ReadFile(path, kMaxImageBytes);
+  const std::string name = ImageName(path, part);
+  if (part.chunk.packing == Packing::kNone) return ReadRange(path, part.offset, part.bytes, name);
+  const PackedChunk& chunk = part.chunk;
+  std::string unpacked;
+  const std::string defect =
+      Unpack(chunk, ReadRange(path, chunk.offset, chunk.bytes, name), unpacked);
+  if (!defect.empty()) FailDecoding(name, "cannot be unpacked: " + defect);
+  if (part.offset > unpacked.size() || part.bytes > unpacked.size() - part.offset) {
+    FailDecoding(name, "is truncated");
+  }
+  return unpacked.substr(part.offset, part.bytes);
+}
+
+Image<uint16_t> DecodeDepthImage(const std::filesystem::path& path, const ImagePart& part) {
+  const ImageHeader header = RequireUsable(path, part);
   if (header.bits != 16 || header.channels != 1) {
     throw Error(ErrorKind::kBadInput,
                 fmt::format("{}: has {} bits and {} channels, depth needs 16 bits and one channel; "
                             "export the depth again as 16-bit PNG",
-                            path.string(), header.bits, header.channels));
+                            ImageName(path, part), header.bits, header.channels));
   }
-  const cv::Mat pixels = DecodePng(path, ReadFile(path, kMaxImageBytes), cv::IMREAD_UNCHANGED);
+  const std::string bytes = ReadImageBytes(path, part);
+  if (IsRaw(part.coding)) return DecodeRawDepth(path, part, bytes);
+  const cv::Mat pixels = DecodePng(ImageName(path, part), bytes, cv::IMREAD_UNCHANGED);
   assert(pixels.type() == CV_16UC1);
   Image<uint16_t> depth(pixels.cols, pixels.rows);
   for (int v = 0; v < pixels.rows; ++v) {
@@ -201,16 +244,19 @@ DepthImage MetricDepth(const Image<uint16_t>& raw, double units_per_metre, int i
   return depth;
 }
 
-ColorImage DecodeColorImage(const std::filesystem::path& path, std::string* remark) {
-  RequireUsable(path);
-  const std::string bytes = ReadFile(path, kMaxImageBytes);
+ColorImage DecodeColorImage(const std::filesystem::path& path, const ImagePart& part,
+                            std::string* remark) {
+  RequireUsable(path, part);
+  const std::string name = ImageName(path, part);
+  const std::string bytes = ReadImageBytes(path, part);
+  if (IsRaw(part.coding)) return DecodeRawColor(part, bytes);
   if (bytes.starts_with(kJpegSignature)) {
     Jpeg jpeg = DecodeJpeg(bytes);
-    if (!jpeg.defect.empty()) FailDecoding(path, fmt::format("is damaged ({})", jpeg.defect));
+    if (!jpeg.defect.empty()) FailDecoding(name, fmt::format("is damaged ({})", jpeg.defect));
     if (remark != nullptr) *remark = jpeg.remark;
     return std::move(jpeg.image);
   }
-  const cv::Mat bgr = DecodePng(path, bytes, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
+  const cv::Mat bgr = DecodePng(name, bytes, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
   ColorImage color(bgr.cols, bgr.rows);
   cv::Mat rgb(bgr.rows, bgr.cols, CV_8UC3, color.data());
   cv::cvtColor(bgr, rgb, cv::COLOR_BGR2RGB);

@@ -34,10 +34,10 @@ void ReportDefects(const Defects& defects, const FindingHandler& on_finding) {
 }
 
 // Adds a header to the survey of its kind; `first` is the first readable header of the kind.
-void Examine(const std::filesystem::path& path, bool is_depth, ImageHeader& first,
-             Defects& defects) {
-  const ImageHeader header = ReadImageHeader(path);
-  const std::string name = path.string();
+void Examine(const std::filesystem::path& path, const ImagePart& part, bool is_depth,
+             ImageHeader& first, Defects& defects) {
+  const ImageHeader header = ReadImageHeader(path, part);
+  const std::string name = ImageName(path, part);
   if (!header.defect.empty()) {
     defects[header.defect + "; copy it again or remove the frame"].push_back(name);
     return;
@@ -87,8 +87,8 @@ ImageSizes SurveyImages(const Sequence& sequence, const FindingHandler& on_findi
   ImageHeader depth;
   ImageHeader color;
   for (const SequenceFrame& frame : sequence.frames) {
-    Examine(frame.depth_path, true, depth, defects);
-    Examine(frame.color_path, false, color, defects);
+    Examine(frame.depth_path, frame.depth_part, true, depth, defects);
+    Examine(frame.color_path, frame.color_part, false, color, defects);
   }
   ReportDefects(defects, on_finding);
   ReportCameraSize("depth", depth, sequence.depth_camera, sequence, on_finding);

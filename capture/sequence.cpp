@@ -18,12 +18,12 @@ namespace {
 constexpr int kDepthScaleFrames = 3;             // looked at when opening
 constexpr double kVideoStep = 20 * kMillimetre;  // cameras in hands move less from frame to frame
 
-void RequireSize(const Sequence& sequence, const std::filesystem::path& path, int width, int height,
+void RequireSize(const Sequence& sequence, const std::string& image, int width, int height,
                  const PinholeCamera& camera) {
   if (width == camera.width && height == camera.height) return;
   throw Error(ErrorKind::kBadInput,
-              fmt::format("{}: is {}x{}, the intrinsics in {} are for {}x{}", path.string(), width,
-                          height, sequence.folder.string(), camera.width, camera.height));
+              fmt::format("{}: is {}x{}, the intrinsics in {} are for {}x{}", image, width, height,
+                          sequence.folder.string(), camera.width, camera.height));
 }
 
 void RequirePlausibleDepth(const Sequence& sequence, const FindingHandler& on_finding) {
@@ -62,8 +62,9 @@ bool IsVideo(const Sequence& sequence) {
 
 DepthImage LoadDepth(const Sequence& sequence, int frame) {
   const SequenceFrame& entry = sequence.frames.at(static_cast<size_t>(frame));
-  const Image<uint16_t> raw = DecodeDepthImage(entry.depth_path);
-  RequireSize(sequence, entry.depth_path, raw.width(), raw.height(), sequence.depth_camera);
+  const Image<uint16_t> raw = DecodeDepthImage(entry.depth_path, entry.depth_part);
+  RequireSize(sequence, ImageName(entry.depth_path, entry.depth_part), raw.width(), raw.height(),
+              sequence.depth_camera);
   DepthImage depth = MetricDepth(raw, sequence.depth_scale, sequence.invalid_depth);
   if (sequence.depth_distortion.IsZero()) return depth;
   return Undistorted(depth, sequence.depth_camera, sequence.depth_distortion);
@@ -71,8 +72,9 @@ DepthImage LoadDepth(const Sequence& sequence, int frame) {
 
 ColorImage LoadColor(const Sequence& sequence, int frame) {
   const SequenceFrame& entry = sequence.frames.at(static_cast<size_t>(frame));
-  ColorImage color = DecodeColorImage(entry.color_path);
-  RequireSize(sequence, entry.color_path, color.width(), color.height(), sequence.color_camera);
+  ColorImage color = DecodeColorImage(entry.color_path, entry.color_part);
+  RequireSize(sequence, ImageName(entry.color_path, entry.color_part), color.width(),
+              color.height(), sequence.color_camera);
   if (sequence.color_distortion.IsZero()) return color;
   return Undistorted(color, sequence.color_camera, sequence.color_distortion);
 }

@@ -5,13 +5,15 @@
 #include <vector>
 
 #include "capture/distortion.h"
+#include "capture/image_part.h"
 #include "kernel/camera.h"
 #include "kernel/geometry.h"
 #include "kernel/image.h"
 
 namespace curvefusion {
 
-/// One frame of a sequence: where its images lie and where the depth camera was.
+/// One frame of a sequence: where its images lie and where the depth camera was. An image is a
+/// file, or the part of a recording.
 struct SequenceFrame {
   std::string name;               ///< what messages call it, e.g. "000012" or "1000.033333"
   double timestamp = 0;           ///< seconds, or the frame number where the format has no times
@@ -19,12 +21,14 @@ struct SequenceFrame {
   std::filesystem::path color_path;
   std::filesystem::path depth_path;
   double color_delay = 0;  ///< seconds from the depth image to the colour image
+  ImagePart color_part;    ///< of color_path: what of it is the image
+  ImagePart depth_part;
 };
 
 /// An RGB-D sequence whose images are decoded when asked for. Open it with OpenSequence.
 struct Sequence {
-  std::string format;  ///< its name in docs/formats_input.md, such as "tum"
-  std::filesystem::path folder;
+  std::string format;            ///< its name in docs/formats_input.md, such as "tum"
+  std::filesystem::path folder;  ///< or the file of a recording
   PinholeCamera depth_camera;
   PinholeCamera color_camera;
   Distortion depth_distortion;  ///< of the images as stored: LoadDepth and LoadColor undo it
@@ -39,6 +43,8 @@ struct Sequence {
   std::vector<std::string> warnings;  ///< what the user should know, a sentence each
 
   int frame_count() const { return static_cast<int>(frames.size()); }
+  /// Whether the images are parts of a file.
+  bool IsRecording() const { return !frames.empty() && !frames[0].depth_part.IsWholeFile(); }
 };
 
 /// What becomes of the poses of a sequence.
@@ -48,10 +54,10 @@ enum class PoseUse {
   kIgnored,  ///< every frame with both images is there, Sequence::has_poses is false
 };
 
-/// Detects the format of a folder (docs/formats_input.md) and
-/// reads everything but the images, of which it looks at the headers and at the depths of a few
-/// frames. Throws Error(kBadInput) naming file, line or frame, value and remedy at the first defect
-/// that would spoil a reconstruction; capture/check.h finds all of them. Well under a second.
+/// Detects the format of a folder or a recording in one file (docs/formats_input.md) and reads
+/// everything but the images, of which it looks at the headers and at the depths of a few frames.
+/// Throws Error(kBadInput) naming file, line or frame, value and remedy at the first defect that
+/// would spoil a reconstruction; capture/check.h finds all of them. Well under a second.
 Sequence OpenSequence(const std::filesystem::path& folder, PoseUse use = PoseUse::kNeeded);
 
 /// Whether three quarters of the frames are as near to the next as those of a camera in a moving

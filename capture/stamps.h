@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "capture/finding.h"
@@ -33,5 +34,12 @@ void SortByStamp(const std::string& file, const StampOf& stamp_of, const Finding
                    file, stamp_of(*duplicate))});
   entries.erase(std::unique(entries.begin(), entries.end(), same), entries.end());
 }
+
+/// Pairs each image with at most one of the other list, the smallest differences first: places of
+/// depth and colour in lists of rising stamps (seconds), in the order of depth, no farther apart
+/// than `tolerance`.
+std::vector<std::pair<size_t, size_t>> AssociateStamps(const std::vector<double>& depth,
+                                                       const std::vector<double>& color,
+                                                       double tolerance);
 
 }  // namespace curvefusion

@@ -20,7 +20,7 @@ write_basic_package_version_file("${PROJECT_BINARY_DIR}/curvefusionConfigVersion
 install(FILES "${PROJECT_BINARY_DIR}/curvefusionConfig.cmake"
               "${PROJECT_BINARY_DIR}/curvefusionConfigVersion.cmake"
               cmake/CurveFusionDependencies.cmake cmake/FindCHOLMOD.cmake cmake/FindDxflib.cmake
-              cmake/FindLib3MF.cmake
+              cmake/FindLZ4.cmake cmake/FindLib3MF.cmake
               cmake/FindOpenCVImage.cmake
         DESTINATION "${curvefusion_cmake_dir}" COMPONENT development)
 

@@ -152,7 +152,7 @@ void BindSequenceClass(py::module_& module) {
       .def_property_readonly("frame_count", &Sequence::frame_count)
       .def_property_readonly("folder", [](const Sequence& s) { return s.folder; })
       .def_readonly("format", &Sequence::format,
-                    "'tum', 'per-frame poses', 'redwood' or '7-scenes'.")
+                    "'tum', 'per-frame poses', 'sens' and so on: docs/formats_input.md.")
       .def_readonly("depth_camera", &Sequence::depth_camera)
       .def_readonly("color_camera", &Sequence::color_camera)
       .def_property_readonly(
@@ -177,7 +177,7 @@ is opened without.
 Parameters
 ----------
 folder : path
-    One of the layouts of docs/formats_input.md.
+    One of the layouts of docs/formats_input.md, or a recording in one file.
 
 Returns
 -------

@@ -77,6 +77,12 @@ void PrintFindings(const CheckReport& report) {
   if (report.findings.empty()) fmt::print("nothing is wrong with this sequence\n");
 }
 
+const char* AboutImages(const SequenceCorrection& correction) {
+  if (correction.sequence.IsRecording()) return "; its images are copies";
+  return correction.swap_bytes ? "; its depth images are written anew, colour is linked"
+                               : "; its images are links";
+}
+
 // Writes the corrected copy and checks it; the exit code is that of the copy.
 int Repair(const CheckArguments& arguments, const CheckReport& report) {
   const bool prints = !arguments.run.quiet && !arguments.json;
@@ -90,8 +96,7 @@ int Repair(const CheckArguments& arguments, const CheckReport& report) {
   if (prints) {
     fmt::print("\nWrote {} with {} frames ({}){}\n", arguments.repaired.string(),
                correction.sequence.frames.size(), fmt::join(correction.made, "; "),
-               correction.swap_bytes ? "; its depth images are written anew, colour is linked"
-                                     : "; its images are links");
+               AboutImages(correction));
     PrintGeometry(repaired.geometry);
     PrintFindings(repaired);
   }
@@ -121,7 +126,8 @@ void AddCheckCommand(CLI::App& app, int& exit_code) {
   CLI::App* command =
       app.add_subcommand("check", "Tell what is wrong with a sequence before it is reconstructed");
   const auto arguments = std::make_shared<CheckArguments>();
-  command->add_option("SEQUENCE", arguments->sequence, "Folder of the sequence")->required();
+  command->add_option("SEQUENCE", arguments->sequence, "Folder of the sequence, or its recording")
+      ->required();
   command->add_option("--repair", arguments->repaired,
                       "Folder for a corrected copy where poses, depth unit, clocks or order are "
                       "wrong; its images are links");

@@ -72,7 +72,8 @@ void AddReconstructCommand(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand(
       "reconstruct", "Turn an RGB-D sequence into a curve skeleton and a tube mesh");
   const auto arguments = std::make_shared<ReconstructArguments>();
-  command->add_option("SEQUENCE", arguments->sequence, "Folder of the sequence")->required();
+  command->add_option("SEQUENCE", arguments->sequence, "Folder of the sequence, or its recording")
+      ->required();
   command
       ->add_option("-o,--output", arguments->output,
                    "Folder for skeleton.json, trajectory.txt, mesh.ply, preview.png, report.html, "

@@ -113,7 +113,8 @@ void AddTrackCommand(CLI::App& app, int& exit_code) {
   CLI::App* command =
       app.add_subcommand("track", "Find the camera poses of a sequence from depth and colour");
   const auto arguments = std::make_shared<TrackArguments>();
-  command->add_option("SEQUENCE", arguments->sequence, "Folder of the sequence")->required();
+  command->add_option("SEQUENCE", arguments->sequence, "Folder of the sequence, or its recording")
+      ->required();
   command
       ->add_option("-o,--output", arguments->output,
                    "File for the poses: lines 't tx ty tz qx qy qz qw' (TUM), camera in world")

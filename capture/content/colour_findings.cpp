@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "capture/content/geometry_messages.h"
+
 namespace curvefusion {
 
 std::string DescribeColourCamera(const ColourCameraFit& fit) {
@@ -35,14 +37,14 @@ std::string ColourCameraJson(const PinholeCamera& color_camera,
 void ReportColourCamera(const Sequence& sequence, const ColourCameraFit& fit,
                         const FindingHandler& on_finding) {
   if (!fit.IsMisregistered()) return;
-  on_finding({Severity::kWarning,
-              fmt::format("{}: {}; wires are looked for in the wrong place of the images and most "
-                          "are lost; `reconstruct` uses the fitted camera unless told otherwise; "
-                          "in {} write: {}",
-                          sequence.folder.string(), DescribeColourCamera(fit),
-                          sequence.format == "redwood" ? "intrinsic.json" : "intrinsics.json",
-                          ColourCameraJson(fit.color_camera, fit.T_color_depth)),
-              "colour-misregistered"});
+  on_finding(
+      {Severity::kWarning,
+       fmt::format("{}: {}; wires are looked for in the wrong place of the images and most "
+                   "are lost; `reconstruct` uses the fitted camera unless told otherwise; "
+                   "in {} write: {}",
+                   sequence.folder.string(), DescribeColourCamera(fit), IntrinsicsFile(sequence),
+                   ColourCameraJson(fit.color_camera, fit.T_color_depth)),
+       "colour-misregistered"});
 }
 
 bool UseFittedColourCamera(Sequence& sequence) {

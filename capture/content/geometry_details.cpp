@@ -162,7 +162,9 @@ void MoveColor(const Sequence& sequence, int delay, SequenceCorrection& correcti
   const int count = sequence.frame_count();
   for (int i = std::max(0, -delay); i < count && i + delay < count; ++i) {
     moved.push_back(sequence.frames[static_cast<size_t>(i)]);
-    moved.back().color_path = sequence.frames[static_cast<size_t>(i + delay)].color_path;
+    const SequenceFrame& other = sequence.frames[static_cast<size_t>(i + delay)];
+    moved.back().color_path = other.color_path;
+    moved.back().color_part = other.color_part;
   }
   correction.sequence.frames = std::move(moved);
   correction.made.push_back(fmt::format("colour images moved by {} frames", -delay));

@@ -19,11 +19,8 @@ std::string PoseFiles(const Sequence& sequence) {
   if (sequence.format == "redwood") return "trajectory.log";
   if (sequence.format == "7-scenes") return "frame-*.pose.txt";
   if (sequence.format == "tum") return "the trajectory";
+  if (sequence.format == "sens") return "the recording";
   return "pose/*.txt";
-}
-
-std::string IntrinsicsFile(const Sequence& sequence) {
-  return sequence.format == "redwood" ? "intrinsic.json" : "intrinsics.json";
 }
 
 double MedianDepth(const MisfitEvidence& evidence) {
@@ -136,6 +133,11 @@ void Apply(const ScaleChoice& choice, const MisfitEvidence& evidence, Misfit& mi
 }
 
 }  // namespace
+
+std::string IntrinsicsFile(const Sequence& sequence) {
+  if (sequence.format == "redwood") return "intrinsic.json";
+  return sequence.IsRecording() ? "the intrinsics.json of a copy" : "intrinsics.json";
+}
 
 Misfit DescribeMisfit(const Sequence& sequence, const MisfitEvidence& evidence,
                       const PoseSearch& search) {

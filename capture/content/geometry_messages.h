@@ -16,6 +16,9 @@ struct Misfit {
   double depth_scale = 0;  ///< right one
 };
 
+/// What messages call the file that holds a sequence's cameras.
+std::string IntrinsicsFile(const Sequence& sequence);
+
 /// Puts an explanation into words, with figures as given and as they would be. Decides between
 /// translations and depth where their scales do not fit each other. `search.best` must be there.
 Misfit DescribeMisfit(const Sequence& sequence, const MisfitEvidence& evidence,

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <utility>
+#include <vector>
 
 #include "capture/image_file.h"
 #include "capture/trajectory.h"
@@ -30,18 +32,45 @@ void Link(const fs::path& image, const fs::path& link) {
                                                 image.string(), error.message()));
 }
 
-void WriteSwappedDepth(const fs::path& image, const fs::path& copy) {
-  Image<uint16_t> depth = DecodeDepthImage(image);
-  for (size_t i = 0; i < depth.size(); ++i) {
+void WriteBytes(const fs::path& path, const void* bytes, size_t size) {
+  WriteStreamAtomically(path, [&](std::ostream& stream) {
+    stream.write(static_cast<const char*>(bytes), static_cast<std::streamsize>(size));
+  });
+}
+
+void WritePng(const fs::path& path, const cv::Mat& pixels) {
+  std::vector<uint8_t> bytes;
+  cv::imencode(".png", pixels, bytes);
+  WriteBytes(path, bytes.data(), bytes.size());
+}
+
+void WriteDepth(const SequenceFrame& frame, bool swap_bytes, const fs::path& copy) {
+  if (frame.depth_part.IsWholeFile() && !swap_bytes) return Link(frame.depth_path, copy);
+  Image<uint16_t> depth = DecodeDepthImage(frame.depth_path, frame.depth_part);
+  for (size_t i = 0; swap_bytes && i < depth.size(); ++i) {
     const uint16_t value = depth.data()[i];
     depth.data()[i] = static_cast<uint16_t>((value << 8) | (value >> 8));
   }
-  std::vector<uint8_t> bytes;
-  cv::imencode(".png", cv::Mat(depth.height(), depth.width(), CV_16UC1, depth.data()), bytes);
-  WriteStreamAtomically(copy, [&](std::ostream& stream) {
-    stream.write(reinterpret_cast<const char*>(bytes.data()),
-                 static_cast<std::streamsize>(bytes.size()));
-  });
+  WritePng(copy, cv::Mat(depth.height(), depth.width(), CV_16UC1, depth.data()));
+}
+
+void WriteColor(const SequenceFrame& frame, const fs::path& copy) {
+  if (frame.color_part.IsWholeFile()) return Link(frame.color_path, copy);
+  if (!IsRaw(frame.color_part.coding)) {
+    const std::string bytes = ReadImageBytes(frame.color_path, frame.color_part);
+    return WriteBytes(copy, bytes.data(), bytes.size());
+  }
+  ColorImage color = DecodeColorImage(frame.color_path, frame.color_part);
+  for (size_t i = 0; i < color.size(); ++i) std::swap(color.data()[i][0], color.data()[i][2]);
+  WritePng(copy, cv::Mat(color.height(), color.width(), CV_8UC3, color.data()));
+}
+
+// With its dot. Parts of recordings are written as they are coded.
+std::string ColorExtension(const SequenceFrame& frame) {
+  if (frame.color_part.IsWholeFile()) return frame.color_path.extension().string();
+  const bool is_jpeg =
+      !IsRaw(frame.color_part.coding) && IsJpeg(frame.color_path, frame.color_part);
+  return is_jpeg ? ".jpg" : ".png";
 }
 
 ordered_json CameraJson(const PinholeCamera& camera) {
@@ -51,7 +80,9 @@ ordered_json CameraJson(const PinholeCamera& camera) {
 
 ordered_json LensJson(const PinholeCamera& camera, const Distortion& d) {
   ordered_json lens = CameraJson(camera);
-  if (!d.IsZero()) lens["distortion"] = {d.k1, d.k2, d.p1, d.p2, d.k3};
+  if (d.IsZero()) return lens;
+  lens["distortion"] = {d.k1, d.k2, d.p1, d.p2, d.k3};
+  if (d.IsRational()) lens["distortion"].insert(lens["distortion"].end(), {d.k4, d.k5, d.k6});
   return lens;
 }
 
@@ -77,7 +108,7 @@ struct Layout {
   bool is_seven_scenes = false;
 
   fs::path Color(const SequenceFrame& frame) const {
-    const std::string extension = frame.color_path.extension().string();
+    const std::string extension = ColorExtension(frame);
     if (is_tum) return "rgb" / frame.color_path.filename();
     return is_seven_scenes ? frame.name + ".color" + extension : "color/" + frame.name + extension;
   }
@@ -106,13 +137,11 @@ void WriteImages(const SequenceCorrection& correction, const Layout& layout,
   for (const SequenceFrame& frame : correction.sequence.frames) {
     fs::create_directories((folder / layout.Color(frame)).parent_path());
     fs::create_directories((folder / layout.Depth(frame)).parent_path());
-    Link(frame.color_path, folder / layout.Color(frame));
-    if (!correction.swap_bytes) Link(frame.depth_path, folder / layout.Depth(frame));
   }
-  if (!correction.swap_bytes) return;
   ParallelFor(0, static_cast<int64_t>(correction.sequence.frames.size()), 1, [&](int64_t i) {
     const SequenceFrame& frame = correction.sequence.frames[static_cast<size_t>(i)];
-    WriteSwappedDepth(frame.depth_path, folder / layout.Depth(frame));
+    WriteColor(frame, folder / layout.Color(frame));
+    WriteDepth(frame, correction.swap_bytes, folder / layout.Depth(frame));
   });
 }
 

@@ -81,8 +81,9 @@ Thumbnails DepthThumbnails(const Sequence& sequence, const std::vector<int>& fra
   ParallelFor(0, static_cast<int64_t>(frames.size()), 1, [&](int64_t i) {
     const auto frame = static_cast<size_t>(frames[static_cast<size_t>(i)]);
     try {
+      const SequenceFrame& entry = sequence.frames[frame];
       thumbnails.depth[frame] =
-          ShrunkDepth(sequence, DecodeDepthImage(sequence.frames[frame].depth_path));
+          ShrunkDepth(sequence, DecodeDepthImage(entry.depth_path, entry.depth_part));
     } catch (const Error&) {
       thumbnails.depth[frame] = {};
     }

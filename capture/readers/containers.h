@@ -5,9 +5,8 @@
 
 namespace curvefusion {
 
-/// What a recording in one file is (.sens, .r3d, .mkv, .bag), which is not read, and how to export
-/// it to a layout that is: "a recording of ...; export it with ...". Empty for other files, told by
-/// their names.
+/// What a recording in one file is that is not read (.r3d), and how to export it to a layout
+/// that is: "a recording of ...; export it with ...". Empty for other files, told by their names.
 std::string ExportRemedy(const std::filesystem::path& file);
 
 }  // namespace curvefusion

@@ -82,4 +82,48 @@ Sequence ReadStrayScanner(const std::filesystem::path& folder, const FindingHand
 Sequence ReadStrayScannerImages(const std::filesystem::path& folder,
                                 const FindingHandler& on_finding);
 
+/// Whether a file is named like a recording of BundleFusion or ScanNet (.sens).
+bool IsSens(const std::filesystem::path& file);
+
+/// Whether any frame of it has a pose other than the identity. Throws Error(kBadInput) for what is
+/// none.
+bool HasSensPoses(const std::filesystem::path& file);
+
+/// A .sens file of version 4. Its images are parts of the file; depth compressed by Occipital's
+/// codec is refused. Poses are those of the depth camera; where both matrices of extrinsics are not
+/// the identity, T_color_depth leads over the base frame of the recording. Reads the frames' heads,
+/// not the images: a seek a frame.
+Sequence ReadSens(const std::filesystem::path& file, const FindingHandler& on_finding);
+Sequence ReadSensImages(const std::filesystem::path& file, const FindingHandler& on_finding);
+
+/// Whether a file is named like a ROS bag (.bag), as RealSense cameras are recorded.
+bool IsBag(const std::filesystem::path& file);
+
+/// Never: RealSense cameras record none.
+bool HasBagPoses(const std::filesystem::path& file);
+
+/// A ROS bag of RealSense's SDK: the first depth and the first colour camera, paired by their
+/// stamps within 20 ms, or, where these are of two clocks, by the times of the recorder.
+/// Intrinsics, lens, extrinsics and depth unit are the recorded ones; where extrinsics or unit are
+/// missing, a warning says what is assumed. Reads all messages but the pixels of images that are
+/// not packed.
+Sequence ReadRealSenseImages(const std::filesystem::path& file, const FindingHandler& on_finding);
+
+/// Throws Error(kBadInput): there are no poses.
+Sequence ReadRealSense(const std::filesystem::path& file, const FindingHandler& on_finding);
+
+/// Whether a file is named like a Matroska video (.mkv), as Azure Kinect records.
+bool IsMkv(const std::filesystem::path& file);
+
+/// Never: Azure Kinect records none.
+bool HasMkvPoses(const std::filesystem::path& file);
+
+/// A recording of Azure Kinect's recorder: the tracks DEPTH (b16g) and COLOR (MJPG or BGRA),
+/// cameras and lenses of the attached calibration.json, cut to the modes that the sizes of the
+/// images tell.
+Sequence ReadAzureKinectImages(const std::filesystem::path& file, const FindingHandler& on_finding);
+
+/// Throws Error(kBadInput): there are no poses.
+Sequence ReadAzureKinect(const std::filesystem::path& file, const FindingHandler& on_finding);
+
 }  // namespace curvefusion

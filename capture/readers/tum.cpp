@@ -4,7 +4,6 @@
 #include <cmath>
 #include <iterator>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "capture/readers/frame_assembly.h"
@@ -61,33 +60,16 @@ std::vector<StampedImage> ReadImageList(const std::filesystem::path& list,
   return images;
 }
 
-// Pairs each image with at most one of the other list, the smallest differences first.
 std::vector<ImagePair> Associate(const std::vector<StampedImage>& color,
                                  const std::vector<StampedImage>& depth) {
-  std::vector<std::tuple<double, size_t, size_t>> candidates;  // difference, depth, colour
-  size_t first = 0;
-  for (size_t d = 0; d < depth.size(); ++d) {
-    while (first < color.size() &&
-           color[first].timestamp < depth[d].timestamp - kAssociationTolerance) {
-      ++first;
-    }
-    for (size_t c = first; c < color.size(); ++c) {
-      if (color[c].timestamp > depth[d].timestamp + kAssociationTolerance) break;
-      candidates.emplace_back(std::abs(color[c].timestamp - depth[d].timestamp), d, c);
-    }
-  }
-  std::sort(candidates.begin(), candidates.end());
-  constexpr size_t kFree = static_cast<size_t>(-1);
-  std::vector<size_t> color_of_depth(depth.size(), kFree);
-  std::vector<bool> is_taken(color.size(), false);
-  for (const auto& [difference, d, c] : candidates) {
-    if (color_of_depth[d] != kFree || is_taken[c]) continue;
-    color_of_depth[d] = c;
-    is_taken[c] = true;
-  }
+  const auto stamps = [](const std::vector<StampedImage>& images) {
+    std::vector<double> times;
+    for (const StampedImage& image : images) times.push_back(image.timestamp);
+    return times;
+  };
   std::vector<ImagePair> pairs;
-  for (size_t d = 0; d < depth.size(); ++d) {
-    if (color_of_depth[d] != kFree) pairs.push_back({color[color_of_depth[d]], depth[d]});
+  for (const auto& [d, c] : AssociateStamps(stamps(depth), stamps(color), kAssociationTolerance)) {
+    pairs.push_back({color[c], depth[d]});
   }
   return pairs;
 }

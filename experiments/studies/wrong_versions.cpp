@@ -99,6 +99,7 @@ Mistake DelayColor(int frames) {
       if (other < 0 || other >= static_cast<int>(right.size())) continue;
       scan.sequence.frames.push_back(right[static_cast<size_t>(i)]);
       scan.sequence.frames.back().color_path = right[static_cast<size_t>(other)].color_path;
+      scan.sequence.frames.back().color_part = right[static_cast<size_t>(other)].color_part;
     }
   };
 }

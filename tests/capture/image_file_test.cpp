@@ -152,7 +152,7 @@ TEST_F(ImageFileTest, BytesBetweenMarkersAreARemark) {
   bytes.insert(bytes.rfind("\xff\xd9"), std::string(40, 'a'));  // more than is read ahead
   WriteText(Path("c.jpg"), bytes);
   std::string remark;
-  DecodeColorImage(Path("c.jpg"), &remark);
+  DecodeColorImage(Path("c.jpg"), {}, &remark);
   EXPECT_THAT(remark, HasSubstr("extraneous bytes before marker"));
 }
 

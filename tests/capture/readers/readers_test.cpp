@@ -494,19 +494,12 @@ TEST_F(StrayScanner, NamesWhatIsWrong) {
 
 TEST(Containers, AreNamedWithTheWayToExportThem) {
   TemporaryFolder folder;
-  const std::vector<std::pair<std::string, std::string>> cases = {
-      {"scan.sens", "SensReader"},
-      {"scan.r3d", "transforms.json"},
-      {"scan.mkv", "azure_kinect_mkv_reader.py"},
-      {"scan.bag", "RGBDVideoReader"}};
-  for (const auto& [name, words] : cases) {
-    WriteText(folder.path() / name, "content");
-    EXPECT_THAT(OpenError(folder.path() / name), AllOf(HasSubstr(name), HasSubstr(words)));
-    const CheckReport report = CheckSequence(folder.path(), NoProgress);  // also in a folder
-    ASSERT_EQ(report.findings.size(), 1u);
-    EXPECT_THAT(report.findings[0].message, AllOf(HasSubstr(name), HasSubstr(words)));
-    fs::remove(folder.path() / name);
-  }
+  WriteText(folder.path() / "scan.r3d", "content");
+  const auto names_it = AllOf(HasSubstr("scan.r3d"), HasSubstr("transforms.json"));
+  EXPECT_THAT(OpenError(folder.path() / "scan.r3d"), names_it);
+  const CheckReport report = CheckSequence(folder.path(), NoProgress);  // also in a folder
+  ASSERT_EQ(report.findings.size(), 1u);
+  EXPECT_THAT(report.findings[0].message, names_it);
 }
 
 }  // namespace

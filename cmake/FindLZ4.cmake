@@ -1,0 +1,10 @@
+# Debian's liblz4 ships a pkg-config file but no CMake config.
+find_path(LZ4_INCLUDE_DIR lz4frame.h)
+find_library(LZ4_LIBRARY lz4)
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(LZ4 REQUIRED_VARS LZ4_LIBRARY LZ4_INCLUDE_DIR)
+if(LZ4_FOUND AND NOT TARGET LZ4::LZ4)
+  add_library(LZ4::LZ4 INTERFACE IMPORTED)
+  target_include_directories(LZ4::LZ4 SYSTEM INTERFACE "${LZ4_INCLUDE_DIR}")
+  target_link_libraries(LZ4::LZ4 INTERFACE "${LZ4_LIBRARY}")
+endif()

@@ -1,0 +1,18 @@
+#include "capture/image_file.h"
+#include "capture/readers/readers.h"
+#include "tests/fuzz/fuzz_target.h"
+
+using namespace curvefusion;
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  static const InputFolder folder;
+  const auto file = folder.Write("input.mkv", Text(data, size));
+  AcceptErrors([&] {
+    for (const SequenceFrame& frame :
+         ReadAzureKinectImages(file, [](const CheckFinding&) {}).frames) {
+      AcceptErrors([&] { DecodeDepthImage(frame.depth_path, frame.depth_part); });
+      AcceptErrors([&] { DecodeColorImage(frame.color_path, frame.color_part); });
+    }
+  });
+  return 0;
+}
