@@ -60,11 +60,12 @@ double StripResidual(const CurvePoseProblem& problem, const CurvePoseState& stat
 
 /// One Gauss-Newton step from `state` for the sum of squares of strips (sigma .5 px, by their edges
 /// 1.5 px, Huber beyond `huber_px`), depths and their middles (8 px), second differences of
-/// vertices in a row (.3 mm), distances from the start (vertices 12 mm; poses 5 mm and .3 degrees,
-/// .8 mm and .05 degrees where they jitter) and, in a video, changes of a pose's correction from frame to frame (.8 mm and .04 degrees times
-/// the square root of the gap), whose first frame is held. Vertices are eliminated by a sparse
-/// factorisation; the dense Schur complement of the 6 unknowns of each frame remains. Cost:
-/// vertices times frames squared.
+/// vertices in a row across the curve (.3 mm), changes of distances of neighbours in rows (1 mm),
+/// distances from the start (vertices 12 mm; poses 5 mm and .3 degrees, .8 mm and .05 degrees where
+/// they jitter) and, in a video, changes of a pose's correction from frame to frame (.8 mm and .04
+/// degrees times the square root of the gap), whose first frame is held. Vertices are eliminated by
+/// a sparse factorisation; the dense Schur complement of the 6 unknowns of each frame remains.
+/// Cost: vertices times frames squared.
 CurvePoseState ImproveCurvesAndPoses(const CurvePoseProblem& problem, const CurvePoseState& state,
                                      double huber_px);
 

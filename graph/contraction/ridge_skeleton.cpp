@@ -138,6 +138,7 @@ SkeletonGraph ExtractRidgeSkeleton(const ObservedPoints& points, const RidgeOpti
 }
 
 void TidyRidgeSkeleton(SkeletonGraph& graph, const RidgeOptions& options) {
+  MergeHubs(graph, options.junctions);
   DropShortLoops(graph, options.network.min_loop);
   PruneSpurs(graph, options.network.min_spur);
   DropSmallComponents(graph, options.min_component);

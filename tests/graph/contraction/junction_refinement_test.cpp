@@ -136,6 +136,51 @@ TEST(RefineJunctions, ParallelBranchesKeepTheirJunction) {
   EXPECT_LT(graph.position(node).norm(), 2e-3);
 }
 
+// A hub of eight ribs that came out as two junctions 10 mm apart.
+TEST(MergeHubs, PartsOfAHubBecomeOne) {
+  SkeletonGraph graph;
+  const NodeId a = graph.AddNode({-0.005, 0.001, 0});
+  const NodeId b = graph.AddNode({0.005, 0, 0.001});
+  Connect(graph, a, b, StraightLine(graph.position(a), graph.position(b)));
+  for (int rib = 0; rib < 8; ++rib) {
+    const Vec3 direction = InPlane((rib + 0.5) * M_PI / 4);
+    AddArm(graph, direction.x() < 0 ? a : b, Vec3::Zero(), direction, 0.08);
+  }
+  MergeHubs(graph, {});
+  ASSERT_EQ(Junctions(graph).size(), 1U);
+  EXPECT_EQ(graph.Degree(Junctions(graph)[0]), 8);
+  EXPECT_LT(graph.position(Junctions(graph)[0]).norm(), 0.1e-3);
+  EXPECT_NO_THROW(Validate(graph, 1e-6, "merged graph"));
+}
+
+// Pairs of ribs on a bar 10 mm apart: four lines that miss one point by 5 mm.
+TEST(MergeHubs, JunctionsNextToEachOtherStay) {
+  SkeletonGraph graph;
+  const NodeId a = graph.AddNode({-0.005, 0, 0});
+  const NodeId b = graph.AddNode({0.005, 0, 0});
+  Connect(graph, a, b, StraightLine(graph.position(a), graph.position(b)));
+  AddArm(graph, a, graph.position(a), -Vec3::UnitX());
+  AddArm(graph, a, graph.position(a), Vec3::UnitY());
+  AddArm(graph, b, graph.position(b), Vec3::UnitX());
+  AddArm(graph, b, graph.position(b), Vec3::UnitY());
+  MergeHubs(graph, {});
+  EXPECT_EQ(Junctions(graph).size(), 2U);
+}
+
+// Two lines always nearly meet; nothing tells that the two forks are one junction.
+TEST(MergeHubs, TooFewLinesTellNothing) {
+  SkeletonGraph graph;
+  const NodeId a = graph.AddNode({-0.004, 0, 0});
+  const NodeId b = graph.AddNode({0.004, 0, 0});
+  Connect(graph, a, b, StraightLine(graph.position(a), graph.position(b)));
+  AddArm(graph, a, Vec3::Zero(), InPlane(0.75 * M_PI));
+  AddArm(graph, a, Vec3::Zero(), InPlane(1.25 * M_PI), 0.011);
+  AddArm(graph, b, Vec3::Zero(), InPlane(0.25 * M_PI), 0.011);
+  AddArm(graph, b, Vec3::Zero(), InPlane(1.75 * M_PI));
+  MergeHubs(graph, {});
+  EXPECT_EQ(Junctions(graph).size(), 2U);
+}
+
 TEST(RefineJunctions, CurvesWithoutJunctionsAreLeftAlone) {
   SkeletonGraph graph;
   graph.AddPolyline(Helix(0.05, 0.04, 2));
