@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <numbers>
 #include <tuple>
 #include <utility>
 
 #include "kernel/disjoint_sets.h"
 #include "kernel/geometry.h"
 #include "meshing/hashed_number.h"
+#include "meshing/junction_resampling.h"
 #include "meshing/junction_union.h"
 #include "meshing/junction_wrap.h"
 #include "meshing/self_intersections.h"
@@ -25,12 +27,25 @@ constexpr double kMinEdge = 0.06;
 constexpr double kMinHeight = 0.02;
 constexpr double kZoneRadius = 0.2;
 constexpr double kTinyHollow = 0.05;  // across; radii larger by a fortieth close it
+// Likewise where tubes were resampled: on a grid gaps between them come apart in hollows.
+constexpr double kResampledHollow = 2.0;
 
-constexpr int kCleaningRounds = 7;
 // A crowded junction has so many creases that some place fails in nearly every attempt, and an
-// attempt takes long: a planar fan of 50 tubes fails in 24 of 24. Up to this many tubes it has all
-// its attempts, beyond it fewer, so that their product stays the same, and then it is wrapped.
+// attempt takes long: a planar fan of 50 tubes fails in 24 of 24. Up to kUncrowded tubes it has all
+// its attempts, beyond it fewer, so that their product stays the same, and then the last resort.
 constexpr int kUncrowded = 16;
+constexpr int kCleaningRounds = 7;
+// From so many tubes on, where they are not short, it has one attempt only, without exact
+// constructions, and few rounds: what comes out at all does so then (200 tubes of random
+// directions), and the rest would take a minute.
+constexpr int kVeryCrowded = 40;
+constexpr int kFewRounds = 2;
+// Radii: so many tubes that overlap for so long in the mean never come out (73 to 146 where 100 to
+// 200 meet in a plane or on a cone; below 40 where they are spread over the sphere).
+constexpr double kLongOverlap = 60;
+// Squared radii of all tubes: larger junctions are resampled, smaller ones wrapped. Chosen:
+// wrapping so much takes about 3 s, fans of 39 to 200 tubes, several times as large, 10 to 110 s.
+constexpr double kMostWrapped = 4000;
 constexpr std::array<double, 5> kZoneFactors = {0.3, 0.03, 0.7, 0.1, 0.01};
 
 using Place = std::tuple<float, float, float>;
@@ -138,10 +153,32 @@ class ZoneList {
   std::vector<Zone> zones_;
 };
 
+// Of all stubs, in squared radii.
+double AreaOf(const Junction& junction) {
+  double area = 0;
+  for (const TriangleMesh& stub : junction.stubs) {
+    for (const auto& [a, b, c] : stub.triangles) {
+      const Vec3f& p = stub.vertices[a];
+      area += 0.5 * (stub.vertices[b] - p).cross(stub.vertices[c] - p).norm();
+    }
+  }
+  return area / (junction.radius * junction.radius);
+}
+
+// In radii.
+double MeanLength(const Junction& junction) {
+  return AreaOf(junction) / (2 * std::numbers::pi * static_cast<double>(junction.stubs.size()));
+}
+
+bool IsVeryCrowded(const Junction& junction) {
+  return junction.stubs.size() >= kVeryCrowded && AreaOf(junction) >= kMostWrapped;
+}
+
 // Cleans a union until nothing collides.
 std::optional<TriangleMesh> CleanSoundly(const UnionMesh& united, const Junction& junction) {
   ZoneList zones(kZoneRadius * junction.radius);
-  for (int round = 0; round < kCleaningRounds; ++round) {
+  const int rounds = IsVeryCrowded(junction) ? kFewRounds : kCleaningRounds;
+  for (int round = 0; round < rounds; ++round) {
     std::optional<TriangleMesh> clean =
         CleanUnion(united, junction.cut_rings,
                    {kMinEdge * junction.radius, kMinHeight * junction.radius, zones.Zones()});
@@ -181,20 +218,32 @@ void CloseTinyHollows(UnionMesh& united, double size) {
 
 // What is left to do for the union of a junction's stubs.
 std::optional<TriangleMesh> Finished(std::optional<UnionMesh> united, const Junction& junction,
-                                     const std::map<Place, int>& rings) {
+                                     const std::map<Place, int>& rings, double tiny_hollow) {
   if (!united) return std::nullopt;
-  CloseTinyHollows(*united, kTinyHollow * junction.radius);
+  CloseTinyHollows(*united, tiny_hollow * junction.radius);
   Roughen(*united, kSurfaceRoughness * junction.radius, rings);
   std::optional<TriangleMesh> clean = CleanSoundly(*united, junction);
   if (!clean) return std::nullopt;
   return OpenAtCutRings(std::move(*clean), junction, rings);
 }
 
-JunctionMeshOptions WithinBudget(const JunctionMeshOptions& options, size_t stubs) {
-  const int count = static_cast<int>(stubs);
+JunctionMeshOptions WithinBudget(const JunctionMeshOptions& options, const Junction& junction) {
+  const int count = static_cast<int>(junction.stubs.size());
   if (count <= kUncrowded) return options;
-  return {std::max(std::min(options.max_attempts, 1), options.max_attempts * kUncrowded / count),
-          true};
+  const int one = std::min(options.max_attempts, 1);
+  if (IsVeryCrowded(junction)) return {MeanLength(junction) < kLongOverlap ? one : 0, true};
+  return {std::max(one, options.max_attempts * kUncrowded / count), true};
+}
+
+void TakeLastResort(const Junction& junction, const std::map<Place, int>& rings,
+                    JunctionMesh& result) {
+  if (AreaOf(junction) < kMostWrapped) {
+    result.surface = Finished(WrapJunction(junction), junction, rings, kTinyHollow);
+    result.last_resort = LastResort::kWrapping;
+  } else {
+    result.surface = Finished(ResampleJunction(junction), junction, rings, kResampledHollow);
+    result.last_resort = LastResort::kResampling;
+  }
 }
 
 }  // namespace
@@ -202,16 +251,14 @@ JunctionMeshOptions WithinBudget(const JunctionMeshOptions& options, size_t stub
 JunctionMesh MeshJunction(const Junction& junction, const JunctionMeshOptions& options,
                           uint64_t seed) {
   const std::map<Place, int> rings = RingsByPlace(junction);
-  const auto [max_attempts, last_resort] = WithinBudget(options, junction.stubs.size());
+  const auto [max_attempts, last_resort] = WithinBudget(options, junction);
   JunctionMesh result;
+  const auto unite = IsVeryCrowded(junction) ? UniteSolidsDirectly : UniteSolids;
   while (!result.surface && result.attempts < max_attempts) {
-    auto united = UniteSolids(PerturbedStubs(junction, rings, result.attempts++, seed));
-    result.surface = Finished(std::move(united), junction, rings);
+    auto united = unite(PerturbedStubs(junction, rings, result.attempts++, seed));
+    result.surface = Finished(std::move(united), junction, rings, kTinyHollow);
   }
-  if (!result.surface && last_resort) {
-    result.surface = Finished(WrapJunction(junction), junction, rings);
-    result.wrapped = result.surface.has_value();
-  }
+  if (!result.surface && last_resort) TakeLastResort(junction, rings, result);
   return result;
 }
 

@@ -148,6 +148,11 @@ std::optional<UnionMesh> UniteAllExactly(const std::vector<TriangleMesh>& solids
 
 }  // namespace
 
+std::optional<UnionMesh> UniteSolidsDirectly(const std::vector<TriangleMesh>& solids) {
+  if (solids.empty()) return UnionMesh{};
+  return UniteAllDirectly(solids, OrderAlongLongestSide(solids));
+}
+
 std::optional<UnionMesh> UniteSolids(const std::vector<TriangleMesh>& solids) {
   if (solids.empty()) return UnionMesh{};
   const std::vector<size_t> order = OrderAlongLongestSide(solids);

@@ -22,4 +22,7 @@ struct UnionMesh {
 /// where the union would not be manifold or a solid turns out to intersect itself. Thread-safe.
 std::optional<UnionMesh> UniteSolids(const std::vector<TriangleMesh>& solids);
 
+/// The same for solids in general position alone: many times as fast as where they are not.
+std::optional<UnionMesh> UniteSolidsDirectly(const std::vector<TriangleMesh>& solids);
+
 }  // namespace curvefusion

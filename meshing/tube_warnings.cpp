@@ -17,9 +17,11 @@ std::vector<std::string> TubeWarnings(const SkeletonGraph& skeleton, const TubeM
   }
   for (const TubeFallback& fallback : tubes.fallbacks) {
     const Vec3& p = fallback.position;
-    warnings.push_back(
-        fmt::format("the {} tubes that meet at ({:.3f}, {:.3f}, {:.3f}) m took {} attempts: {}",
-                    fallback.tubes, p.x(), p.y(), p.z(), fallback.attempts, fallback.remedy));
+    const std::string how = fallback.attempts > 0 ? fmt::format("took {} attempts: {}",
+                                                                fallback.attempts, fallback.remedy)
+                                                  : "were " + fallback.remedy;
+    warnings.push_back(fmt::format("the {} tubes that meet at ({:.3f}, {:.3f}, {:.3f}) m {}",
+                                   fallback.tubes, p.x(), p.y(), p.z(), how));
   }
   return warnings;
 }

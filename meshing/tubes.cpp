@@ -84,11 +84,14 @@ void AppendJunction(const Junction& junction, const JunctionMesh& part, Assembly
     assembly.failure_place = place;
     return;
   }
-  if (part.wrapped) {
-    assembly.fallbacks.push_back({place, static_cast<int>(junction.stubs.size()), part.attempts,
-                                  "wrapped: crotches and gaps narrower than two thirds of the "
-                                  "radius are closed there",
-                                  true});
+  if (part.last_resort != LastResort::kNone) {
+    const char* remedy = part.last_resort == LastResort::kWrapping
+                             ? "wrapped: crotches and gaps narrower than two thirds of the radius "
+                               "are closed there"
+                             : "resampled on a grid of half the radius: finer gaps and crotches "
+                               "are not to be relied on there";
+    assembly.fallbacks.push_back(
+        {place, static_cast<int>(junction.stubs.size()), part.attempts, remedy, true});
   } else if (part.attempts > 1) {
     assembly.fallbacks.push_back({place, static_cast<int>(junction.stubs.size()), part.attempts,
                                   "moved vertices by a few thousandths of the radius"});

@@ -30,7 +30,7 @@ struct TubeFallback {
   int tubes = 0;                 ///< how many tubes the remedy changed
   int attempts = 0;              ///< how many it took
   std::string remedy;            ///< what was done, a phrase
-  bool last_resort = false;      ///< wrapped: watertight, but not of the true shape there
+  bool last_resort = false;      ///< wrapped or resampled: not of the true shape there
 };
 
 /// The tubes of a skeleton as one surface.
@@ -49,10 +49,10 @@ struct TubeMesh {
 /// without edges are ignored; an empty skeleton gives an empty surface. Throws Error(kBadInput)
 /// for radii or coordinates that cannot be (see PrepareTubes) and, naming the place, where nothing
 /// gives a sound surface. Where the union of some tubes does not come out, in any of several turns
-/// of all tubes, these are wrapped (see WrapJunction), which `fallbacks` tells. Tubes are polygons
-/// about a simplified axis: gaps, contacts and holes of less than about a tenth of the radius may
-/// come out either way. Cost: 3 to 7 ms of one core per junction. The paper assumes tubes of
-/// constant radius about the curves (CurveFusion 3.3) and does not say how they join.
+/// of all tubes, these are wrapped or resampled (see LastResort), which `fallbacks` tells. Tubes
+/// are polygons about a simplified axis: gaps, contacts and holes of less than about a tenth of the
+/// radius may come out either way. Cost: 3 to 7 ms of one core per junction. The paper assumes
+/// tubes of constant radius about the curves (CurveFusion 3.3) and does not say how they join.
 TubeMesh BuildTubes(const SkeletonGraph& graph, const TubeOptions& options);
 
 }  // namespace curvefusion

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "kernel/geometry.h"
 #include "meshing/stubs.h"
@@ -63,7 +64,7 @@ TEST(MeshJunction, UnitesAndFitsItsArms) {
   const JunctionMesh mesh = MeshJunction(cross.junction, {}, 1);
   ASSERT_TRUE(mesh.surface);
   EXPECT_EQ(mesh.attempts, 1);
-  EXPECT_FALSE(mesh.wrapped);
+  EXPECT_EQ(mesh.last_resort, LastResort::kNone);
   const WatertightReport report = cross.Examine(mesh);
   EXPECT_EQ(report.Defects(), "");
   EXPECT_EQ(report.components, 1);
@@ -74,7 +75,7 @@ TEST(MeshJunction, LastResortFitsItsArmsToo) {
   const Cross cross;
   const JunctionMesh wrapped = MeshJunction(cross.junction, {0, true}, 1);
   ASSERT_TRUE(wrapped.surface);
-  EXPECT_TRUE(wrapped.wrapped);
+  EXPECT_EQ(wrapped.last_resort, LastResort::kWrapping);
   const WatertightReport report = cross.Examine(wrapped);
   EXPECT_EQ(report.Defects(), "");
   EXPECT_EQ(report.components, 1);
@@ -113,7 +114,40 @@ TEST(MeshJunction, WrapsACrowdedJunctionWithoutBeingAsked) {
   EXPECT_FALSE(MeshJunction(SpreadTubes(16), {0, false}, 1).surface);
   const JunctionMesh wrapped = MeshJunction(SpreadTubes(17), {0, false}, 1);
   ASSERT_TRUE(wrapped.surface);
-  EXPECT_TRUE(wrapped.wrapped);
+  EXPECT_EQ(wrapped.last_resort, LastResort::kWrapping);
+}
+
+// Thin tubes that cross in one plane, each with segments of 5 mm on both sides of the middle.
+Junction PlanarFan(int count, double radius) {
+  Junction junction;
+  junction.radius = radius;
+  for (int i = 0; i < count; ++i) {
+    const double turn = std::numbers::pi * i / count;
+    const Vec3 direction(std::cos(turn), std::sin(turn), 0);
+    const TubeRings rings = SweepRings(StraightTube(direction, radius), 8, 0.1 * i);
+    junction.stubs.push_back(CloseStub(rings, 1, 7));
+    for (const int point : {1, 7}) {
+      const auto first = rings.vertices.begin() + rings.ring_of_point[point] * rings.sides;
+      junction.cut_rings.emplace_back(first, first + rings.sides);
+    }
+  }
+  return junction;
+}
+
+// Unions of a fan take a minute and fail: it must not even be tried.
+TEST(MeshJunction, ResamplesTubesThatOverlapForLongWithoutAnAttempt) {
+  const Junction fan = PlanarFan(40, 0.0004);  // 75 radii long
+  const JunctionMesh mesh = MeshJunction(fan, {}, 1);
+  ASSERT_TRUE(mesh.surface);
+  EXPECT_EQ(mesh.attempts, 0);
+  EXPECT_EQ(mesh.last_resort, LastResort::kResampling);
+  const WatertightReport report = ExamineMesh(*mesh.surface);
+  EXPECT_EQ(report.self_intersections, 0);
+  EXPECT_EQ(report.non_manifold_edges, 0);
+  EXPECT_EQ(report.non_manifold_vertices, 0);
+  EXPECT_EQ(report.misoriented_edges, 0);
+  EXPECT_EQ(report.components, 1);
+  EXPECT_EQ(report.boundary_edges, 2 * 40 * 8);  // the cut rings
 }
 
 }  // namespace
