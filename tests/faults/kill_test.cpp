@@ -21,31 +21,18 @@ struct KilledCommand {
 
 class KillTest : public testing::TestWithParam<KilledCommand> {};
 
-WritingCommand Named(const std::string& name) {
-  for (const WritingCommand& command : WritingCommands()) {
-    if (command.name == name) return command;
-  }
-  throw std::runtime_error("no command " + name);
-}
-
-// How long the command takes undisturbed, now: the machine may have other things to do.
-double Duration(const TrialFolder& folder, const WritingCommand& command) {
-  folder.Prepare({});
-  return folder.Run(command).seconds;
-}
-
 TEST_P(KillTest, LeavesNothingCorrupt) {
   const TrialFolder folder;
-  const WritingCommand command = Named(GetParam().name);
+  const WritingCommand command = CommandNamed(GetParam().name);
   const References references = folder.MakeReferences(command);
   const int kills = TriesEverything() ? GetParam().kills : GetParam().some_kills;
   std::mt19937 random(kSeed);
   int early = 0, reruns = 0;
-  double duration = Duration(folder, command);
+  double duration = folder.Duration(command);
   folder.Prepare(references.earlier);
   for (int kill = 1; kill <= kills; ++kill) {
     const double after = std::uniform_real_distribution<double>(0, duration)(random);
-    const ProgramRun run = folder.Run(command, {.kill_after = after});
+    const ProgramRun run = folder.Run(command, {.signal_after = after});
     early += run.signal != 0 ? 1 : 0;
     const Files found = folder.Found();
     ASSERT_EQ(KillFaultOf(found, references), "") << fmt::format("killed after {} s", after);
@@ -57,7 +44,7 @@ TEST_P(KillTest, LeavesNothingCorrupt) {
       ASSERT_EQ(Difference(folder.Found(), references.result), "none");
       ++reruns;
     }
-    duration = Duration(folder, command);
+    duration = folder.Duration(command);
     folder.Prepare(references.earlier);
   }
   fmt::print("{:<14} {} kills, {} before its end; {} undisturbed runs after them\n", command.name,

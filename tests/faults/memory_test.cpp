@@ -60,7 +60,7 @@ double PeakMegabytes(const TrialFolder& folder, const fs::path& scan, int frames
   LinkScan(scan, frames, folder.path() / "linked");
   const ProgramRun run =
       RunProgram(folder.path(), {"reconstruct", "linked", "-o", "out", "--quiet", "--threads", "2"},
-                 {.kill_after = longest});
+                 {.signal_after = longest});
   EXPECT_EQ(run.exit_code, 0) << run.output;
   fmt::print("reconstruct    {:>6} frames of 640x480: {:.0f} MB, {:.0f} s\n", frames,
              run.peak_bytes / kMegabyte, run.seconds);

@@ -3,8 +3,10 @@
 #include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -58,18 +60,45 @@ void SetVariables(const Disturbance& disturbance, const fs::path& log) {
   _exit(127);
 }
 
-// Waits for the process, which is killed after so many seconds.
-ProgramRun Await(pid_t process, double kill_after) {
+double Seconds(const timespec& time) {
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+double Seconds(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
+// Of all threads of a process that runs; 0 where that is not told.
+double CpuSecondsOf(pid_t process) {
+  clockid_t clock{};
+  timespec time{};
+  if (clock_getcpuclockid(process, &clock) != 0 || clock_gettime(clock, &time) != 0) return 0;
+  return Seconds(time);
+}
+
+// Waits for the process, which gets its signal once, and is killed where it runs for too long.
+ProgramRun Await(pid_t process, const Disturbance& disturbance) {
   const auto start = Clock::now();
   const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
   ProgramRun run;
   int status = 0;
   rusage usage{};
+  double sent = -1, cpu_sent = 0;
+  const double longest = std::max(0.0, disturbance.signal_after) + kLongestRun;
   while (wait4(process, &status, WNOHANG, &usage) == 0) {
-    if (seconds() > kill_after) kill(process, SIGKILL);
+    if (seconds() > longest) kill(process, SIGKILL);
+    if (sent < 0 && disturbance.signal_after >= 0 && seconds() > disturbance.signal_after) {
+      cpu_sent = CpuSecondsOf(process);
+      sent = seconds();
+      kill(process, disturbance.signal);
+    }
     std::this_thread::sleep_for(std::chrono::microseconds(500));
   }
   run.seconds = seconds();
+  if (sent >= 0) {
+    run.after_signal = run.seconds - sent;
+    run.cpu_after_signal = Seconds(usage.ru_utime) + Seconds(usage.ru_stime) - cpu_sent;
+  }
   run.peak_bytes = 1024.0 * static_cast<double>(usage.ru_maxrss);
   if (WIFEXITED(status)) run.exit_code = WEXITSTATUS(status);
   if (WIFSIGNALED(status)) run.signal = WTERMSIG(status);
@@ -143,8 +172,7 @@ ProgramRun RunProgram(const fs::path& folder, const std::vector<std::string>& ar
   fs::remove(log);
   const pid_t process = fork();
   if (process == 0) BecomeProgram(folder, arguments, disturbance, output, log);
-  ProgramRun run =
-      Await(process, disturbance.kill_after >= 0 ? disturbance.kill_after : kLongestRun);
+  ProgramRun run = Await(process, disturbance);
   ReadLog(log, run);
   run.output = Text(output);
   return run;

@@ -14,7 +14,9 @@ struct Disturbance {
   long count = 1;        ///< how many fail from there on; 0: as long as room is missing
   long least_bytes = 0;  ///< smaller allocations are not counted and do not fail
   int error = 0;         ///< what a failing write says
-  double kill_after = -1;  ///< seconds after the start at which SIGKILL ends the run; none below 0
+  double signal_after =
+      -1;          ///< seconds after the start at which the run gets a signal; none below 0
+  int signal = 9;  ///< which; SIGKILL
 };
 
 /// What became of a run.
@@ -22,13 +24,16 @@ struct ProgramRun {
   int exit_code = -1;  ///< -1 where a signal ended it
   int signal = 0;      ///< that ended it
   double seconds = 0;
-  double peak_bytes = 0;  ///< of memory
-  long operations = 0;    ///< of the disturbance's kind
-  std::string failed;     ///< number and name of the first that failed; empty: none did
-  std::string output;     ///< both streams
+  double after_signal = 0;      ///< seconds from the signal to the end
+  double cpu_after_signal = 0;  ///< processor seconds of all threads in this time
+  double peak_bytes = 0;        ///< of memory
+  long operations = 0;          ///< of the disturbance's kind
+  std::string failed;           ///< number and name of the first that failed; empty: none did
+  std::string output;           ///< both streams
 };
 
-/// Runs `curvefusion ARGUMENTS` inside `folder`; one that takes over 300 s is killed.
+/// Runs `curvefusion ARGUMENTS` inside `folder`; one that takes 300 s longer than to its signal is
+/// killed.
 ProgramRun RunProgram(const std::filesystem::path& folder,
                       const std::vector<std::string>& arguments,
                       const Disturbance& disturbance = {});

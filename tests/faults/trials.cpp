@@ -16,6 +16,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int kResourceExit = 5;
+constexpr int kInterruptedExit = 130;
 
 // A Y of three wires 8 mm thick: the smallest object that has everything, a junction too.
 std::string ObjectJson(double size) {
@@ -63,6 +64,20 @@ bool IsTemporary(const std::string& name) {
   return name.find(".partial-") != std::string::npos || name.ends_with(".lock");
 }
 
+// The first, or nothing.
+std::string TemporaryOf(const Files& files) {
+  for (const auto& [name, bytes] : files) {
+    if (IsTemporary(name)) return name;
+  }
+  return "";
+}
+
+// A folder that was made and stayed empty harms nobody.
+Files WithoutEmptyFolder(const Files& found, const Files& before) {
+  const bool is_empty = before.empty() && found.size() == 1 && found.contains("out/");
+  return is_empty ? Files{} : found;
+}
+
 }  // namespace
 
 std::vector<WritingCommand> WritingCommands() {
@@ -94,6 +109,13 @@ std::vector<WritingCommand> WritingCommands() {
   commands.push_back(
       {"cut_list", {"graph", "@/object.json", "--cut-list", "out/wires.csv", "--threads", "1"}});
   return commands;
+}
+
+WritingCommand CommandNamed(const std::string& name) {
+  for (const WritingCommand& command : WritingCommands()) {
+    if (command.name == name) return command;
+  }
+  throw std::runtime_error("no command " + name);
 }
 
 TrialFolder::TrialFolder()
@@ -154,6 +176,11 @@ void TrialFolder::Prepare(const Files& files) const {
   }
 }
 
+double TrialFolder::Duration(const WritingCommand& command) const {
+  Prepare({});
+  return Run(command).seconds;
+}
+
 std::string FaultOf(const ProgramRun& run, const Files& found, const Files& before,
                     const References& references) {
   // Destructors of lib3MF throw where zlib finds no memory: the program ends as if it were killed.
@@ -166,16 +193,27 @@ std::string FaultOf(const ProgramRun& run, const Files& found, const Files& befo
     return "exit code 0, but " + Difference(found, references.result);
   }
   if (run.exit_code != kResourceExit) return fmt::format("exit code {}", run.exit_code);
-  for (const auto& [name, bytes] : found) {
-    if (IsTemporary(name)) return name + " is left";
-  }
-  Files kept = found;
-  // A folder that was made and stayed empty harms nobody.
-  if (before.empty() && kept.size() == 1 && kept.contains("out/")) kept.clear();
+  if (const std::string left = TemporaryOf(found); !left.empty()) return left + " is left";
+  const Files kept = WithoutEmptyFolder(found, before);
   if (kept == before || kept == references.result) return "";
   if (IsResultWithoutTubes(kept, references.result)) return "";
   return fmt::format("from before: {}; of the result: {}", Difference(kept, before),
                      Difference(kept, references.result));
+}
+
+std::string InterruptFaultOf(const ProgramRun& run, const Files& found, const Files& before,
+                             const References& references) {
+  // Before the program has begun to catch signals: a shell shows such an end as 130, too.
+  const bool is_interrupted =
+      run.exit_code == kInterruptedExit || run.signal == SIGINT || run.signal == SIGTERM;
+  if (!is_interrupted && run.exit_code != 0) {
+    return fmt::format("exit code {}, signal {}", run.exit_code, run.signal);
+  }
+  if (const std::string left = TemporaryOf(found); !left.empty()) return left + " is left";
+  const Files& expected = is_interrupted ? before : references.result;
+  const Files kept = WithoutEmptyFolder(found, before);
+  if (kept == expected) return "";
+  return fmt::format("exit code {}, but {}", run.exit_code, Difference(kept, expected));
 }
 
 std::string KillFaultOf(const Files& found, const References& references) {

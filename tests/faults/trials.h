@@ -27,6 +27,9 @@ inline void PrintTo(const WritingCommand& command, std::ostream* stream) {
 /// All commands that write files.
 std::vector<WritingCommand> WritingCommands();
 
+/// One of them.
+WritingCommand CommandNamed(const std::string& name);
+
 /// What runs of a command leave in their folder when nothing disturbs them.
 struct References {
   Files none;     ///< before any run
@@ -42,8 +45,9 @@ class TrialFolder {
   TrialFolder(const TrialFolder&) = delete;
   TrialFolder& operator=(const TrialFolder&) = delete;
 
-  const std::filesystem::path& path() const { return trial_; }         ///< where trials run
-  std::filesystem::path inputs() const { return folder_ / "inputs"; }  ///< of the trials
+  const std::filesystem::path& path() const { return trial_; }           ///< where trials run
+  std::filesystem::path inputs() const { return folder_ / "inputs"; }    ///< of the trials
+  std::filesystem::path earlier() const { return folder_ / "earlier"; }  ///< of earlier results
 
   References MakeReferences(const WritingCommand& command) const;
 
@@ -52,6 +56,10 @@ class TrialFolder {
 
   /// Runs the command on what lies in the folder of trials.
   ProgramRun Run(const WritingCommand& command, const Disturbance& disturbance = {}) const;
+
+  /// How long the command takes undisturbed, now: the machine may have other things to do. Leaves
+  /// its result in the folder of trials.
+  double Duration(const WritingCommand& command) const;
 
   /// What lies in the folder of trials.
   Files Found() const { return FilesBelow(trial_); }
@@ -73,6 +81,11 @@ std::string FaultOf(const ProgramRun& run, const Files& found, const Files& befo
 /// What is wrong with what a killed run left: each file must be of an earlier run, or complete.
 /// Temporary files may be left; the next run removes them.
 std::string KillFaultOf(const Files& found, const References& references);
+
+/// What is wrong with the outcome of an interrupted run, nothing where it is right: exit code 130
+/// and what lay there before, or exit code 0 and the result where the signal came too late.
+std::string InterruptFaultOf(const ProgramRun& run, const Files& found, const Files& before,
+                             const References& references);
 
 /// The first difference in words, "none" where there is none.
 std::string Difference(const Files& found, const Files& expected);
