@@ -29,8 +29,8 @@ struct Intrinsics {
 /// Widths and focal lengths in pixels, principal points with pixel (0, 0) at the centre of the
 /// top-left pixel; depth_scale, color_camera and T_color_depth (metres, 4 rows or 16 numbers row by
 /// row) may be missing. Both cameras may have k1, k2, p1, p2, k3 or "distortion": [k1, k2, p1, p2,
-/// k3, k4, k5, k6], shorter where the last are 0. Reports what cannot be: missing or wrong values, a principal point outside the image, other
-/// lens models; warns of unknown keys.
+/// k3, k4, k5, k6], shorter where the last are 0. Reports what cannot be: missing or wrong values, a
+/// principal point outside the image, other lens models; warns of unknown keys.
 Intrinsics ReadIntrinsics(const std::filesystem::path& path, const FindingHandler& on_finding);
 
 /// Reads the intrinsic.json of Open3D: width, height and a column-major 3x3 `intrinsic_matrix`;
