@@ -153,8 +153,7 @@ void RequireStream(const fs::path& file, const Recording& recording, const Strea
 }
 
 // Coefficients in the order of OpenCV. Projecting by RealSense's "modified" and "inverse" models
-// differs from Brown and Conrady's only in tangential terms of the fourth order, which its cameras
-// keep below a twentieth of a pixel.
+// differs from Brown and Conrady's only in tangential terms of the fourth order, which are left out.
 Distortion LensOf(const RosCamera& camera, const std::string& where) {
   const std::vector<double>& c = camera.coefficients;
   if (std::all_of(c.begin(), c.end(), [](double value) { return value == 0; })) return {};
