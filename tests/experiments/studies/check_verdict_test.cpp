@@ -77,12 +77,14 @@ TEST(CheckVerdict, TheFramesMustBeRight) {
   EXPECT_FALSE(IsTaken(At("bad-stretch", "e", "f"), stretch));
 }
 
-// Every mistake but those of the colour camera, for which a room of 80x60 pixels has too few edges.
+// Every mistake but those of the colour camera, for which a room of 80x60 pixels has too few edges,
+// and lost tracking: 6 degrees of pitch before a wall move depth by less than 2.5 %
+// (GeometryCheck.ABadStretchIsListed).
 TEST(WrongVersions, AreNamedInASmallRoom) {
   const TemporaryFolder folder;
   WriteRoomScan(MakeRoomScan(), folder.path() / "room");
   for (const WrongVersion& version : WrongVersions()) {
-    if (version.cause == "colour-misregistered") continue;
+    if (version.cause == "colour-misregistered" || version.cause == "bad-stretch") continue;
     CheckExpectation expected;
     const std::filesystem::path scan = folder.path() / version.name;
     expected.mistake = WriteWrongVersion(folder.path() / "room", version.name, scan);
