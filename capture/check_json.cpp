@@ -31,11 +31,58 @@ Json FiguresJson(const CheckReport& report) {
           {"duration", KnownJson(report.duration)}};
 }
 
-Json FindingsJson(const std::vector<CheckFinding>& findings) {
+Json FramesJson(const std::vector<FrameStretch>& frames) {
   Json result = Json::array();
-  for (const CheckFinding& finding : findings) {
+  for (const FrameStretch& stretch : frames) {
+    result.push_back({{"first", stretch.first}, {"last", stretch.last}});
+  }
+  return result;
+}
+
+Json AmountJson(const std::optional<MistakeAmount>& amount) {
+  return amount ? Json{{"value", amount->value}, {"unit", amount->unit}} : Json(nullptr);
+}
+
+// In the words of intrinsics.json.
+Json ColourFitJson(const ColourCameraFit& fit) {
+  if (!fit.measured) return nullptr;
+  const PinholeCamera& camera = fit.color_camera;
+  const Eigen::Matrix4d matrix = fit.T_color_depth.matrix();
+  Json rows = Json::array();
+  for (int row = 0; row < 4; ++row) {
+    rows.push_back({matrix(row, 0), matrix(row, 1), matrix(row, 2), matrix(row, 3)});
+  }
+  return {{"is_misregistered", fit.IsMisregistered()},
+          {"displacement_px", fit.displacement_px},
+          {"color_camera",
+           {{"width", camera.width},
+            {"height", camera.height},
+            {"fx", camera.fx},
+            {"fy", camera.fy},
+            {"cx", camera.cx},
+            {"cy", camera.cy}}},
+          {"T_color_depth", rows}};
+}
+
+// All mistakes of a cause: their frames, and the amount, of which there is one.
+Mistake MistakeOf(const std::string& cause, const std::vector<Mistake>& mistakes) {
+  Mistake all{cause};
+  for (const Mistake& mistake : mistakes) {
+    if (cause.empty() || mistake.cause != cause) continue;
+    all.frames.insert(all.frames.end(), mistake.frames.begin(), mistake.frames.end());
+    if (!all.amount) all.amount = mistake.amount;
+  }
+  return all;
+}
+
+Json FindingsJson(const CheckReport& report) {
+  Json result = Json::array();
+  for (const CheckFinding& finding : report.findings) {
+    const Mistake mistake = MistakeOf(finding.cause, report.geometry.mistakes);
     result.push_back({{"severity", finding.severity == Severity::kError ? "error" : "warning"},
                       {"cause", NamedJson(finding.cause)},
+                      {"frames", FramesJson(mistake.frames)},
+                      {"amount", AmountJson(mistake.amount)},
                       {"message", finding.message}});
   }
   return result;
@@ -45,9 +92,10 @@ Json FindingsJson(const std::vector<CheckFinding>& findings) {
 
 std::string CheckJson(const CheckReport& report) {
   const Json json = {
-      {"format", "curvefusion-check"},  {"version", 1},
-      {"usable", !report.has_errors()}, {"sequence_format", NamedJson(report.format)},
-      {"figures", FiguresJson(report)}, {"findings", FindingsJson(report.findings)}};
+      {"format", "curvefusion-check"},   {"version", 1},
+      {"usable", !report.has_errors()},  {"sequence_format", NamedJson(report.format)},
+      {"figures", FiguresJson(report)},  {"colour_fit", ColourFitJson(report.colour_camera)},
+      {"findings", FindingsJson(report)}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -71,36 +71,58 @@ double GreyDifference(const Image<uint8_t>& first, const Image<uint8_t>& second,
   return count < kMinPoints ? -1 : sum / count;
 }
 
-// Costs of a pair of frames by delay.
-struct DelayCosts {
-  std::array<double, kDelays> cost = {};
-  bool is_usable = false;
-};
+// Costs of a pair of frames by delay; negative where an image is missing.
+using DelayCosts = std::array<double, kDelays>;
+
+const Image<uint8_t>* GreyOf(const Thumbnails& thumbnails, int frame) {
+  if (frame < 0 || frame >= static_cast<int>(thumbnails.grey.size())) return nullptr;
+  const Image<uint8_t>& grey = thumbnails.grey[static_cast<size_t>(frame)];
+  return grey.empty() ? nullptr : &grey;
+}
 
 DelayCosts CostsOf(const DepthViews& views, const Thumbnails& thumbnails,
                    const RigidTransform& T_color_depth, const FramePoses& poses, int from) {
   DelayCosts costs;
+  costs.fill(-1);
   const int to = from + kGap;
   const auto points = PointsSeenTwice(
       views, thumbnails, T_color_depth,
       poses[static_cast<size_t>(to)]->inverse() * *poses[static_cast<size_t>(from)], from);
   for (int k = 0; k < kDelays; ++k) {
-    const Image<uint8_t>& first = thumbnails.grey[static_cast<size_t>(from + k - kMaxDelay)];
-    const Image<uint8_t>& second = thumbnails.grey[static_cast<size_t>(to + k - kMaxDelay)];
-    if (first.empty() || second.empty()) return costs;
-    const double moved = GreyDifference(first, second, points, false);
-    const double still = GreyDifference(first, second, points, true);
-    if (moved < 0 || still <= 0) return costs;
-    costs.cost[static_cast<size_t>(k)] = moved / still;
+    const Image<uint8_t>* first = GreyOf(thumbnails, from + k - kMaxDelay);
+    const Image<uint8_t>* second = GreyOf(thumbnails, to + k - kMaxDelay);
+    if (first == nullptr || second == nullptr) continue;
+    const double moved = GreyDifference(*first, *second, points, false);
+    const double still = GreyDifference(*first, *second, points, true);
+    if (moved >= 0 && still > 0) costs[static_cast<size_t>(k)] = moved / still;
   }
-  costs.is_usable = true;
   return costs;
+}
+
+// A delay against none, over the pairs that have images for both.
+std::optional<ColorDelay> Compared(const std::vector<DelayCosts>& pairs, size_t delay) {
+  ColorDelay compared;
+  int count = 0;
+  int agree = 0;
+  for (const DelayCosts& costs : pairs) {
+    if (costs[kMaxDelay] < 0 || costs[delay] < 0) continue;
+    ++count;
+    compared.given += costs[kMaxDelay];
+    compared.then += costs[delay];
+    agree += costs[delay] < costs[kMaxDelay] ? 1 : 0;
+  }
+  if (count < kMinPairs) return std::nullopt;
+  compared.frames = static_cast<int>(delay) - kMaxDelay;
+  compared.given /= count;
+  compared.then /= count;
+  compared.share = static_cast<double>(agree) / count;
+  return compared;
 }
 
 std::vector<int> Starts(const DepthViews& views, const FramePoses& poses) {
   std::vector<int> starts;
-  const int end = static_cast<int>(poses.size()) - kGap - kMaxDelay;
-  for (int i = kMaxDelay; i < end; ++i) {
+  const int end = static_cast<int>(poses.size()) - kGap;
+  for (int i = 0; i < end; ++i) {
     if (views.Has(i) && poses[static_cast<size_t>(i)] && poses[static_cast<size_t>(i + kGap)]) {
       starts.push_back(i);
     }
@@ -119,20 +141,13 @@ std::optional<ColorDelay> FindColorDelay(const DepthViews& views, const Thumbnai
     pairs[static_cast<size_t>(i)] =
         CostsOf(views, thumbnails, T_color_depth, poses, starts[static_cast<size_t>(i)]);
   });
-  std::erase_if(pairs, [](const DelayCosts& costs) { return !costs.is_usable; });
-  if (static_cast<int>(pairs.size()) < kMinPairs) return std::nullopt;
-  std::array<double, kDelays> mean = {};
-  for (const DelayCosts& costs : pairs) {
-    for (size_t k = 0; k < mean.size(); ++k) {
-      mean[k] += costs.cost[k] / static_cast<double>(pairs.size());
-    }
+  std::optional<ColorDelay> best;
+  for (size_t k = 0; k < kDelays; ++k) {
+    const std::optional<ColorDelay> delay = Compared(pairs, k);
+    if (!delay) continue;
+    if (!best || delay->then * best->given < best->then * delay->given) best = delay;
   }
-  const auto best = static_cast<size_t>(std::min_element(mean.begin(), mean.end()) - mean.begin());
-  const auto agree = std::count_if(pairs.begin(), pairs.end(), [&](const DelayCosts& costs) {
-    return costs.cost[best] < costs.cost[kMaxDelay];
-  });
-  return ColorDelay{static_cast<int>(best) - kMaxDelay, mean[kMaxDelay], mean[best],
-                    static_cast<double>(agree) / static_cast<double>(pairs.size())};
+  return best;
 }
 
 }  // namespace curvefusion

@@ -146,6 +146,7 @@ GeometryReport Judge(const Sequence& sequence, const Thumbnails& thumbnails,
     report.is_judged = true;
     const Misfit misfit = DescribeMisfit(sequence, evidence, search);
     on_finding(misfit.finding);
+    report.mistakes.push_back({misfit.finding.cause, {}, misfit.amount});
     report.correction = CorrectionOf(sequence, misfit);
     return report;
   }
@@ -156,7 +157,10 @@ GeometryReport Judge(const Sequence& sequence, const Thumbnails& thumbnails,
   const PoseAgreement standing =
       MeasureAgreement(views, pairs, StandingPoses(evidence.poses.size()));
   const double residual = WideResidual(pairs, search.given);
-  if (residual > kMaxWideResidual) {
+  if (residual > kMaxWideResidual && FitsElsewhere(views, pairs, evidence.poses)) {
+    report.is_judged = true;
+    report.fits = true;
+  } else if (residual > kMaxWideResidual) {
     report.is_judged = true;
     on_finding(UnexplainedMisfit(sequence, search.given, residual, standing));
   } else if (standing.usable >= search.given.usable &&
@@ -191,6 +195,7 @@ GeometryReport CheckClocks(const Sequence& sequence, const FindingHandler& on_fi
   report.is_judged = true;
   const Misfit misfit = DescribeMisfit(sequence, evidence, *search);
   on_finding(misfit.finding);
+  report.mistakes.push_back({misfit.finding.cause, {}, misfit.amount});
   report.correction = CorrectionOf(sequence, misfit);
   return report;
 }

@@ -28,6 +28,25 @@ struct SequenceCorrection {
   std::vector<std::string> made;  ///< what was changed, a clause each
 };
 
+/// Frames from one to another, both included, by their names.
+struct FrameStretch {
+  std::string first;
+  std::string last;
+};
+
+/// By how much something is wrong.
+struct MistakeAmount {
+  double value = 0;
+  std::string unit;  ///< "frames", "s", "factor" or "units per metre"
+};
+
+/// A mistake that was found, for programs: what the finding of the same cause tells in words.
+struct Mistake {
+  std::string cause;                         ///< as CheckFinding::cause
+  std::vector<FrameStretch> frames = {};     ///< where it concerns some only
+  std::optional<MistakeAmount> amount = {};  ///< docs/formats_output.md: of what, by cause
+};
+
 /// What the depth of a sequence says of its poses.
 struct GeometryReport {
   bool is_judged = false;  ///< whether depth can tell right poses from wrong ones
@@ -36,6 +55,7 @@ struct GeometryReport {
   int frames = 0;          ///< compared
   std::vector<DepthDisagreement> by_gap;
   std::vector<DepthDisagreement> by_distance;
+  std::vector<Mistake> mistakes;                 ///< that were found
   std::optional<SequenceCorrection> correction;  ///< where one is known
 };
 

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "capture/content/color_delay.h"
+#include "capture/content/geometry_messages.h"
 #include "capture/content/pose_jumps.h"
 
 namespace curvefusion {
@@ -42,9 +43,9 @@ std::string RepairHint(const Sequence& sequence) {
 std::string JumpText(const Sequence& sequence, const PoseJump& jump) {
   return fmt::format(
       "from frame {} to {} by {:.1f} mm and {:.2f} degrees (depth differs by {:.2g} "
-      "mm, by {:.2g} mm had the camera moved on steadily)",
+      "mm, between other neighbours by {:.2g} mm)",
       NameOf(sequence, jump.frame), NameOf(sequence, jump.frame + 1), 1e3 * jump.translation,
-      jump.rotation * 180 / M_PI, 1e3 * jump.difference, 1e3 * jump.smooth_difference);
+      jump.rotation * 180 / M_PI, 1e3 * jump.difference, 1e3 * jump.usual_difference);
 }
 
 std::string Listed(const std::vector<std::string>& texts) {
@@ -108,8 +109,10 @@ void ReportOutliers(const Sequence& sequence, const std::vector<Outliers>& outli
                     GeometryReport& report) {
   if (outliers.empty()) return;
   std::vector<std::string> names;
+  std::vector<FrameStretch> frames;
   std::set<std::string> left_out;
   for (const Outliers& stretch : outliers) {
+    frames.push_back({NameOf(sequence, stretch.first), NameOf(sequence, stretch.last)});
     names.push_back(stretch.first == stretch.last ? NameOf(sequence, stretch.first)
                                                   : NameOf(sequence, stretch.first) + " to " +
                                                         NameOf(sequence, stretch.last));
@@ -121,6 +124,7 @@ void ReportOutliers(const Sequence& sequence, const std::vector<Outliers>& outli
                           sequence.folder.string(), Listed(names),
                           JumpText(sequence, all_jumps.front()), RepairHint(sequence)),
               "pose-jump"});
+  report.mistakes.push_back({"pose-jump", frames});
   SequenceCorrection& correction = Correction(sequence, report);
   std::erase_if(correction.sequence.frames,
                 [&](const SequenceFrame& frame) { return left_out.contains(frame.name); });
@@ -128,23 +132,30 @@ void ReportOutliers(const Sequence& sequence, const std::vector<Outliers>& outli
 }
 
 void ReportJumps(const Sequence& sequence, const std::vector<PoseJump>& jumps,
-                 const FindingHandler& on_finding) {
+                 const FindingHandler& on_finding, GeometryReport& report) {
   if (jumps.empty()) return;
   std::vector<std::string> texts;
-  for (const PoseJump& jump : jumps) texts.push_back(JumpText(sequence, jump));
+  std::vector<FrameStretch> frames;
+  for (const PoseJump& jump : jumps) {
+    texts.push_back(JumpText(sequence, jump));
+    frames.push_back({NameOf(sequence, jump.frame), NameOf(sequence, jump.frame + 1)});
+  }
   on_finding({Severity::kError,
               fmt::format("{}: the trajectory jumps and the images do not: {}; what is seen before "
                           "and after comes out twice: track the scan again, or use only the frames "
                           "before or after",
                           sequence.folder.string(), Listed(texts)),
               "pose-jump"});
+  report.mistakes.push_back({"pose-jump", frames});
 }
 
 void ReportStretches(const Sequence& sequence, const std::vector<BadStretch>& stretches,
-                     const FindingHandler& on_finding) {
+                     const FindingHandler& on_finding, GeometryReport& report) {
   if (stretches.empty()) return;
   std::vector<std::string> texts;
+  std::vector<FrameStretch> frames;
   for (const BadStretch& stretch : stretches) {
+    frames.push_back({NameOf(sequence, stretch.first), NameOf(sequence, stretch.last)});
     texts.push_back(fmt::format("{} to {} by {:.2g} mm ({:.1f} % of the distance)",
                                 NameOf(sequence, stretch.first), NameOf(sequence, stretch.last),
                                 1e3 * stretch.difference, 100 * stretch.residual));
@@ -154,6 +165,7 @@ void ReportStretches(const Sequence& sequence, const std::vector<BadStretch>& st
                           "{}; the tracking was lost or something moved: remove the frames",
                           sequence.folder.string(), Listed(texts)),
               "bad-stretch"});
+  report.mistakes.push_back({"bad-stretch", frames});
 }
 
 // Gives each frame the colour image of the frame `delay` later; frames without one are left out.
@@ -188,10 +200,34 @@ void ReportColorDelay(const Sequence& sequence, const std::optional<ColorDelay>&
                   100 * delay->given, 100 * delay->then, delay->frames > 0 ? '+' : '-', frames,
                   RepairHint(sequence)),
               "colour-late"});
+  report.mistakes.push_back(
+      {"colour-late", {}, MistakeAmount{static_cast<double>(delay->frames), "frames"}});
   MoveColor(sequence, delay->frames, Correction(sequence, report));
 }
 
+bool IsInside(int frame, const std::vector<BadStretch>& stretches) {
+  return std::any_of(stretches.begin(), stretches.end(), [frame](const BadStretch& stretch) {
+    return frame >= stretch.first && frame <= stretch.last;
+  });
+}
+
 }  // namespace
+
+bool FitsElsewhere(const DepthViews& views, const std::vector<FramePair>& pairs,
+                   const FramePoses& poses) {
+  const std::vector<PoseJump> jumps = FindPoseJumps(views, poses);
+  const std::vector<BadStretch> stretches = FindBadStretches(views, poses, jumps);
+  std::vector<FramePair> others = pairs;
+  std::erase_if(others, [&](const FramePair& pair) {
+    const bool crosses = std::any_of(jumps.begin(), jumps.end(), [&](const PoseJump& jump) {
+      return jump.frame >= pair.from && jump.frame < pair.to;
+    });
+    return crosses || IsInside(pair.from, stretches) || IsInside(pair.to, stretches);
+  });
+  if (others.size() == pairs.size() || 2 * others.size() < pairs.size()) return false;
+  const PoseAgreement agreement = MeasureAgreement(views, others, poses);
+  return agreement.usable >= kMinJudgedPairs && WideResidual(others, agreement) <= kMaxWideResidual;
+}
 
 void ExamineDetails(const Sequence& sequence, const Thumbnails& thumbnails,
                     const FindingHandler& on_finding, GeometryReport& report) {
@@ -203,8 +239,8 @@ void ExamineDetails(const Sequence& sequence, const Thumbnails& thumbnails,
   std::vector<PoseJump> jumps = all_jumps;
   const std::vector<Outliers> outliers = TakeOutliers(views, poses, jumps);
   ReportOutliers(sequence, outliers, all_jumps, on_finding, report);
-  ReportJumps(sequence, jumps, on_finding);
-  ReportStretches(sequence, FindBadStretches(views, poses, all_jumps), on_finding);
+  ReportJumps(sequence, jumps, on_finding, report);
+  ReportStretches(sequence, FindBadStretches(views, poses, all_jumps), on_finding, report);
 }
 
 }  // namespace curvefusion

@@ -11,4 +11,9 @@ namespace curvefusion {
 void ExamineDetails(const Sequence& sequence, const Thumbnails& thumbnails,
                     const FindingHandler& on_finding, GeometryReport& report);
 
+/// Whether poses that do not fit on the whole do so where no jump is crossed and no frame of a bad
+/// stretch looked at, over at least half of the pairs: then ExamineDetails tells what is wrong.
+bool FitsElsewhere(const DepthViews& views, const std::vector<FramePair>& pairs,
+                   const FramePoses& poses);
+
 }  // namespace curvefusion

@@ -62,6 +62,15 @@ struct Words {
   std::string remedy;  // to be done by hand
 };
 
+// What is to be written instead, or by how much the poses come late.
+std::optional<MistakeAmount> AmountOf(const PoseExplanation& explanation,
+                                      const std::optional<ScaleChoice>& choice) {
+  if (choice) return MistakeAmount{choice->value, choice->is_depth ? "units per metre" : "factor"};
+  if (explanation.cause == "poses-late") return MistakeAmount{explanation.value, "frames"};
+  if (explanation.cause == "clock-offset") return MistakeAmount{explanation.value, "s"};
+  return std::nullopt;
+}
+
 std::string RepairHint(const Sequence& sequence) {
   return fmt::format("or write a corrected copy with: curvefusion check {} --repair DIR",
                      sequence.folder.string());
@@ -148,11 +157,12 @@ Misfit DescribeMisfit(const Sequence& sequence, const MisfitEvidence& evidence,
   misfit.finding.cause = search.best->cause;
   Words words{search.best->description, RemedyOf(search.best->cause, sequence)};
   double unit_change = 1;
+  std::optional<ScaleChoice> choice;
   if (search.best->cause == "translation-scale") {
-    const ScaleChoice choice = ChooseScale(
+    choice = ChooseScale(
         {search.best->value, evidence.depth_scale, MedianDepth(evidence), MedianSpeed(evidence)});
-    Apply(choice, evidence, misfit);
-    words = WordsOfScale(sequence, choice, evidence.depth_scale);
+    Apply(*choice, evidence, misfit);
+    words = WordsOfScale(sequence, *choice, evidence.depth_scale);
     unit_change = evidence.depth_scale / misfit.depth_scale;
   } else if (search.best->cause == "poses-late" || search.best->cause == "clock-offset") {
     words = WordsOfDelay(sequence, evidence, search.best->value);
@@ -161,6 +171,7 @@ Misfit DescribeMisfit(const Sequence& sequence, const MisfitEvidence& evidence,
       misfit.finding.severity = Severity::kWarning;
     }
   }
+  misfit.amount = AmountOf(*search.best, choice);
   misfit.remedy = words.remedy;
   misfit.finding.message = fmt::format("{}: {}: {}; {}, {}", sequence.folder.string(), words.what,
                                        Evidence(search.given, search.best->agreement, unit_change),

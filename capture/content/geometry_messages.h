@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "capture/content/geometry_check.h"
 #include "capture/content/pose_explanation.h"
 #include "capture/finding.h"
 
@@ -14,6 +15,7 @@ struct Misfit {
   std::string remedy;      ///< what a correction changes
   FramePoses poses;        ///< right ones
   double depth_scale = 0;  ///< right one
+  std::optional<MistakeAmount> amount = {};
 };
 
 /// What messages call the file that holds a sequence's cameras.

@@ -4,11 +4,14 @@
 #include <functional>
 #include <numeric>
 
+#include "kernel/quantile.h"
+
 namespace curvefusion {
 
 namespace {
 
 constexpr double kMaxTimeBetween = 0.2;  // seconds; over more a hand's motion is not straight
+constexpr double kMaxSteps = 1.5;        // of trajectories that are slower than that
 
 using PoseChange = std::function<RigidTransform(const RigidTransform&)>;
 
@@ -48,6 +51,14 @@ std::vector<int> Inverse(const std::vector<int>& order) {
     inverse[static_cast<size_t>(order[i])] = static_cast<int>(i);
   }
   return inverse;
+}
+
+double MedianStep(const Trajectory& trajectory) {
+  std::vector<double> steps;
+  for (size_t i = 1; i < trajectory.size(); ++i) {
+    steps.push_back(trajectory[i].timestamp - trajectory[i - 1].timestamp);
+  }
+  return steps.empty() ? 0 : Median(std::move(steps));
 }
 
 }  // namespace
@@ -120,9 +131,9 @@ FramePoses DelayedPoses(const FramePoses& poses, int frames) {
 }
 
 FramePoses PosesAt(const Trajectory& trajectory, const std::vector<double>& times, double offset) {
+  const double max_gap = std::max(kMaxTimeBetween, kMaxSteps * MedianStep(trajectory));
   FramePoses poses;
-  for (const double time : times)
-    poses.push_back(PoseAt(trajectory, time + offset, kMaxTimeBetween));
+  for (const double time : times) poses.push_back(PoseAt(trajectory, time + offset, max_gap));
   return poses;
 }
 

@@ -36,7 +36,7 @@ FramePoses ScaledTranslations(const FramePoses& poses, double factor);
 FramePoses DelayedPoses(const FramePoses& poses, int frames);
 
 /// Poses at times, each `offset` seconds later in the trajectory, between neighbours that are at
-/// most 0.2 s apart.
+/// most 0.2 s apart, or 1.5 times the trajectory's step where that is more.
 FramePoses PosesAt(const Trajectory& trajectory, const std::vector<double>& times, double offset);
 
 /// The order of the numbers 0 .. count-1 as text, each increased by `first`.

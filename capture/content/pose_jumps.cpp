@@ -1,6 +1,7 @@
 #include "capture/content/pose_jumps.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "kernel/parallel.h"
@@ -20,12 +21,20 @@ constexpr double kContradiction = 0.4;     // of the differences of depth
 constexpr double kUnlikeOthers = 2;        // times the residual of other neighbours, median
 constexpr double kLikeOthers = 1.5;        // likewise
 constexpr double kSmoothResidual = 0.004;  // steady motion may err by that in any scan
-constexpr int kStretchGap = 10;            // frames
+// Chosen on training scans of 5 frames a second, whose motion differs by more from frame to frame
+// than a jump of 40 mm and 2 degrees (residual .03 to .07 of the distance).
+constexpr double kMinCutResidual = 0.015;             // of the distance, across a cut
+constexpr double kCut = 4;                            // times that of neighbours, median
+constexpr double kAgreed = 0.6;                       // of the above, at most, on both sides
+constexpr std::array<int, 2> kStretchGaps = {5, 10};  // frames
 constexpr int kMinStretch = 5;
 // Measured: five frames in a row of good scans reach .003 to .011 (fr1_rpy .042, of a median of
 // .011).
 constexpr double kMinBadResidual = 0.025;
-constexpr double kWorseThanMedian = 5;
+constexpr double kWorseThanTypical = 5;
+// Chosen: of the residuals; in a scan of 40 frames with 10 bad ones nearly half of all pairs are
+// bad.
+constexpr double kTypical = 0.4;
 
 // Poses and depth of neighbouring frames.
 class Neighbours {
@@ -59,6 +68,15 @@ class Neighbours {
   }
 
   PairAgreement Given(int i) const { return views_.Compare({i, i + 1}, *motion(i)); }
+
+  // Of any two frames; not usable where one is missing.
+  PairAgreement Between(int from, int to) const {
+    if (from < 0 || to > count()) return {};
+    const auto& a = poses_[static_cast<size_t>(from)];
+    const auto& b = poses_[static_cast<size_t>(to)];
+    if (!a || !b || !views_.Has(from) || !views_.Has(to)) return {};
+    return views_.Compare({from, to}, b->inverse() * *a);
+  }
 
   // With the motion of the frames before or after, or none, whichever fits best.
   PairAgreement Smooth(int i) const {
@@ -112,15 +130,62 @@ std::vector<int> Leaps(const Neighbours& neighbours, double distance) {
   return leaps;
 }
 
-// The median residual of some pairs of neighbours.
-double TypicalResidual(const Neighbours& neighbours) {
+// Medians over some pairs of neighbours.
+PairAgreement TypicalAgreement(const Neighbours& neighbours) {
   std::vector<double> residuals;
+  std::vector<double> differences;
   for (int i = 0; i < neighbours.count(); i += std::max(1, neighbours.count() / 30)) {
     if (!neighbours.motion(i)) continue;
     const PairAgreement agreement = neighbours.Given(i);
-    if (agreement.is_usable) residuals.push_back(agreement.residual);
+    if (!agreement.is_usable) continue;
+    residuals.push_back(agreement.residual);
+    differences.push_back(agreement.difference);
   }
-  return residuals.empty() ? 0 : Median(std::move(residuals));
+  PairAgreement typical;
+  if (residuals.empty()) return typical;
+  typical.residual = Median(std::move(residuals));
+  typical.difference = Median(std::move(differences));
+  return typical;
+}
+
+bool IsAgreed(const PairAgreement& pair, double limit) {
+  return pair.is_usable && pair.residual < limit;
+}
+
+bool IsContradicted(const PairAgreement& pair, double limit) {
+  return pair.is_usable && pair.residual > limit;
+}
+
+// Whether depth disagrees between frames i and i + 1, and also over two frames across that place
+// (or else one of both frames is off, so that those around it agree), while it agrees on both
+// sides.
+bool IsCut(const Neighbours& neighbours, int i, const PairAgreement& given, double typical) {
+  const double limit = std::max(kMinCutResidual, kCut * typical);
+  const double agreed = kAgreed * limit;
+  if (!IsContradicted(given, limit)) return false;
+  const PairAgreement before = neighbours.Between(i - 1, i);
+  const PairAgreement after = neighbours.Between(i + 1, i + 2);
+  const PairAgreement across_before = neighbours.Between(i - 1, i + 1);
+  const PairAgreement across_after = neighbours.Between(i, i + 2);
+  const bool lasts = IsContradicted(across_before, limit) && IsContradicted(across_after, limit) &&
+                     IsAgreed(before, agreed) && IsAgreed(after, agreed);
+  const bool next_is_off = IsContradicted(across_before, limit) && IsContradicted(after, limit) &&
+                           IsAgreed(across_after, agreed) && IsAgreed(before, agreed);
+  const bool this_is_off = IsContradicted(across_after, limit) && IsContradicted(before, limit) &&
+                           IsAgreed(across_before, agreed) && IsAgreed(after, agreed);
+  return lasts || next_is_off || this_is_off;
+}
+
+// Whether the motion leaps, depth contradicts it, and a steady motion explains it.
+bool IsContradictedLeap(const Neighbours& neighbours, int i, const PairAgreement& given,
+                        double typical) {
+  const PairAgreement smooth = neighbours.Smooth(i);
+  const bool is_unlike = !given.is_usable || given.residual > kUnlikeOthers * typical;
+  const bool is_alike =
+      smooth.is_usable && smooth.residual < std::max(kSmoothResidual, kLikeOthers * typical);
+  const bool is_contradicted =
+      !given.is_usable || smooth.difference < kContradiction * given.difference;
+  return is_unlike && is_alike && is_contradicted;
 }
 
 bool Straddles(int first, int last, const std::vector<PoseJump>& jumps) {
@@ -129,30 +194,77 @@ bool Straddles(int first, int last, const std::vector<PoseJump>& jumps) {
   });
 }
 
-// How every frame agrees with the one kStretchGap later.
-std::vector<PairAgreement> Later(const DepthViews& views, const FramePoses& poses,
+// How every frame agrees with the one so many frames later; not across jumps.
+std::vector<PairAgreement> Later(const DepthViews& views, const FramePoses& poses, int gap,
                                  const std::vector<PoseJump>& jumps) {
-  const int count = static_cast<int>(poses.size()) - kStretchGap;
-  std::vector<PairAgreement> agreements(static_cast<size_t>(std::max(0, count)));
+  const int count = std::max(0, static_cast<int>(poses.size()) - gap);
+  std::vector<PairAgreement> agreements(static_cast<size_t>(count));
   ParallelFor(0, count, 8, [&](int64_t index) {
     const int i = static_cast<int>(index);
     const auto& from = poses[static_cast<size_t>(i)];
-    const auto& to = poses[static_cast<size_t>(i + kStretchGap)];
-    if (!from || !to || !views.Has(i) || !views.Has(i + kStretchGap)) return;
-    if (Straddles(i, i + kStretchGap, jumps)) return;
-    agreements[static_cast<size_t>(i)] = views.Compare({i, i + kStretchGap}, to->inverse() * *from);
+    const auto& to = poses[static_cast<size_t>(i + gap)];
+    if (!from || !to || !views.Has(i) || !views.Has(i + gap) || Straddles(i, i + gap, jumps))
+      return;
+    agreements[static_cast<size_t>(i)] = views.Compare({i, i + gap}, to->inverse() * *from);
   });
   return agreements;
 }
 
-BadStretch Summarize(const std::vector<PairAgreement>& agreements, int first, int last) {
+// How a frame agrees with one before or after it.
+struct Comparison {
+  size_t other = 0;
+  PairAgreement agreement;
+};
+using Comparisons = std::vector<std::vector<Comparison>>;  // by frame
+
+Comparisons CompareAround(const DepthViews& views, const FramePoses& poses,
+                          const std::vector<PoseJump>& jumps) {
+  Comparisons comparisons(poses.size());
+  for (const int gap : kStretchGaps) {
+    const std::vector<PairAgreement> later = Later(views, poses, gap, jumps);
+    for (size_t i = 0; i < later.size(); ++i) {
+      if (!later[i].is_usable) continue;
+      comparisons[i].push_back({i + static_cast<size_t>(gap), later[i]});
+      comparisons[i + static_cast<size_t>(gap)].push_back({i, later[i]});
+    }
+  }
+  return comparisons;
+}
+
+// Frames that disagree with most of the good ones around them. All count as good at first; frames
+// whose neighbours are all bad stay what they are.
+std::vector<char> BadFrames(const Comparisons& comparisons, double limit) {
+  constexpr int kRounds = 5;
+  std::vector<char> is_bad(comparisons.size(), 0);
+  for (int round = 0; round < kRounds; ++round) {
+    std::vector<char> next = is_bad;
+    for (size_t i = 0; i < comparisons.size(); ++i) {
+      int balance = 0;
+      bool has_good = false;
+      for (const auto& [other, agreement] : comparisons[i]) {
+        if (is_bad[other] != 0) continue;
+        has_good = true;
+        balance += agreement.residual > limit ? 1 : -1;
+      }
+      if (has_good) next[i] = balance > 0 ? 1 : 0;
+    }
+    if (next == is_bad) break;
+    is_bad = std::move(next);
+  }
+  return is_bad;
+}
+
+BadStretch Summarize(const Comparisons& comparisons, double limit, int first, int last) {
   std::vector<double> residuals;
   std::vector<double> differences;
   for (int i = first; i <= last; ++i) {
-    residuals.push_back(agreements[static_cast<size_t>(i)].residual);
-    differences.push_back(agreements[static_cast<size_t>(i)].difference);
+    for (const Comparison& comparison : comparisons[static_cast<size_t>(i)]) {
+      if (comparison.agreement.residual <= limit) continue;
+      residuals.push_back(comparison.agreement.residual);
+      differences.push_back(comparison.agreement.difference);
+    }
   }
-  return {first, last + kStretchGap, Median(std::move(residuals)), Median(std::move(differences))};
+  return {first, last, Median(std::move(residuals)), Median(std::move(differences))};
 }
 
 }  // namespace
@@ -160,42 +272,51 @@ BadStretch Summarize(const std::vector<PairAgreement>& agreements, int first, in
 std::vector<PoseJump> FindPoseJumps(const DepthViews& views, const FramePoses& poses) {
   const Neighbours neighbours(views, poses);
   const double distance = TypicalDistance(views, static_cast<int>(poses.size()));
-  const double typical = TypicalResidual(neighbours);
+  const PairAgreement typical = TypicalAgreement(neighbours);
+  const std::vector<int> leaps = Leaps(neighbours, distance);
+  std::vector<char> is_jump(static_cast<size_t>(neighbours.count()), 0);
+  std::vector<PairAgreement> given(is_jump.size());
+  ParallelFor(0, neighbours.count(), 8, [&](int64_t index) {
+    const int i = static_cast<int>(index);
+    const auto k = static_cast<size_t>(i);
+    if (!neighbours.motion(i)) return;
+    given[k] = neighbours.Given(i);
+    const bool is_leap = std::binary_search(leaps.begin(), leaps.end(), i);
+    is_jump[k] = (is_leap && IsContradictedLeap(neighbours, i, given[k], typical.residual)) ||
+                 IsCut(neighbours, i, given[k], typical.residual);
+  });
   std::vector<PoseJump> jumps;
-  for (const int i : Leaps(neighbours, distance)) {
-    const PairAgreement given = neighbours.Given(i);
-    const PairAgreement smooth = neighbours.Smooth(i);
-    const bool is_unlike = !given.is_usable || given.residual > kUnlikeOthers * typical;
-    const bool is_alike =
-        smooth.is_usable && smooth.residual < std::max(kSmoothResidual, kLikeOthers * typical);
-    const bool is_contradicted =
-        !given.is_usable || smooth.difference < kContradiction * given.difference;
-    if (!is_unlike || !is_alike || !is_contradicted) continue;
+  for (int i = 0; i < neighbours.count(); ++i) {
+    const auto k = static_cast<size_t>(i);
+    if (is_jump[k] == 0) continue;
     const RigidTransform& motion = *neighbours.motion(i);
     jumps.push_back({i, motion.translation().norm(), RotationVector(motion).norm(),
-                     given.difference, smooth.difference});
+                     given[k].difference, typical.difference});
   }
   return jumps;
 }
 
 std::vector<BadStretch> FindBadStretches(const DepthViews& views, const FramePoses& poses,
                                          const std::vector<PoseJump>& jumps) {
-  const std::vector<PairAgreement> agreements = Later(views, poses, jumps);
+  const Comparisons comparisons = CompareAround(views, poses, jumps);
   std::vector<double> residuals;
-  for (const PairAgreement& agreement : agreements) {
-    if (agreement.is_usable) residuals.push_back(agreement.residual);
+  for (const auto& of_frame : comparisons) {
+    for (const Comparison& comparison : of_frame) {
+      residuals.push_back(comparison.agreement.residual);
+    }
   }
   if (residuals.empty()) return {};
-  const double limit = std::max(kMinBadResidual, kWorseThanMedian * Median(std::move(residuals)));
+  const double limit =
+      std::max(kMinBadResidual, kWorseThanTypical * Quantile(std::move(residuals), kTypical));
+  const std::vector<char> is_bad = BadFrames(comparisons, limit);
   std::vector<BadStretch> stretches;
-  const int count = static_cast<int>(agreements.size());
+  const int count = static_cast<int>(is_bad.size());
   for (int first = 0; first < count; ++first) {
     int end = first;
-    while (end < count && agreements[static_cast<size_t>(end)].is_usable &&
-           agreements[static_cast<size_t>(end)].residual > limit) {
-      ++end;
+    while (end < count && is_bad[static_cast<size_t>(end)] != 0) ++end;
+    if (end - first >= kMinStretch) {
+      stretches.push_back(Summarize(comparisons, limit, first, end - 1));
     }
-    if (end - first >= kMinStretch) stretches.push_back(Summarize(agreements, first, end - 1));
     first = std::max(first, end - 1);
   }
   return stretches;

@@ -12,12 +12,13 @@ struct PoseJump {
   double translation = 0;        ///< metres
   double rotation = 0;           ///< radians
   double difference = 0;         ///< metres, of depth across the leap as given
-  double smooth_difference = 0;  ///< likewise, if the camera had moved on as before or after
+  double usual_difference = 0;  ///< likewise, between other neighbours, median
 };
 
-/// Looks at every pair of neighbouring frames: a jump is a change of motion at least five times
+/// Looks at every pair of neighbouring frames. A jump is a change of motion at least five times
 /// that of its surroundings which the depth of both frames contradicts, and more so than a steady
-/// motion. Views that are no video have none. About .2 ms a frame.
+/// motion; or, where frames are far apart and no motion is steady, a place across which depth
+/// disagrees while it agrees on both sides. About .2 ms a frame.
 std::vector<PoseJump> FindPoseJumps(const DepthViews& views, const FramePoses& poses);
 
 /// Frames around which depth disagrees much more than elsewhere.
@@ -28,9 +29,9 @@ struct BadStretch {
   double difference = 0;  ///< metres, median
 };
 
-/// Stretches of at least five frames whose depth disagrees with that of frames ten later by more
-/// than 2.5 % of the distance and five times the median of the scan; frames next to a jump left
-/// out.
+/// Stretches of at least five frames, each of which disagrees with most of the good frames five and
+/// ten before and after it, by more than 2.5 % of the distance and five times what is typical.
+/// Frames on two sides of a jump are not compared.
 std::vector<BadStretch> FindBadStretches(const DepthViews& views, const FramePoses& poses,
                                          const std::vector<PoseJump>& jumps);
 

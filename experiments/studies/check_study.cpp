@@ -1,13 +1,21 @@
-// Does `check` name what is wrong with a scan, and leave good ones alone? Simulated scans with one
-// mistake each, and good ones of other objects, sensors, motions and trackers; real recordings
-// where the request names their folders.
+// Does `check` name what is wrong with a scan, and leave good ones alone? Random scans with one
+// mistake each, good ones of other objects, rooms, sensors and trackers, and recordings.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <ctime>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "capture/check.h"
+#include "capture/check_json.h"
+#include "capture/detect_format.h"
+#include "experiments/simulation/families/scan_draw.h"
+#include "experiments/studies/check_verdict.h"
+#include "experiments/studies/colour_reference.h"
+#include "experiments/studies/good_versions.h"
+#include "experiments/studies/recordings.h"
 #include "experiments/studies/result_table.h"
 #include "experiments/studies/studies.h"
 #include "experiments/studies/wrong_versions.h"
@@ -16,190 +24,256 @@
 
 namespace curvefusion {
 
+namespace fs = std::filesystem;
+
 namespace {
 
-constexpr int kFrames = 90;
-constexpr int kQuickFrames = 45;
-constexpr size_t kVersionsOfOne = 7;  // wrong versions of a simulated scan; 5 scans have 35
-constexpr size_t kVersionsOfRealScan = 5;
+constexpr int kFrames = 60;  // of a scan to spoil: simulating one takes half a minute of a core
+constexpr int kGoodFrames = 40;
+constexpr int kQuickFrames = 40;
+constexpr const char* kAsRecorded = "as_recorded";
 constexpr const char* kNothing = "nothing";
+constexpr const char* kRawColour = "colour-misregistered";
 
-// What `check` may say of poses, depth unit, clocks and order.
-const std::set<std::string>& GeometryCauses() {
-  static const std::set<std::string> causes = {
-      "poses-inverted",  "quaternion-w-first",  "opengl-axes", "translation-scale",
-      "depth-scale",     "depth-bytes-swapped", "poses-late",  "clock-offset",
-      "colour-late",     "frame-order",         "pose-jump",   "bad-stretch",
-      "poses-do-not-fit"};
-  return causes;
-}
+// Chosen: objects that fill the view and that hardly do, in rooms with and without furniture.
+constexpr std::array<const char*, 5> kSpoiled = {"cage", "furnished", "tree", "rack", "cables"};
 
-SimulationOptions Simulated(const StudyRequest& request, const std::string& object, uint64_t seed) {
-  SimulationOptions scan = ObjectScan(request, object, seed);
-  scan.frames = request.quick ? kQuickFrames : kFrames;
+// A good scan in which one thing is not drawn but given.
+struct GoodScan {
+  const char* family;
+  const char* pose_source = nullptr;
+  const char* sensor = nullptr;
+  bool is_raw = false;
+};
+constexpr std::array<GoodScan, 12> kGood = {{{"grid", "orbslam2"},
+                                             {"trolley", "kinfu"},
+                                             {"chair", "ptam"},
+                                             {"net", "kitchen"},
+                                             {"vine", "bundlefusion"},
+                                             {"umbrella", "true"},
+                                             {"wheel", nullptr, "d400"},
+                                             {"scrolls", nullptr, "azure_kinect"},
+                                             {"mixture", nullptr, "kinect_v2"},
+                                             {"knot", nullptr, "sr300"},
+                                             {"room", nullptr, nullptr, true},
+                                             {"legs", "ptam", "primesense", true}}};
+constexpr size_t kQuickGood = 2;
+
+SimulationOptions Drawn(const std::string& family, uint64_t seed, int most_frames) {
+  SimulationOptions scan = DrawScan(family, seed);
+  scan.frames = std::min(scan.frames, most_frames);
   return scan;
 }
 
-std::vector<SimulationOptions> ScansToSpoil(const StudyRequest& request, uint64_t seed) {
-  if (request.quick) return {Simulated(request, "cage", seed)};
-  std::vector<SimulationOptions> scans;
-  for (const char* object : {"cage", "cat", "rack", "hanger", "stool"}) {
-    scans.push_back(Simulated(request, object, seed + scans.size()));
+SimulationOptions Drawn(const GoodScan& good, uint64_t seed) {
+  SimulationOptions scan = Drawn(good.family, seed, kGoodFrames);
+  if (good.pose_source != nullptr) scan.pose_source = good.pose_source;
+  if (good.sensor != nullptr) {
+    scan.sensor = good.sensor;
+    scan.motion.standoff = 0.6;  // which all of them measure
   }
-  return scans;
-}
-
-SimulationOptions With(SimulationOptions scan, const std::string& sensor,
-                       const std::string& pose_source) {
-  scan.sensor = sensor;
-  scan.pose_source = pose_source;
+  if (good.is_raw) scan.color.registration = Registration::kRaw;
   return scan;
-}
-
-SimulationOptions Moving(SimulationOptions scan, double speed, int frames) {
-  scan.motion.speed = speed;
-  scan.frames = frames;
-  return scan;
-}
-
-// Other objects and seeds than those to spoil, other sensors, trackers, speeds and lengths.
-std::vector<SimulationOptions> GoodScans(const StudyRequest& request, uint64_t seed) {
-  const auto scan = [&](const char* object, uint64_t more) {
-    return Simulated(request, object, seed + 20 + more);
-  };
-  if (request.quick) return {scan("deco", 0), With(scan("cat", 1), "primesense", "ptam")};
-  SimulationOptions shaky = With(scan("ladder", 13), "kinect_v1", "ptam");
-  shaky.pose_error_scale = 1.5;
-  return {scan("deco", 0),
-          With(scan("wine", 1), "kinect_v1", "kinfu"),
-          With(scan("chair", 2), "kinect_v1", "ptam"),
-          With(scan("dish", 3), "kinect_v1", "bundlefusion"),
-          With(scan("basket", 4), "primesense", "orbslam2"),
-          With(scan("rack", 5), "kinect_v2", "orbslam2"),
-          With(scan("dome", 6), "sr300", "kinfu"),
-          With(scan("shelf", 7), "kinect_v1", "true"),
-          Moving(scan("spring", 8), 0.15, 12),
-          Moving(scan("knot", 9), 0.5, kFrames),
-          Moving(scan("coat_stand", 10), 0.05, kFrames),
-          With(Moving(scan("cubeframe", 11), 0.3, 30), "kinect_v1", "ptam"),
-          scan("empty", 12),
-          shaky};
 }
 
 StudyCase CaseOf(const std::string& scan, const std::string& version, const std::string& expected,
-                 uint64_t seed, const std::string& folder = "") {
-  return {{{"scan", scan}, {"version", version}, {"expected", expected}, {"folder", folder}},
-          seed,
-          std::nullopt,
-          Config()};
+                 uint64_t seed) {
+  return {{{"scan", scan}, {"version", version}, {"expected", expected}}, seed, {}, Config(), {}};
 }
 
-std::string NameOf(const SimulationOptions& scan) {
-  return fmt::format("{}_{}_{}_{}{}", scan.object, scan.sensor, scan.pose_source, scan.frames,
-                     scan.motion.speed == 0.15 ? "" : fmt::format("_{}", scan.motion.speed));
+// `expected` of a scan that is as it was recorded.
+std::string ExpectedOf(const SimulationOptions& scan) {
+  return scan.color.registration == Registration::kRaw ? kRawColour : kNothing;
 }
 
-void AddWrongCases(const StudyRequest& request, uint64_t seed, std::vector<StudyCase>& cases) {
-  const std::vector<WrongVersion> versions = WrongVersions();
-  size_t next = 0;
-  for (const SimulationOptions& scan : ScansToSpoil(request, seed)) {
-    for (size_t i = 0; i < kVersionsOfOne; ++i, ++next) {
-      // 11 and 30 have no common divisor: every version comes before any comes again.
-      const WrongVersion& version = versions[next * 11 % versions.size()];
-      cases.push_back(CaseOf(NameOf(scan), version.name, version.cause, scan.seed));
-      cases.back().scan = scan;
-    }
+// Takes its turn of some items: each comes to one of `turns`, or to all where there is one.
+template <class Item>
+std::vector<Item> InTurn(const std::vector<Item>& items, size_t turn, size_t turns) {
+  std::vector<Item> mine;
+  for (size_t i = turn % turns; i < items.size(); i += turns) mine.push_back(items[i]);
+  return mine;
+}
+
+// The `turn`-th of the scans to spoil: between them these have every version once, five seeds all
+// versions of all.
+void AddSpoiledScan(const SimulationOptions& scan, const std::string& family, uint64_t seed,
+                    size_t turn, size_t turns, std::vector<StudyCase>& cases) {
+  std::vector<StudyCase> versions = {CaseOf(family, kAsRecorded, ExpectedOf(scan), seed)};
+  for (const WrongVersion& version : InTurn(WrongVersions(), turn + seed, turns)) {
+    versions.push_back(CaseOf(family, version.name, version.cause, seed));
+  }
+  for (const std::string& version :
+       InTurn(GoodVersions(), turn + seed, std::min<size_t>(turns, 2))) {
+    versions.push_back(CaseOf(family, version, kNothing, seed));
+  }
+  for (StudyCase& version : versions) {
+    version.scan = scan;
+    cases.push_back(version);
   }
 }
 
-// Of a real scan with one pose a frame: stamps are no clocks there.
-void AddRealCases(const std::filesystem::path& folder, std::vector<StudyCase>& cases) {
+std::vector<uint64_t> Seeds(const StudyRequest& request) {
+  std::vector<uint64_t> seeds = SeedsOf(request);
+  if (request.seeds == 0) seeds.resize(1);
+  return seeds;
+}
+
+// A mistake of clocks needs a clock, one of the colour images' order a video.
+bool IsPossible(const WrongVersion& version, const Sequence& recording) {
+  if (version.cause == "clock-offset") return recording.format == "tum";
+  return true;
+}
+
+// Of recordings those are spoiled that are simulated or called after a cable.
+bool IsToSpoil(const fs::path& folder) {
+  return fs::exists(folder / "truth" / "settings.json") ||
+         folder.filename().string().find("cable") != std::string::npos;
+}
+
+void AddRecording(const fs::path& folder, std::vector<StudyCase>& cases) {
   const std::string name = folder.filename().string();
-  cases.push_back(CaseOf(name, "good", kNothing, 0, folder.string()));
-  if (name.find("cable") == std::string::npos) return;
-  constexpr std::array<const char*, kVersionsOfRealScan> kVersions = {
-      "inverted", "opengl", "translations_mm", "poses_late_2", "images_in_text_order"};
+  const Sequence recording = ReadSequence(folder, PoseUse::kIfGiven, [](const CheckFinding&) {});
+  const auto reference = ReferenceOf(folder, recording.depth_camera);
+  const bool is_raw = reference && !reference->is_told;
+  std::vector<StudyCase> versions = {CaseOf(name, kAsRecorded, is_raw ? kRawColour : kNothing, 0)};
   for (const WrongVersion& version : WrongVersions()) {
-    if (std::find(kVersions.begin(), kVersions.end(), version.name) == kVersions.end()) continue;
-    cases.push_back(CaseOf(name, version.name, version.cause, 0, folder.string()));
+    if (!IsToSpoil(folder) || !IsPossible(version, recording)) continue;
+    versions.push_back(CaseOf(name, version.name, version.cause, 0));
+  }
+  for (StudyCase& version : versions) {
+    version.recording = folder;
+    cases.push_back(version);
   }
 }
 
 std::vector<StudyCase> Cases(const StudyRequest& request) {
-  const uint64_t seed = SeedsOf(request).front();
   std::vector<StudyCase> cases;
-  AddWrongCases(request, seed, cases);
-  for (const SimulationOptions& scan : GoodScans(request, seed)) {
-    cases.push_back(CaseOf(NameOf(scan), "good", kNothing, scan.seed));
-    cases.back().scan = scan;
+  for (const uint64_t seed : Seeds(request)) {
+    for (size_t i = 0; i < (request.quick ? kQuickGood : kGood.size()); ++i) {
+      const SimulationOptions scan = Drawn(kGood[i], seed);
+      cases.push_back(CaseOf(kGood[i].family, kAsRecorded, ExpectedOf(scan), seed));
+      cases.back().scan = scan;
+    }
+    const size_t turns = request.quick ? 1 : kSpoiled.size();
+    for (size_t turn = 0; turn < turns; ++turn) {
+      const char* family = kSpoiled[turn];
+      AddSpoiledScan(Drawn(family, seed, request.quick ? kQuickFrames : kFrames), family, seed,
+                     turn, turns, cases);
+    }
   }
-  for (const std::filesystem::path& folder : request.scans) AddRealCases(folder, cases);
+  for (const fs::path& folder : RecordingsOf(request)) AddRecording(folder, cases);
   return cases;
 }
 
-// The first geometric cause that the report names.
-std::string NamedCause(const CheckReport& report) {
-  for (const CheckFinding& finding : report.findings) {
-    if (GeometryCauses().contains(finding.cause)) return finding.cause;
-  }
-  return kNothing;
+bool IsGoodVersion(const std::string& version) {
+  const std::vector<std::string> names = GoodVersions();
+  return version == kAsRecorded || std::find(names.begin(), names.end(), version) != names.end();
 }
 
-std::string Text(const CheckReport& report) {
-  std::string text = NamedCause(report) + "\n";
-  for (const CheckFinding& finding : report.findings) text += finding.message + "\n";
-  return text;
+double MedianStep(const Sequence& sequence) {
+  std::vector<double> steps;
+  for (size_t i = 1; i < sequence.frames.size(); ++i) {
+    steps.push_back(sequence.frames[i].timestamp - sequence.frames[i - 1].timestamp);
+  }
+  const auto spread = SpreadOf(steps);
+  return spread ? spread->median : 0;
+}
+
+// Writes the version where it is another than the scan itself.
+CheckExpectation MakeVersion(const fs::path& scan, const std::string& version, fs::path& checked) {
+  CheckExpectation expected;
+  const Sequence given = ReadSequence(scan, PoseUse::kIfGiven, [](const CheckFinding&) {});
+  expected.frame_period = MedianStep(given);
+  const auto reference = ReferenceOf(scan, given.depth_camera);
+  expected.may_misplace_colour = reference && !reference->is_told;
+  const fs::path folder = checked;
+  if (version == kAsRecorded) {
+    checked = scan;
+    if (expected.may_misplace_colour) expected.mistake.cause = kRawColour;
+  } else if (IsGoodVersion(version)) {
+    WriteGoodVersion(scan, version, folder);
+  } else {
+    expected.mistake = WriteWrongVersion(scan, version, folder);
+  }
+  for (const SequenceFrame& frame :
+       ReadSequence(checked, PoseUse::kIfGiven, [](const CheckFinding&) {}).frames) {
+    expected.frame_names.push_back(frame.name);
+  }
+  return expected;
+}
+
+// How far the reported colour camera is from the true one.
+void AddColourOffsets(const nlohmann::json& check, const fs::path& scan, Figures& figures) {
+  const nlohmann::json& fit = check.at("colour_fit");
+  if (fit.is_null() || !fit.at("is_misregistered").get<bool>()) return;
+  const Sequence given = ReadSequence(scan, PoseUse::kIfGiven, [](const CheckFinding&) {});
+  const auto reference = ReferenceOf(scan, given.depth_camera);
+  if (!reference) return;
+  const nlohmann::json& camera = fit.at("color_camera");
+  ColourReference fitted{
+      {camera["width"], camera["height"], camera["fx"], camera["fy"], camera["cx"], camera["cy"]}};
+  for (int axis = 0; axis < 3; ++axis) {
+    fitted.T_color_depth.translation()[axis] = fit["T_color_depth"][axis][3].get<double>();
+  }
+  for (const double distance : {0.5, 0.8, 1.5}) {
+    figures[fmt::format("colour_offset_px.{}m", distance)] =
+        ColourOffset(given.depth_camera, fitted, *reference, distance);
+  }
 }
 
 RunOutcome Run(const RunInput& input) {
-  const Labels& labels = input.study_case.labels;
-  const std::string real = LabelOf(labels, "folder");
-  const std::filesystem::path scan = real.empty() ? input.scan : std::filesystem::path(real);
-  const std::string version = LabelOf(labels, "version");
-  std::filesystem::path checked = scan;
-  if (version != "good") {
-    checked = input.folder / "scan";
-    WriteWrongVersion(scan, version, checked);
-  }
-  const CheckReport report = CheckSequence(checked, input.progress);
-  WriteStreamAtomically(input.folder / "check.txt",
-                        [&](std::ostream& stream) { stream << Text(report); });
+  const fs::path& recording = input.study_case.recording;
+  const fs::path& scan = recording.empty() ? input.scan : recording;
+  fs::path checked = input.folder / "scan";
+  const CheckExpectation expected =
+      MakeVersion(scan, LabelOf(input.study_case.labels, "version"), checked);
+  const std::clock_t start = std::clock();
+  const std::string text = CheckJson(CheckSequence(checked, input.progress));
   RunOutcome outcome;
-  outcome.figures["right"] = NamedCause(report) == LabelOf(labels, "expected") ? 1 : 0;
-  outcome.figures["has_correction"] = report.geometry.correction ? 1 : 0;
-  for (const DepthDisagreement& part : report.geometry.by_gap) {
-    outcome.figures[fmt::format("gap_{}.residual_mm", part.gap)] = 1e3 * part.residual;
-    outcome.figures[fmt::format("gap_{}.overlap", part.gap)] = part.overlap;
-  }
+  outcome.figures["processor_seconds"] = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  const nlohmann::json check = nlohmann::json::parse(text);
+  const CheckVerdict verdict = JudgeCheck(check, expected);
+  outcome.figures["right"] = verdict.is_right ? 1 : 0;
+  AddColourOffsets(check, scan, outcome.figures);
+  WriteStreamAtomically(input.folder / "check.json", [&](std::ostream& stream) { stream << text; });
+  WriteStreamAtomically(input.folder / "verdict.txt", [&](std::ostream& stream) {
+    stream << verdict.named << "\n" << verdict.remarks << "\n";
+  });
+  fs::remove_all(input.folder / "scan");
   return outcome;
 }
 
-std::string FirstLine(const std::filesystem::path& path) {
-  if (!std::filesystem::exists(path)) return "-";
-  const std::string text = ReadFile(path);
+std::string Line(const fs::path& path, int number) {
+  if (!fs::exists(path)) return "-";
+  std::string text = ReadFile(path);
+  for (int i = 0; i < number; ++i) text = text.substr(text.find('\n') + 1);
   return text.substr(0, text.find('\n'));
 }
 
+struct Count {
+  int all = 0;
+  int right = 0;
+};
+
 void Report(const StudyResults& results) {
-  Table table{{"scan", "version", "expected", "named", "result"}, {}, 5};
-  int wrong = 0;
-  int named = 0;
-  int good = 0;
-  int left_alone = 0;
+  Table table{{"scan", "version", "expected", "named", "remarks", "result"}, {}, 6};
+  Count wrong, good;
   for (const StudyRun& run : results.runs) {
     const auto figure = run.figures.find("right");
-    const bool right = figure != run.figures.end() && figure->second > 0;
-    const bool is_good = LabelOf(run.labels, "version") == "good";
-    (is_good ? good : wrong) += 1;
-    (is_good ? left_alone : named) += right ? 1 : 0;
+    const bool is_right = figure != run.figures.end() && figure->second > 0;
+    Count& count = LabelOf(run.labels, "expected") == kNothing ? good : wrong;
+    ++count.all;
+    count.right += is_right ? 1 : 0;
     table.rows.push_back({LabelOf(run.labels, "scan"), LabelOf(run.labels, "version"),
-                          LabelOf(run.labels, "expected"), FirstLine(run.folder / "check.txt"),
-                          right ? "right" : "WRONG"});
+                          LabelOf(run.labels, "expected"), Line(run.folder / "verdict.txt", 0),
+                          Line(run.folder / "verdict.txt", 1), is_right ? "right" : "WRONG"});
   }
-  table.rows.push_back({"all", "wrong versions", fmt::format("{}", wrong), fmt::format("{}", named),
-                        "named rightly"});
-  table.rows.push_back({"all", "good scans", fmt::format("{}", good), fmt::format("{}", left_alone),
-                        "without complaint"});
+  const auto add = [&](const char* kind, const Count& count, const char* what) {
+    table.rows.push_back(
+        {"all", kind, "", "", "", fmt::format("{} of {} {}", count.right, count.all, what)});
+  };
+  add("with a mistake", wrong, "named rightly");
+  add("good", good, "without complaint");
   WriteTable(results.folder, results.stem, table);
 }
 

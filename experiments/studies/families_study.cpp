@@ -10,6 +10,7 @@
 #include "experiments/simulation/families/scan_draw.h"
 #include "experiments/studies/families_report.h"
 #include "experiments/studies/reconstruction_run.h"
+#include "experiments/studies/recordings.h"
 #include "experiments/studies/studies.h"
 #include "graph/io/graph_io.h"
 #include "kernel/error.h"
@@ -67,28 +68,8 @@ void AddSimulatedCases(const StudyRequest& request, std::vector<StudyCase>& case
   }
 }
 
-// Subfolders of `folder` in which a sequence may lie; truths (NAME.truth) are none.
-std::vector<fs::path> RecordingsIn(const fs::path& folder) {
-  std::vector<fs::path> recordings;
-  for (const char* part : {"sim", "real"}) {
-    if (!fs::is_directory(folder / part)) continue;
-    for (const auto& entry : fs::directory_iterator(folder / part)) {
-      if (entry.is_directory() && entry.path().extension() != ".truth") {
-        recordings.push_back(entry.path());
-      }
-    }
-  }
-  std::sort(recordings.begin(), recordings.end());
-  return recordings;
-}
-
 void AddRecordings(const StudyRequest& request, std::vector<StudyCase>& cases) {
-  std::vector<fs::path> recordings = request.scans;
-  if (!request.data.empty()) {
-    const std::vector<fs::path> more = RecordingsIn(request.data);
-    recordings.insert(recordings.end(), more.begin(), more.end());
-  }
-  for (const fs::path& recording : recordings) {
+  for (const fs::path& recording : RecordingsOf(request)) {
     for (const Profile profile : request.profiles) {
       const Labels labels = {{"family", "recording " + recording.filename().string()},
                              {"contrast", "recording"},

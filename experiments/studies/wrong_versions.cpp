@@ -5,12 +5,18 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <nlohmann/json.hpp>
 
+#include "capture/content/colour_findings.h"
 #include "capture/content/pose_hypotheses.h"
 #include "capture/content/repair.h"
+#include "capture/detect_format.h"
 #include "capture/sequence.h"
 #include "capture/trajectory.h"
+#include "kernel/atomic_file.h"
 #include "kernel/error.h"
+#include "kernel/json_input.h"
+#include "kernel/text_input.h"
 
 namespace curvefusion {
 
@@ -18,17 +24,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What a mistake does to a sequence that is right.
-using Mistake = std::function<void(SequenceCorrection&)>;
+// What a mistake does to a sequence that is right, and to what `check` should find.
+using ScanChange = std::function<void(SequenceCorrection&, Mistake&)>;
+// The same to a sequence that has been written.
+using FileChange = std::function<void(const fs::path& folder, Mistake&)>;
 
 struct NamedMistake {
   WrongVersion version;
-  Mistake make;
-  double clock = 0;  // seconds added to the stamps of the trajectory
+  ScanChange make;
+  FileChange change_files = {};
 };
 
-Mistake ChangePoses(const std::function<RigidTransform(const RigidTransform&)>& change) {
-  return [change](SequenceCorrection& scan) {
+ScanChange ChangePoses(const std::function<RigidTransform(const RigidTransform&)>& change) {
+  return [change](SequenceCorrection& scan, Mistake&) {
     for (SequenceFrame& frame : scan.sequence.frames) {
       frame.T_world_camera = change(frame.T_world_camera);
     }
@@ -49,16 +57,18 @@ RigidTransform ToOpenGl(const RigidTransform& pose) {
   return changed;
 }
 
-Mistake ScaleTranslations(double factor) {
-  return ChangePoses([factor](const RigidTransform& pose) {
-    RigidTransform changed = pose;
-    changed.translation() *= factor;
-    return changed;
-  });
+ScanChange ScaleTranslations(double factor) {
+  return [factor](SequenceCorrection& scan, Mistake& expected) {
+    for (SequenceFrame& frame : scan.sequence.frames) frame.T_world_camera.translation() *= factor;
+    expected.amount = {1 / factor, "factor"};
+  };
 }
 
-Mistake ScaleDepthUnit(double factor) {
-  return [factor](SequenceCorrection& scan) { scan.sequence.depth_scale *= factor; };
+ScanChange ScaleDepthUnit(double factor) {
+  return [factor](SequenceCorrection& scan, Mistake& expected) {
+    expected.amount = {scan.sequence.depth_scale, "units per metre"};
+    scan.sequence.depth_scale *= factor;
+  };
 }
 
 // The layout with one pose a frame, in which nothing but the number says what belongs together.
@@ -70,8 +80,8 @@ void UseFrameNumbers(Sequence& sequence) {
 }
 
 // Frame i gets the pose of the frame order(i); those without one go.
-Mistake OrderPoses(const std::function<int(int frame, int count)>& order) {
-  return [order](SequenceCorrection& scan) {
+ScanChange OrderPoses(const std::function<int(int frame, int count)>& order) {
+  return [order](SequenceCorrection& scan, Mistake&) {
     UseFrameNumbers(scan.sequence);
     const std::vector<SequenceFrame> right = scan.sequence.frames;
     const int count = static_cast<int>(right.size());
@@ -86,12 +96,17 @@ Mistake OrderPoses(const std::function<int(int frame, int count)>& order) {
 }
 
 // Poses late by so many frames: frame i stands with the pose of frame i - frames.
-Mistake DelayPoses(int frames) {
-  return OrderPoses([frames](int i, int) { return i - frames; });
+ScanChange DelayPoses(int frames) {
+  const ScanChange reorder = OrderPoses([frames](int i, int) { return i - frames; });
+  return [frames, reorder](SequenceCorrection& scan, Mistake& expected) {
+    reorder(scan, expected);
+    expected.amount = {static_cast<double>(frames), "frames"};
+  };
 }
 
-Mistake DelayColor(int frames) {
-  return [frames](SequenceCorrection& scan) {
+ScanChange DelayColor(int frames) {
+  return [frames](SequenceCorrection& scan, Mistake& expected) {
+    expected.amount = {static_cast<double>(frames), "frames"};
     const std::vector<SequenceFrame> right = scan.sequence.frames;
     scan.sequence.frames.clear();
     for (int i = 0; i < static_cast<int>(right.size()); ++i) {
@@ -105,21 +120,67 @@ Mistake DelayColor(int frames) {
 }
 
 // The frames from a place on (or only one) stand 40 mm and 2 degrees off.
-Mistake Jump(bool comes_back) {
-  return [comes_back](SequenceCorrection& scan) {
-    const size_t first = scan.sequence.frames.size() * 2 / 5;
-    const size_t end = comes_back ? first + 1 : scan.sequence.frames.size();
+ScanChange Jump(bool comes_back) {
+  return [comes_back](SequenceCorrection& scan, Mistake& expected) {
+    std::vector<SequenceFrame>& frames = scan.sequence.frames;
+    const size_t first = frames.size() * 2 / 5;
+    const size_t end = comes_back ? first + 1 : frames.size();
     for (size_t i = first; i < end; ++i) {
-      RigidTransform& pose = scan.sequence.frames[i].T_world_camera;
-      pose.translation() += Vec3(0.03, 0.02, -0.02);
-      pose.rotate(Eigen::AngleAxisd(2 * M_PI / 180, Vec3::UnitY()));
+      frames[i].T_world_camera.translation() += Vec3(0.03, 0.02, -0.02);
+      frames[i].T_world_camera.rotate(Eigen::AngleAxisd(2 * M_PI / 180, Vec3::UnitY()));
     }
+    expected.frames = {{frames[comes_back ? first : first - 1].name, frames[first].name}};
+  };
+}
+
+// A tracker that goes astray for a quarter of the scan and comes back: by up to 12 degrees and 50
+// mm.
+void LoseTracking(SequenceCorrection& scan, Mistake& expected) {
+  std::vector<SequenceFrame>& frames = scan.sequence.frames;
+  const size_t first = frames.size() * 2 / 5;
+  const size_t count = frames.size() / 4;
+  for (size_t i = 0; i < count; ++i) {
+    const double share = (static_cast<double>(i) + 0.5) / static_cast<double>(count);
+    const double astray = std::pow(std::sin(M_PI * share), 2);
+    RigidTransform& pose = frames[first + i].T_world_camera;
+    pose.translate(Vec3(0.05 * astray, 0, 0));
+    pose.rotate(Eigen::AngleAxisd(12 * M_PI / 180 * astray, Vec3::UnitX()));
+  }
+  expected.frames = {{frames[first].name, frames[first + count - 1].name}};
+}
+
+void DoNothing(SequenceCorrection&, Mistake&) {}
+
+FileChange MoveClock(double seconds) {
+  return [seconds](const fs::path& folder, Mistake& expected) {
+    const fs::path path = folder / "trajectory.txt";
+    Trajectory trajectory = ReadTumTrajectory(path, [](const CheckFinding&) {});
+    for (StampedPose& pose : trajectory) pose.timestamp += seconds;
+    WriteTumTrajectory(path, trajectory);
+    expected.amount = {seconds, "s"};
+  };
+}
+
+// Writes another colour camera into intrinsics.json: by factors and parts of the image's width.
+FileChange ChangeColourCamera(double focal_factor, double right, double down, double baseline) {
+  return [=](const fs::path& folder, Mistake&) {
+    const Sequence scan = ReadSequence(folder, PoseUse::kIfGiven, [](const CheckFinding&) {});
+    PinholeCamera camera = scan.color_camera;
+    camera.fx *= focal_factor;
+    camera.fy *= focal_factor;
+    camera.cx += right * camera.width;
+    camera.cy += down * camera.width;
+    RigidTransform T_color_depth = scan.T_color_depth;
+    T_color_depth.translation().x() += baseline;
+    const fs::path path = folder / "intrinsics.json";
+    nlohmann::ordered_json json = ParseJson(ReadFile(path), path.string());
+    json.update(nlohmann::ordered_json::parse("{" + ColourCameraJson(camera, T_color_depth) + "}"));
+    WriteStreamAtomically(path, [&](std::ostream& stream) { stream << json.dump(1) << "\n"; });
   };
 }
 
 std::vector<NamedMistake> Mistakes() {
   const auto inverse = [](const RigidTransform& pose) { return pose.inverse(); };
-  const Mistake nothing = [](SequenceCorrection&) {};
   return {{{"inverted", "poses-inverted"}, ChangePoses(inverse)},
           {{"w_first", "quaternion-w-first"}, ChangePoses(ReadWithWFirst)},
           {{"opengl", "opengl-axes"}, ChangePoses(ToOpenGl)},
@@ -127,6 +188,7 @@ std::vector<NamedMistake> Mistakes() {
           {{"translations_cm", "translation-scale"}, ScaleTranslations(100)},
           {{"translations_feet", "translation-scale"}, ScaleTranslations(1 / 0.3048)},
           {{"translations_other", "translation-scale"}, ScaleTranslations(0.37)},
+          {{"translations_fifth", "translation-scale"}, ScaleTranslations(0.2)},
           {{"depth_unit_x2", "depth-scale"}, ScaleDepthUnit(2)},
           {{"depth_unit_half", "depth-scale"}, ScaleDepthUnit(0.5)},
           {{"depth_unit_x5", "depth-scale"}, ScaleDepthUnit(5)},
@@ -136,13 +198,14 @@ std::vector<NamedMistake> Mistakes() {
           {{"depth_unit_x1000", "depth-scale"}, ScaleDepthUnit(1000)},
           {{"depth_unit_thousandth", "depth-scale"}, ScaleDepthUnit(0.001)},
           {{"bytes_swapped", "depth-bytes-swapped"},
-           [](SequenceCorrection& scan) { scan.swap_bytes = true; }},
+           [](SequenceCorrection& scan, Mistake&) { scan.swap_bytes = true; }},
           {{"poses_late_2", "poses-late"}, DelayPoses(2)},
           {{"poses_early_5", "poses-late"}, DelayPoses(-5)},
+          {{"poses_late_7", "poses-late"}, DelayPoses(7)},
           {{"poses_late_10", "poses-late"}, DelayPoses(10)},
-          {{"clock_late_0.1s", "clock-offset"}, nothing, 0.1},
-          {{"clock_early_0.25s", "clock-offset"}, nothing, -0.25},
-          {{"clock_other_zone", "clock-offset"}, nothing, 3600.4},
+          {{"clock_late_0.1s", "clock-offset"}, DoNothing, MoveClock(0.1)},
+          {{"clock_early_0.25s", "clock-offset"}, DoNothing, MoveClock(-0.25)},
+          {{"clock_other_zone", "clock-offset"}, DoNothing, MoveClock(3600.4)},
           {{"color_late_3", "colour-late"}, DelayColor(3)},
           {{"color_early_7", "colour-late"}, DelayColor(-7)},
           {{"color_late_10", "colour-late"}, DelayColor(10)},
@@ -156,13 +219,15 @@ std::vector<NamedMistake> Mistakes() {
              return static_cast<int>(std::find(order.begin(), order.end(), i) - order.begin());
            })},
           {{"one_pose_off", "pose-jump"}, Jump(true)},
-          {{"jump", "pose-jump"}, Jump(false)}};
-}
-
-void MoveClock(const fs::path& folder, double seconds) {
-  Trajectory trajectory = ReadTumTrajectory(folder / "trajectory.txt", [](const CheckFinding&) {});
-  for (StampedPose& pose : trajectory) pose.timestamp += seconds;
-  WriteTumTrajectory(folder / "trajectory.txt", trajectory);
+          {{"jump", "pose-jump"}, Jump(false)},
+          {{"tracking_lost", "bad-stretch"}, LoseTracking},
+          // As if images that were warped onto depth were those of the camera beside it.
+          {{"colour_camera_of_raw_images", "colour-misregistered"},
+           DoNothing,
+           ChangeColourCamera(0.92, 0, 0, -0.025)},
+          {{"colour_centre_off", "colour-misregistered"},
+           DoNothing,
+           ChangeColourCamera(1, 0.03, -0.015, 0)}};
 }
 
 }  // namespace
@@ -173,15 +238,15 @@ std::vector<WrongVersion> WrongVersions() {
   return versions;
 }
 
-void WriteWrongVersion(const fs::path& scan, const std::string& name, const fs::path& folder) {
-  SequenceCorrection written{OpenSequence(scan), false, {}};
-  if (name.empty()) return WriteRepairedSequence(written, folder);
+Mistake WriteWrongVersion(const fs::path& scan, const std::string& name, const fs::path& folder) {
   for (const NamedMistake& mistake : Mistakes()) {
     if (mistake.version.name != name) continue;
-    mistake.make(written);
+    SequenceCorrection written{OpenSequence(scan), false, {}};
+    Mistake expected{mistake.version.cause};
+    mistake.make(written, expected);
     WriteRepairedSequence(written, folder);
-    if (mistake.clock != 0) MoveClock(folder, mistake.clock);
-    return;
+    if (mistake.change_files) mistake.change_files(folder, expected);
+    return expected;
   }
   throw Error(ErrorKind::kUsage, "there is no wrong version " + name);
 }

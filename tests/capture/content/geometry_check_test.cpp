@@ -227,7 +227,13 @@ TEST(GeometryCheck, ABadStretchIsListed) {
     wrong.sequence.frames[i].T_world_camera.rotate(
         Eigen::AngleAxisd(0.04 * std::min<double>(i - 19, 35 - i), Vec3::UnitX()));
   }
-  EXPECT_THAT(Check(wrong).causes, ElementsAre("bad-stretch"));
+  const Checked checked = Check(wrong);
+  ASSERT_THAT(checked.causes, ElementsAre("bad-stretch"));
+  ASSERT_THAT(checked.report.mistakes, SizeIs(1));
+  const FrameStretch stretch = checked.report.mistakes[0].frames.at(0);
+  // At the stretch's ends, 7 degrees about x are 2.4 % of the distance in the median: no bad frames.
+  EXPECT_NEAR(std::stoi(stretch.first), 20, 3);
+  EXPECT_NEAR(std::stoi(stretch.last), 34, 3);
 }
 
 TEST(GeometryCheck, PosesOfAnotherScanAreNotExplained) {
