@@ -245,9 +245,9 @@ void AddBend(const std::array<int, 3>& row, const std::vector<Vec3>& positions,
   const Vec3& b = positions[row[1]];
   const Vec3& c = positions[row[2]];
   const Mat3 across = Mat3::Identity() - Along(c - a);
-  const Mat3 by_b = -2 * across;
   const Mat3 by_a = across * (Mat3::Identity() - Along(-3 * a + 4 * b - c));
   const Mat3 by_c = across * (Mat3::Identity() - Along(a - 4 * b + 3 * c));
+  const Mat3 by_b = -(by_a + by_c);  // moving all three alike bends nothing
   equations.AddRow(row, across * (a - 2 * b + c), {by_a, by_b, by_c},
                    1 / (kBendSigma * kBendSigma));
 }
