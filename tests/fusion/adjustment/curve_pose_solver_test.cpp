@@ -234,7 +234,8 @@ TEST_F(CurvePoseSolverTest, OutliersAreHeldOff) {
   }
   CurvePoseState state = Solve(3);
   for (int i = 0; i < 3; ++i) state = ImproveCurvesAndPoses(problem_, state, 0.4);
-  EXPECT_LT(MeanDistance(state), 0.0003);  // 4 % outliers of 5 px, 4 mm; Huber leaves some pull
+  // 4 % outliers of 5 px, 4 mm; Huber leaves some pull, and spacings of the start are .4 mm off.
+  EXPECT_LT(MeanDistance(state), 0.00035);
 }
 
 TEST_F(CurvePoseSolverTest, WithoutObservationsNothingMoves) {
