@@ -1,11 +1,10 @@
 #!/usr/bin/env python3
 """Fits the coefficients of fusion/curve_graph/wire_proof.cpp and prints how reliable they are.
 
-fit_wire_proof.py [--keep-first-step] STAGES:TRUTH ... [--validation STAGES:TRUTH ...]
+fit_wire_proof.py STAGES:TRUTH ... [--validation STAGES:TRUTH ...]
 
 STAGES is a folder of `reconstruct --save-stages` (evidence.csv in it), TRUTH the curves.json of the scan, or
-`none` where the scan shows no wire, or `all` where every curve is one. --keep-first-step fits the second step only.
-Needs numpy and scipy.
+`none` where the scan shows no wire, or `all` where every curve is one. Needs numpy and scipy.
 """
 import csv
 import json
@@ -19,8 +18,6 @@ NEAR = 0.008       # metres: a stretch is true where it lies so near to a true c
 UNCLEAR = (0.006, 0.012)  # metres: stretches so far away teach nothing
 NEIGHBOURHOOD = 0.25      # metres, as in wire_proof.cpp
 LEAST = 0.03
-WIDEST_WIRE = 0.012
-FIRST_STEP = np.array([0.59, -1.71, 1.68, -2.44, -1.97, -2.98, 3.29, -3.0])  # as in wire_proof.cpp
 
 
 def true_points(path):
@@ -104,21 +101,6 @@ def terms(t):
 TERMS = ["kSame", "kOpen", "kWide", "kPast", "kMostlyPast", "kCovered", "kThick"]
 
 
-def covered_around(table):
-    """The share of length around a stretch, its own included, on which strips are as thin as a wire."""
-    middles = np.column_stack([table[axis + "1"] for axis in "xyz"])
-    covered = table["coverage"] * ((table["diameter"] > 0) & (table["diameter"] <= WIDEST_WIRE))
-    length, result = table["length"], np.zeros(len(covered))
-    for i, near in enumerate(cKDTree(middles).query_ball_point(middles, NEIGHBOURHOOD)):
-        near = [j for j in near if table["part"][j] == table["part"][i]]
-        result[i] = (covered[near] * length[near]).sum() / (length[near].sum() + 0.04)
-    return result
-
-
-def second_terms(own, table):
-    return np.column_stack([own, around(own, table), covered_around(table)])
-
-
 def around(own, table):
     middles = np.column_stack([table[axis + "1"] for axis in "xyz"])
     length, clipped, result = table["length"], np.clip(own, -4, 4), np.zeros(len(own))
@@ -167,22 +149,21 @@ def probability(tables, b, c):
     result = []
     for table in tables:
         own = b[0] + terms(table) @ b[1:]
-        result.append(c[0] + second_terms(own, table) @ c[1:])
+        result.append(c[0] + c[1] * own + c[2] * around(own, table))
     return 1 / (1 + np.exp(-np.concatenate(result)))
 
 
 def main(arguments):
-    keep_first = "--keep-first-step" in arguments
-    arguments = [a for a in arguments if a != "--keep-first-step"]
     split = arguments.index("--validation") if "--validation" in arguments else len(arguments)
     train = [t for t in map(read, arguments[:split]) if t is not None]
     held_out = [t for t in map(read, arguments[split + 1:]) if t is not None]
     w, y = weights(train), np.concatenate([t["true"] for t in train])
-    b = FIRST_STEP if keep_first else logistic(np.concatenate([terms(t) for t in train]), y, w)
+    b = logistic(np.concatenate([terms(t) for t in train]), y, w)
     own = [b[0] + terms(t) @ b[1:] for t in train]
-    c = logistic(np.concatenate([second_terms(o, t) for o, t in zip(own, train)]), y, w)
+    c = logistic(np.column_stack([np.concatenate(own),
+                                  np.concatenate([around(o, t) for o, t in zip(own, train)])]), y, w)
     print("kBias", round(b[0], 2), *(f"{n} {v:.2f}" for n, v in zip(TERMS, b[1:])))
-    print(f"kAroundBias {c[0]:.2f} kOwn {c[1]:.2f} kAround {c[2]:.2f} kCoveredAround {c[3]:.2f}")
+    print(f"kAroundBias {c[0]:.2f} kOwn {c[1]:.2f} kAround {c[2]:.2f}")
     for name, tables in (("training", train), ("validation", held_out)):
         if tables:
             print(name)

@@ -38,15 +38,14 @@ constexpr double kLittle = 0.01;  // of the length; less is not worth another ro
 // depth images at most and the strips of all radii, which come before. Whether any wire left: then
 // edges were cut, and radii are to be measured again.
 bool KeepProvenWires(const std::string& name, double min_probability, int depth_images,
-                     bool colour_tells, const StageReporter& reporter, Reconstruction& result) {
+                     const StageReporter& reporter, Reconstruction& result) {
   const StageLog::Timer timer = reporter.Begin("evidence");
   const double uncertain = result.uncertain.lengths.Sum();
   const std::vector<StretchEvidence> evidence =
       CollectEvidence(result.skeleton, result.radii, result.sequence, depth_images);
   reporter.observer.OnEvidence(name, result.skeleton, evidence);
-  result.trust.wire_length =
-      KeepProven(evidence, ProveWires(result.skeleton, evidence, colour_tells), min_probability,
-                 result.skeleton, result.uncertain);
+  result.trust.wire_length = KeepProven(evidence, ProveWires(result.skeleton, evidence),
+                                        min_probability, result.skeleton, result.uncertain);
   result.funnel.curves.unproven = result.uncertain.lengths;
   reporter.log.Count("evidence", "uncertain, m", result.uncertain.lengths.Sum());
   return result.uncertain.lengths.Sum() > uncertain;
@@ -200,10 +199,7 @@ void RefineByColour(const Sequence& given, const SegmentationModel& model,
     const double min_probability = share * options.evidence.min_probability;
     // Depth that does not show wires says nothing for or against them.
     const int depth_images = depth == WireDepth::kShown ? options.evidence.max_frames : 0;
-    // Without silhouettes colour does not tell wires either.
-    const bool colour_tells = options.silhouettes.max_frames > 0;
-    if (KeepProvenWires(name, min_probability, depth_images, colour_tells, reporter, result))
-      measure_radii();
+    if (KeepProvenWires(name, min_probability, depth_images, reporter, result)) measure_radii();
   };
   measure_radii();
   // Nothing is to be added to what is hardly a wire.

@@ -22,21 +22,17 @@ constexpr double kPast = -1.97;
 constexpr double kMostlyPast = -2.98;
 constexpr double kCovered = 3.29;
 constexpr double kThick = -3.0;
-// then with those around it,
-struct SecondStep {
-  double bias = 0, own = 0, around = 0, covered = 0;
-};
-constexpr SecondStep kWithColour = {-1.87, 0.07, 1.35, 4.83};
-// and where colour tells nothing. Measured, but for the bias: -1.17 by an earlier fit; chosen 1.15
-// higher, since what that held 15 to 30 % likely was true in .77 of its length.
-constexpr SecondStep kWithoutColour = {-0.02, 0.34, 1.8, 0};
+// then with those around it.
+constexpr double kAroundBias = -1.17;
+constexpr double kOwn = 0.34;
+constexpr double kAround = 1.8;
 
 constexpr double kFewImages = 5;       // chosen: so many images count as much as knowing nothing
 constexpr double kSameFloor = 0.03;    // chosen: so much of a wire's surroundings goes on by chance
 constexpr double kWidestWire = 0.012;  // metres, CurveFusion 4
 constexpr double kNeighbourhood = 0.25;  // metres
 constexpr double kMaxLogOdds = 4;        // of one stretch for those around it
-constexpr double kNothingWeight = 0.04;  // metres: so much is drawn to zero in means
+constexpr double kOwnWeight = 0.04;      // metres: of the neighbours' mean, drawn to zero
 
 // The terms of a stretch's own log-odds.
 struct Terms {
@@ -56,12 +52,6 @@ Terms OwnTerms(const StretchEvidence& e) {
   return terms;
 }
 
-// The share of a stretch on which colour shows something that measures as thin as a wire.
-double CoveredByWire(const StretchEvidence& e) {
-  const bool is_thin = e.diameter > 0 && e.diameter <= kWidestWire;
-  return is_thin ? e.coverage : 0;
-}
-
 Doubt LargestDoubt(const Terms& terms) {
   constexpr double kClear = -1;  // less may be a wire's
   const double least = std::min({terms.surface, terms.thick, terms.past});
@@ -69,16 +59,6 @@ Doubt LargestDoubt(const Terms& terms) {
   if (least == terms.surface) return Doubt::kSurface;
   return least == terms.thick ? Doubt::kThick : Doubt::kLookedPast;
 }
-
-// Weighted by metres of curve, drawn to zero.
-struct WeightedMean {
-  double sum = 0, length = kNothingWeight;
-  void Add(double value, double metres) {
-    sum += metres * value;
-    length += metres;
-  }
-  double Value() const { return sum / length; }
-};
 
 std::map<EdgeId, int> PartOfEdges(const SkeletonGraph& skeleton) {
   std::map<EdgeId, int> part_of;
@@ -95,7 +75,7 @@ std::map<EdgeId, int> PartOfEdges(const SkeletonGraph& skeleton) {
 double Probability(double log_odds) { return 1 / (1 + std::exp(-log_odds)); }
 
 std::vector<WireProof> ProveWires(const SkeletonGraph& skeleton,
-                                  const std::vector<StretchEvidence>& evidence, bool colour_tells) {
+                                  const std::vector<StretchEvidence>& evidence) {
   std::vector<WireProof> proofs;
   std::vector<double> own;
   std::vector<Vec3> middles;
@@ -105,24 +85,19 @@ std::vector<WireProof> ProveWires(const SkeletonGraph& skeleton,
     own.push_back(terms.Sum());
     middles.push_back(stretch.middle);
   }
-  const bool has_strips = std::any_of(evidence.begin(), evidence.end(),
-                                      [](const StretchEvidence& e) { return e.coverage > 0; });
-  const SecondStep& step = colour_tells && has_strips ? kWithColour : kWithoutColour;
   const std::map<EdgeId, int> part_of = PartOfEdges(skeleton);
   const PointIndex index(middles);
   std::vector<int> near;
   for (size_t i = 0; i < evidence.size(); ++i) {
     index.WithinRadius(middles[i], kNeighbourhood, near);
-    WeightedMean of_others, covered;
+    double sum = 0, length = kOwnWeight;
     for (const int j : near) {
-      if (part_of.at(evidence[j].edge) != part_of.at(evidence[i].edge)) continue;
-      const double length = evidence[j].length;
-      covered.Add(CoveredByWire(evidence[j]), length);
-      if (static_cast<size_t>(j) == i) continue;
-      of_others.Add(std::clamp(own[j], -kMaxLogOdds, kMaxLogOdds), length);
+      const bool is_other = static_cast<size_t>(j) != i;
+      if (!is_other || part_of.at(evidence[j].edge) != part_of.at(evidence[i].edge)) continue;
+      sum += evidence[j].length * std::clamp(own[j], -kMaxLogOdds, kMaxLogOdds);
+      length += evidence[j].length;
     }
-    proofs[i].log_odds = step.bias + step.own * own[i] + step.around * of_others.Value() +
-                         step.covered * covered.Value();
+    proofs[i].log_odds = kAroundBias + kOwn * own[i] + kAround * sum / length;
   }
   return proofs;
 }

@@ -104,44 +104,6 @@ TEST(WireProof, WhatIsConnectedSpeaksForAStretch) {
   EXPECT_DOUBLE_EQ(far.Probability(0), Alone(unclear));
 }
 
-TEST(WireProof, ThinStripsAroundSpeakForAStretch) {
-  const auto beside = [](double coverage, double diameter) {
-    Stretches two;
-    const NodeId a = two.skeleton.AddNode({0, 0, 0}), b = two.skeleton.AddNode({0.04, 0, 0});
-    const NodeId c = two.skeleton.AddNode({0.08, 0, 0});
-    const EdgeId first = two.skeleton.AddEdge({{a, b}, {{0, 0, 0}, {0.04, 0, 0}}, {}, {}});
-    const EdgeId second = two.skeleton.AddEdge({{b, c}, {{0.04, 0, 0}, {0.08, 0, 0}}, {}, {}});
-    for (const EdgeId id : {first, second}) {
-      StretchEvidence stretch = Wire();
-      stretch.open = 0.3;
-      stretch.edge = id;
-      stretch.part = {0, 1};
-      stretch.length = 0.04;
-      stretch.middle = {id == first ? 0.02 : 0.06, 0, 0};
-      two.evidence.push_back(stretch);
-    }
-    two.evidence[1].coverage = coverage;
-    two.evidence[1].diameter = diameter;
-    return ProveWires(two.skeleton, two.evidence)[0].log_odds;
-  };
-  const double none = beside(0, 0), thin = beside(1, 0.012), thick = beside(1, 0.013);
-  EXPECT_GT(thin, none);
-  // Strips speak for a stretch twice: for the one that has them, and for all around it if thin.
-  EXPECT_GT(thin, thick + 1);
-}
-
-TEST(WireProof, StripsOnlyElsewhereSpeakAgainstAStretchUnlessColourTellsNothing) {
-  Stretches two;
-  two.Add(Vec3::Zero(), Wire());
-  StretchEvidence strip = Wire();
-  strip.coverage = 1;
-  strip.diameter = 0.006;
-  two.Add({1, 0, 0}, strip);
-  EXPECT_LT(two.Probability(0), Alone(Wire()));
-  const double untold = ProveWires(two.skeleton, two.evidence, false)[0].log_odds;
-  EXPECT_DOUBLE_EQ(curvefusion::Probability(untold), Alone(Wire()));
-}
-
 TEST(WireProof, NamesWhatSpeaksMostAgainstIt) {
   const auto doubt = [](const StretchEvidence& evidence) {
     Stretches one;
