@@ -54,7 +54,7 @@ void ProgressPrinter::BeginStage(const std::string& stage, double start) {
   Finish();
   stage_ = stage;
   stage_start_ = start;
-  last_print_ = style_ == Style::kTerminal ? start - kTerminalInterval : start;
+  last_print_ = style_ == Style::kTerminal ? start - 2 * kTerminalInterval : start;
 }
 
 void ProgressPrinter::Finish() {

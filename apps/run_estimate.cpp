@@ -11,6 +11,8 @@ constexpr double kEarliest = 0.25;
 // Once so much of a stage is done its own speed is known, chosen on the scans of
 // docs/results_details.md.
 constexpr double kSureShare = 0.1;
+// Chosen: so many planned seconds of a stage weigh as much as all other stages together.
+constexpr double kDoubt = 0.25;
 
 }  // namespace
 
@@ -22,8 +24,10 @@ double RunEstimate::Cost() const {
 
 void RunEstimate::Begin(const std::string& stage, double now) {
   if (!stage_.empty()) {
-    planned_ += Cost();
-    taken_ += now - start_;
+    for (Spent* spent : {&all_, &of_name_[stage_]}) {
+      spent->planned += Cost();
+      spent->taken += now - start_;
+    }
   }
   stage_ = stage;
   start_ = now;
@@ -42,23 +46,33 @@ void RunEstimate::Report(const std::string& stage, int64_t done, int64_t total, 
 
 double RunEstimate::Rate(double now) const {
   const double running = share_ > 0 ? now - start_ : 0;
-  const double planned = planned_ + share_ * Cost();
-  return planned > 0 && taken_ + running >= kEarliest ? (taken_ + running) / planned : 0;
+  const double planned = all_.planned + share_ * Cost();
+  return planned > 0 && all_.taken + running >= kEarliest ? (all_.taken + running) / planned : 0;
+}
+
+// What took longer than planned for this scan does so again.
+double RunEstimate::RateOf(const std::string& stage, double rate) const {
+  const auto found = of_name_.find(stage);
+  if (found == of_name_.end()) return rate;
+  return (found->second.taken + kDoubt * rate) / (found->second.planned + kDoubt);
 }
 
 std::optional<double> RunEstimate::SecondsLeft(double now) const {
   const double rate = Rate(now);
   if (rate <= 0) return std::nullopt;
-  double ahead = 0;
-  for (size_t i = next_; i < plan_.size(); ++i) ahead += plan_[i].cost;
   // How long the stage that runs takes may be up to the scan, not to the machine.
-  const double rate_ahead = planned_ > 0 && taken_ >= kEarliest ? taken_ / planned_ : rate;
+  const bool is_known = all_.planned > 0 && all_.taken >= kEarliest;
+  const double rate_ahead = is_known ? all_.taken / all_.planned : rate;
+  double ahead = 0;
+  for (size_t i = next_; i < plan_.size(); ++i) {
+    ahead += plan_[i].cost * RateOf(plan_[i].name, rate_ahead);
+  }
   const double elapsed = now - start_;
-  if (share_ <= 0) return rate_ahead * ahead + std::max(0.0, Cost() * rate - elapsed);
-  const double as_planned = (1 - share_) * Cost() * rate;
+  const double as_planned = Cost() * RateOf(stage_, rate);
+  if (share_ <= 0) return ahead + std::max(0.0, as_planned - elapsed);
   const double by_itself = elapsed * (1 - share_) / share_;
   const double trust = std::min(1.0, share_ / kSureShare);
-  return rate_ahead * ahead + trust * by_itself + (1 - trust) * as_planned;
+  return ahead + trust * by_itself + (1 - trust) * (1 - share_) * as_planned;
 }
 
 }  // namespace curvefusion

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,7 +11,7 @@
 namespace curvefusion {
 
 /// How long a run of several stages goes on: expected costs of the stages, times how much slower or
-/// faster those so far were than expected.
+/// faster than expected those so far were, those of the same name above all.
 class RunEstimate {
  public:
   /// All stages of the run in their order. May be told again with costs that are better known.
@@ -25,8 +26,15 @@ class RunEstimate {
 
  private:
   void Begin(const std::string& stage, double now);
+  // Stages that are over.
+  struct Spent {
+    double planned = 0;
+    double taken = 0;
+  };
+
   double Cost() const;  // of the stage that runs
   double Rate(double now) const;
+  double RateOf(const std::string& stage, double rate) const;
 
   std::vector<PlannedStage> plan_;
   size_t next_ = 0;          // in the plan: the first that has not begun
@@ -35,9 +43,8 @@ class RunEstimate {
   double share_ = 0;  // of it that is done; 0 where it does not tell
   std::string stage_;
   int64_t done_ = 0;
-  // Of stages that are over:
-  double planned_ = 0;
-  double taken_ = 0;
+  Spent all_;
+  std::map<std::string, Spent> of_name_;
 };
 
 }  // namespace curvefusion

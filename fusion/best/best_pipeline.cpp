@@ -261,10 +261,11 @@ Reconstruction ReconstructThinParts(const TsdfVolume& volume, const Sequence& se
   const SegmentationModel model =
       LearnSegmentationOfRun(sequence, volume, options.segmentation, reporter);
   SegmentedScan scan = SegmentBundles(sequence, volume, model, options, reporter);
+  const RunSize size = {.points = scan.points};
   result.funnel.points = scan.funnel;
   ContractCarriedPoints(std::move(scan), model, options, reporter, result);
   result.funnel.curves.contracted = result.skeleton.TotalLength();
-  RefineByColour(sequence, model, options, reporter, result);
+  RefineByColour(sequence, model, size, options, reporter, result);
   result.funnel.curves.curves = result.skeleton.TotalLength();
   result.trust = MeasureTrust(sequence, result);
   const std::string places = PlacesWarning(result.trust);

@@ -1,6 +1,7 @@
 #include "fusion/best/best_plan.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace curvefusion {
 
@@ -12,77 +13,137 @@ constexpr double kPointsPerFrame = 500;
 constexpr double kLength = 3;
 // The image size that costs were measured at.
 constexpr double kPixels = 640 * 480;
+// Of rounds of colour, at most (fusion/best/colour_stages.cpp).
+constexpr int kRounds = 6;
 // Points that a metre of wire has where every view shows it, in the same scans: 35,000 to 50,000.
 constexpr double kPointsPerMetre = 35000;
+// How many rounds follow one round, in the mean over the same scans: few where depth has shown all
+// wires often, more the more it lacks, 2 and less in half of those where it lacks most. As long as
+// nothing is known, half a round.
+constexpr double kRoundsPerLack = 1.3;
+constexpr double kFewestRounds = 0.1, kMostRounds = 2, kUnknownRounds = 0.5;
 
 // What a run consists of, in the units that costs depend on.
 struct Amounts {
   double size;        // of images, in kPixels
   double integrated;  // frames of the volume
   double frames;      // segmented
-  double learned;     // frames that surfaces and colours are learned from
-  double points;      // in 100,000
-  double seen;        // metres of wire that images show
-  double length;      // metres of curve
-  double strips;      // colour images that radii are measured in
-  double adjusted;    // colour images that curves are adjusted to
-  double looked;      // depth images that evidence is looked for in
+  double bundles;
+  double learned;   // frames that surfaces and colours are learned from
+  double points;    // in 100,000
+  double length;    // metres of curve
+  double strips;    // colour images that radii are measured in
+  double adjusted;  // colour images that curves are adjusted to
+  double searched;  // colour images that wires are looked for in
+  double looked;    // depth images that evidence is looked for in
 };
 
 Amounts AmountsOf(const Sequence& sequence, const BestOptions& options, const RunSize& size) {
   // Of the colour adjustment: the rest is thinned.
   constexpr double kMaxAdjusted = 120;
+  constexpr double kMaxSearched = 90;  // of StripViews
   const double frames = sequence.frame_count();
   const double points = size.points > 0 ? size.points : kPointsPerFrame * frames;
   const int stride = IsVideo(sequence) ? options.colour_adjustment.frame_stride : 1;
+  const double adjusted = std::min(frames / stride, kMaxAdjusted);
   const PinholeCamera& depth = sequence.depth_camera;
   return {.size = static_cast<double>(depth.width) * depth.height / kPixels,
           .integrated = frames / options.volume_stride,
           .frames = frames,
+          .bundles = frames / options.segmentation.bundle.frames,
           .learned = std::min<double>(frames, options.segmentation.gate.frames),
           .points = points / 1e5,
-          .seen = points / kPointsPerMetre,
           .length = size.length > 0 ? size.length : kLength,
           .strips = std::min<double>(frames, options.radius.max_frames),
-          .adjusted = std::min(frames / stride, kMaxAdjusted),
+          .adjusted = adjusted,
+          .searched = std::min(adjusted, kMaxSearched),
           .looked = std::min<double>(frames, options.evidence.max_frames)};
 }
 
-// Seconds of one thread: up to the contraction fitted to cubeframe, lampshade, cable, kitchen and
-// aims, what follows to cage, chair, umbrella, basket, cubeframe and lampshade
-// (docs/results_details.md#time-left). Every stage that may run stands here, radii after a curve
-// was left out among them: one that is not run is passed over, but one that is not here would be
-// taken for a later stage of its name.
-std::vector<PlannedStage> BestStages(const Amounts& a) {
-  const double radius = a.strips * (0.0033 * a.size + 0.0016 * a.seen);
-  const double evidence = a.looked * (0.0045 * a.size + 0.0002 * a.seen);
-  return {{"volume", 0.0125 * a.integrated},
-          {"surfaces and colours", 0.11 * a.size * a.learned},
-          {"segmentation", 0.037 * a.size * a.frames + a.points},
-          {"bundle registration", 0.1 + 0.45 * a.points},
-          {"contraction", 0.1},
-          {"radius", radius},
-          {"frame registration", 0.05 + 1.0 * a.points},
-          {"contraction", 0.05 + 0.4 * a.points},
-          {"radius", radius},
-          {"evidence", evidence},
-          {"radius", 0},
-          {"colour adjustment", a.adjusted * (0.03 * a.size + 0.006 * a.seen)},
-          {"strips", 0.042 * a.size * a.adjusted},
-          {"silhouettes", 0.003 * a.size * a.adjusted * a.length},
-          {"radius", radius},
-          {"evidence", evidence},
-          {"radius", 0},
-          {"wires from colour", std::min(a.adjusted, 90.0) * (0.01 * a.size + 0.009 * a.seen)},
-          {"radius", radius},
-          {"evidence", evidence}};
+// How likely one more round is: as if each were the last by chance, as the others are.
+double AnotherRound(const RunSize& size) {
+  double rounds = kUnknownRounds;
+  if (size.points > 0 && size.length > 0) {
+    const double lack = kPointsPerMetre * size.length / size.points - 1;
+    rounds = std::clamp(kRoundsPerLack * lack, kFewestRounds, kMostRounds);
+  }
+  return rounds / (1 + rounds);
+}
+
+// Seconds of one thread, fitted to the scans of docs/results_details.md#time-left.
+class Costs {
+ public:
+  explicit Costs(const Amounts& amounts) : a_(amounts) {}
+
+  PlannedStage Radius() const { return {"radius", 0.0045 * a_.size * a_.strips}; }
+  PlannedStage Evidence() const { return {"evidence", 0.0033 * a_.size * a_.looked}; }
+  PlannedStage Adjustment() const {
+    return {"colour adjustment", a_.adjusted * (0.008 * a_.size + 0.0045 * a_.length)};
+  }
+  PlannedStage Strips() const { return {"strips", 0.025 * a_.size * a_.adjusted}; }
+  PlannedStage Silhouettes() const {
+    return {"silhouettes", a_.adjusted * (0.005 * a_.size + 0.0012 * a_.length)};
+  }
+  PlannedStage Wires() const { return {"wires from colour", 0.016 * a_.size * a_.searched}; }
+
+  std::vector<PlannedStage> UntilContracted() const {
+    return {{"volume", 0.0083 * a_.size * a_.integrated},
+            {"surfaces and colours", 0.075 * a_.size * a_.learned},
+            {"segmentation", 0.026 * a_.size * a_.frames + 0.5 * a_.points},
+            {"bundle registration", (0.2 + 0.05 * a_.bundles) * a_.points},
+            {"contraction", 0.05 * a_.points},
+            Radius(),
+            {"frame registration", 0.004 * a_.frames + 0.3 * a_.points},
+            {"contraction", 0.05 + 0.25 * a_.points}};
+  }
+
+  // Where curves are sought in colour images alone: places that these agree on, twice.
+  std::vector<PlannedStage> ByColour() const {
+    std::vector<PlannedStage> stages = {{"wires from colour", 0},
+                                        {"track camera", 0.047 * a_.size * a_.frames}};
+    for (int round = 0; round < 2; ++round) {
+      stages.insert(stages.end(),
+                    {{"wires from colour", 0.06 * a_.size * a_.searched}, Radius(), Adjustment()});
+    }
+    return stages;
+  }
+
+ private:
+  Amounts a_;
+};
+
+void Append(std::vector<PlannedStage> stages, double probability, std::vector<PlannedStage>& plan) {
+  for (PlannedStage& stage : stages) {
+    stage.cost *= probability;
+    plan.push_back(std::move(stage));
+  }
+}
+
+// Every stage that may run stands here, radii after a curve was left out among them: one that is
+// not run is passed over, but one that is not here would be taken for a later stage of its name.
+std::vector<PlannedStage> BestStages(const Costs& costs, const RunSize& size) {
+  std::vector<PlannedStage> plan = costs.UntilContracted();
+  const PlannedStage radii_again = {"radius", 0};
+  Append({costs.Radius(), costs.Evidence(), radii_again, costs.Adjustment()}, 1, plan);
+  Append(costs.ByColour(), size.by_colour ? 1 : 0, plan);
+  Append({costs.Strips(), costs.Silhouettes(), costs.Radius(), costs.Evidence(), radii_again}, 1,
+         plan);
+  double probability = size.by_colour ? 0 : 1;
+  for (int round = 0; round < kRounds; ++round) {
+    Append({costs.Wires(), costs.Radius()}, probability, plan);
+    if (round >= size.rounds) probability *= AnotherRound(size);
+    Append({costs.Adjustment(), costs.Strips(), costs.Silhouettes(), costs.Radius()}, probability,
+           plan);
+  }
+  Append({costs.Evidence()}, 1, plan);
+  return plan;
 }
 
 }  // namespace
 
 std::vector<PlannedStage> PlanBest(const Sequence& sequence, const BestOptions& options,
                                    const RunSize& size) {
-  return BestStages(AmountsOf(sequence, options, size));
+  return BestStages(Costs(AmountsOf(sequence, options, size)), size);
 }
 
 }  // namespace curvefusion

@@ -149,12 +149,19 @@ bool UsesColourStart(const BestOptions& options, const std::optional<ColourAdjus
   return !adjusted || adjusted->depth_scatter > kWrongScatter;
 }
 
+// What is to come, now that more is known.
+void TellPlan(RunSize& size, const BestOptions& options, const StageReporter& reporter,
+              const Reconstruction& result) {
+  size.length = result.skeleton.TotalLength();
+  reporter.observer.OnPlan(PlanBest(result.sequence, options, size));
+}
+
 // Adds wires that colour images show, fits curves and poses to the images again and corrects them,
 // until little is added: a new curve lies where places were found, some millimetres beside its
 // strips, and explains strips for which lines of sight had several places. Depth looks past most of
 // these wires: they have their proof from the images that show them.
 void CompleteByColour(const Sequence& given, std::optional<StripViews> strips, double row_diameter,
-                      const BestOptions& options, const StageReporter& reporter,
+                      RunSize size, const BestOptions& options, const StageReporter& reporter,
                       Reconstruction& result) {
   for (int round = 0; round < kColourRounds; ++round) {
     const double added = AddWiresFromColour(*strips, options.ridge, reporter, result);
@@ -162,6 +169,8 @@ void CompleteByColour(const Sequence& given, std::optional<StripViews> strips, d
     if (added == 0) break;
     AssignMeasuredRadii(row_diameter, options.radius, reporter, result);
     if (added < kLittle * result.skeleton.TotalLength()) break;
+    ++size.rounds;
+    TellPlan(size, options, reporter, result);
     const auto before = result.trust;
     const std::optional<ColourAdjustment> adjusted = AdjustCurvesAndPoses(
         given, WireDepth::kShown, PoseErrors::kDrift, options.colour_adjustment, reporter, result);
@@ -188,7 +197,7 @@ void LookForEvidence(const ViewEvidenceOptions& options, const StageReporter& re
 
 }  // namespace
 
-void RefineByColour(const Sequence& given, const SegmentationModel& model,
+void RefineByColour(const Sequence& given, const SegmentationModel& model, RunSize size,
                     const BestOptions& options, const StageReporter& reporter,
                     Reconstruction& result) {
   const auto measure_radii = [&] {
@@ -201,18 +210,24 @@ void RefineByColour(const Sequence& given, const SegmentationModel& model,
     const int depth_images = depth == WireDepth::kShown ? options.evidence.max_frames : 0;
     if (KeepProvenWires(name, min_probability, depth_images, reporter, result)) measure_radii();
   };
+  TellPlan(size, options, reporter, result);
   measure_radii();
   // Nothing is to be added to what is hardly a wire.
   keep_proven("evidence_before_colour", kHardlyAWire);
   std::optional<ColourAdjustment> adjusted = AdjustCurvesAndPoses(
       given, depth, PoseErrors::kDrift, options.colour_adjustment, reporter, result);
   if (UsesColourStart(options, adjusted, result)) {
+    size.by_colour = true;
+    TellPlan(size, options, reporter, result);
     const DepthCurves depth_curves = adjusted ? DepthCurves::kMisplaced : DepthCurves::kDoubtful;
     std::optional<ColourAdjustment> from_colour =
         StartFromColour(given, model.colours, depth_curves, options, reporter, result);
     if (from_colour) {
       adjusted = std::move(from_colour);
       depth = WireDepth::kNotShown;
+    } else {
+      size.by_colour = false;
+      TellPlan(size, options, reporter, result);
     }
   }
   std::optional<StripViews> strips;
@@ -227,7 +242,7 @@ void RefineByColour(const Sequence& given, const SegmentationModel& model,
   // Curves that came from colour alone are all that it shows.
   if (adjusted && depth == WireDepth::kShown) {
     adjusted.reset();  // its images are not needed any more
-    CompleteByColour(given, std::move(strips), model.row_diameter, options, reporter, result);
+    CompleteByColour(given, std::move(strips), model.row_diameter, size, options, reporter, result);
     strips.reset();
   }
   LookForEvidence(options.evidence, reporter, result);

@@ -2,6 +2,7 @@
 
 #include "capture/sequence.h"
 #include "fusion/best/best_options.h"
+#include "fusion/best/best_plan.h"
 #include "fusion/reconstruction.h"
 #include "fusion/segmentation/segmentation.h"
 #include "fusion/stage_reporter.h"
@@ -13,8 +14,9 @@ namespace curvefusion {
 /// What colour images tell of contracted curves: radii, wires that depth has missed, exact curves
 /// and poses, which curves are false or missing, and where they were seen. `given` are the poses of
 /// the input, which the adjustment's drift is counted from; `model` what the segmentation learned
-/// of close rows and of colours. Throws like MeasureRadii.
-void RefineByColour(const Sequence& given, const SegmentationModel& model,
+/// of close rows and of colours; `size` what the run has found, for its plan. Throws like
+/// MeasureRadii.
+void RefineByColour(const Sequence& given, const SegmentationModel& model, RunSize size,
                     const BestOptions& options, const StageReporter& reporter,
                     Reconstruction& result);
 

@@ -46,6 +46,16 @@ TEST(RunEstimate, ABetterKnownPlanReplacesCosts) {
   EXPECT_DOUBLE_EQ(*run.SecondsLeft(5), 105);
 }
 
+// Rounds of the same stages: what a scan has made slow in the first is slow in the next.
+TEST(RunEstimate, AStageTakesAsLongAsTheOneOfItsNameDid) {
+  RunEstimate run;
+  run.Plan({{"a", 10}, {"b", 10}, {"a", 0}, {"b", 10}});
+  run.Report("a", 0, 1, 0);
+  run.Report("b", 0, 1, 10);
+  run.Report("a", 0, 1, 40);  // "b" has taken three times as long as planned, both together twice
+  EXPECT_NEAR(*run.SecondsLeft(40), 30, 0.5);
+}
+
 // A stage of twice its expected cost: the surer, the more of it is done.
 TEST(RunEstimate, AStageIsKnownTheBetterTheMoreOfItIsDone) {
   RunEstimate run;
