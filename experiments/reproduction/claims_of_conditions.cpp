@@ -92,7 +92,9 @@ std::vector<Claim> OfSensors() {
 std::vector<Claim> OfPoses() {
   const char* topic = "Effect of different camera calibration";
   const char* place = "4, Effect of different camera calibration; Fig. 11";
-  const auto from = [](const char* source) { return Labels{{"poses", source}}; };
+  const auto from = [](const char* source) {
+    return Labels{{"poses", source}, {"colour", "registered"}};
+  };
   return {{.topic = topic,
            .words = "BundleFusion \"performed as well as ORB-SLAM\"",
            .place = place,
@@ -127,7 +129,7 @@ std::vector<Claim> OfPoses() {
 std::vector<Claim> OfWires() {
   const char* topic = "Effect of wire thickness and color";
   const char* place = "4, Effect of wire thickness and color; Fig. 12";
-  const Labels bright = {{"albedo", "0.9"}};
+  const Labels bright = {{"albedo", "0.9"}, {"shininess", "0"}};
   return {
       {.topic = topic,
        .words = "\"diameter smaller than 2 mm cannot be sufficiently scanned by the Kinect V1\"",
@@ -168,7 +170,11 @@ std::vector<Claim> OfWires() {
       {.topic = topic,
        .words = "models of \"considerable surface shininess ... can still be scanned well\"",
        .place = place,
-       .figure = "no study scans shiny wires"}};
+       .study = "thickness-colour",
+       .figure = "recall of the wire of 4 mm that mirrors two fifths of the light",
+       .measure = MedianOf("recall_of_4mm", {{"shininess", "0.4"}}),
+       .bound = kReconstructed,
+       .origin = kNineTenths}};
 }
 
 std::vector<Claim> OfColour() {
