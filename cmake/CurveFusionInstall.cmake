@@ -8,9 +8,12 @@ install(TARGETS curvefusion_build_flags curvefusion_kernel curvefusion_capture c
 install(TARGETS curvefusion RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT program)
 install(EXPORT curvefusion NAMESPACE curvefusion:: FILE curvefusionTargets.cmake
         DESTINATION "${curvefusion_cmake_dir}" COMPONENT development)
+# What users include is include/curvefusion; that includes headers of the folders, which may change.
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/curvefusion"
+        DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT development)
 foreach(folder kernel capture graph fusion meshing experiments)
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/${folder}"
-          DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/curvefusion" COMPONENT development
+          DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/curvefusion/detail" COMPONENT development
           FILES_MATCHING PATTERN "*.h")
 endforeach()
 configure_package_config_file(cmake/curvefusionConfig.cmake.in

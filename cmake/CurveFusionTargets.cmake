@@ -20,7 +20,8 @@ function(curvefusion_add_library name)
     PRIVATE $<BUILD_INTERFACE:curvefusion_warnings>)
   target_include_directories(curvefusion_${name} PUBLIC
     "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>"
-    "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/curvefusion>")
+    "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>"
+    "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/curvefusion/detail>")
   set_target_properties(curvefusion_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
 endfunction()
 

@@ -1,10 +1,10 @@
 // contract_cloud CLOUD SKELETON: the curves of a cloud in metres (PLY, PCD, XYZ).
 #include <cstdio>
 
-#include "graph/contraction/cloud_curves.h"
-#include "graph/io/graph_io.h"
-#include "kernel/cloud_io.h"
-#include "kernel/error.h"
+#include <curvefusion/cloud.h>
+#include <curvefusion/contract.h>
+#include <curvefusion/error.h>
+#include <curvefusion/skeleton_io.h>
 
 using namespace curvefusion;
 

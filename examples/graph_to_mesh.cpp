@@ -1,12 +1,10 @@
 // graph_to_mesh MESH: two rods that cross become a graph with a junction, and tubes of it.
 #include <cstdio>
 
-#include "graph/intersections.h"
-#include "graph/set_radius.h"
-#include "graph/validate.h"
-#include "kernel/error.h"
-#include "meshing/io/mesh_io.h"
-#include "meshing/tubes.h"
+#include <curvefusion/error.h>
+#include <curvefusion/mesh_io.h>
+#include <curvefusion/skeleton.h>
+#include <curvefusion/tubes.h>
 
 using namespace curvefusion;
 

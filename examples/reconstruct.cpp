@@ -1,12 +1,12 @@
 // reconstruct SCAN CONFIG.toml SKELETON.json: the whole method, with settings from a file.
 #include <cstdio>
 
-#include "capture/content/colour_findings.h"
-#include "experiments/config.h"
-#include "fusion/pipeline.h"
-#include "fusion/tracking/tracked_poses.h"
-#include "graph/io/graph_io.h"
-#include "kernel/error.h"
+#include <curvefusion/check.h>
+#include <curvefusion/config.h>
+#include <curvefusion/error.h>
+#include <curvefusion/reconstruct.h>
+#include <curvefusion/sequence.h>
+#include <curvefusion/skeleton_io.h>
 
 using namespace curvefusion;
 

@@ -15,6 +15,30 @@ run(COMMAND "${CMAKE_COMMAND}" -G Ninja -S "${examples_dir}" -B "${work_dir}/bui
             "-DCMAKE_PREFIX_PATH=${work_dir}/prefix" -DCMAKE_BUILD_TYPE=Release)
 run(COMMAND "${CMAKE_COMMAND}" --build "${work_dir}/build")
 set(curvefusion "${work_dir}/prefix/bin/curvefusion")
+
+# Each public header stands alone.
+file(GLOB headers RELATIVE "${work_dir}/prefix/include" "${work_dir}/prefix/include/curvefusion/*.h")
+list(LENGTH headers count)
+if(NOT count EQUAL 12)
+  message(FATAL_ERROR "${count} public headers: ${headers}")
+endif()
+set(sources "")
+foreach(header IN LISTS headers)
+  string(MAKE_C_IDENTIFIER "${header}" name)
+  file(WRITE "${work_dir}/headers/${name}.cpp" "#include <${header}>\n")
+  string(APPEND sources " ${name}.cpp")
+endforeach()
+file(WRITE "${work_dir}/headers/CMakeLists.txt" "
+cmake_minimum_required(VERSION 3.22)
+project(headers LANGUAGES CXX)
+find_package(curvefusion REQUIRED)
+add_library(headers OBJECT ${sources})
+target_link_libraries(headers PRIVATE curvefusion::experiments)
+target_compile_options(headers PRIVATE -fsyntax-only)
+")
+run(COMMAND "${CMAKE_COMMAND}" -G Ninja -S "${work_dir}/headers" -B "${work_dir}/headers_build"
+            "-DCMAKE_PREFIX_PATH=${work_dir}/prefix")
+run(COMMAND "${CMAKE_COMMAND}" --build "${work_dir}/headers_build")
 run(COMMAND "${curvefusion}" --version EXPECT "^[0-9]+\\.[0-9]+\\.[0-9]+")
 
 run(COMMAND "${work_dir}/build/graph_to_mesh" "${work_dir}/cross.ply" EXPECT "5 nodes, 4 edges")

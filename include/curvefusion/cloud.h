@@ -1,0 +1,5 @@
+#pragma once
+
+/// Point clouds from and to files: PLY, PCD, XYZ; metres.
+
+#include "kernel/cloud_io.h"

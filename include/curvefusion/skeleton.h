@@ -1,0 +1,10 @@
+#pragma once
+
+/// The skeleton graph: polylines between junctions and free ends. Exact intersections, validation,
+/// radii, figures.
+
+#include "graph/graph_figures.h"
+#include "graph/intersections.h"
+#include "graph/set_radius.h"
+#include "graph/skeleton_graph.h"
+#include "graph/validate.h"
