@@ -36,11 +36,12 @@ constexpr float kFreeDistance = 0.02F;    // metres behind a wire; CurveFusion 3
 constexpr double kFreeShare = 0.8;        // of the images whose depth tells
 constexpr int kCellPx = 4;                // of a colour image
 constexpr int kAroundCells = 9;
-constexpr double kDistanceUnits = 16;  // of the images of distances, in a pixel
-constexpr double kFromTheSide = 0.15;  // sine of the angle between a curve and the line of sight
-constexpr int kSameDirection = 43;     // 30 degrees, see DirectionUnits
-constexpr int kMinLooks = 8;           // images that tell
-constexpr double kAhead = 1e-3;        // metres, between which a direction is projected
+constexpr double kDistanceUnits = 16;    // of the images of distances, in a pixel
+constexpr double kFromTheSide = 0.15;    // sine of the angle between a curve and the line of sight
+constexpr double kUsualSine = M_PI / 4;  // derived: of that angle, in the mean over directions
+constexpr int kSameDirection = 43;       // 30 degrees, see DirectionUnits
+constexpr int kMinLooks = 8;             // images that tell
+constexpr double kAhead = 1e-3;          // metres, between which a direction is projected
 
 cv::Mat AsMat(MaskImage& mask) { return {mask.height(), mask.width(), CV_8U, mask.data()}; }
 
@@ -281,6 +282,13 @@ bool StripViews::RunsAlong(const View& view, const Vec3& p_color, const Vec2& pi
   return std::abs(turn) <= kSameDirection;
 }
 
+// A curve that runs towards the camera is short in the image, which then tells little of its
+// length.
+double StripViews::ShareTold(const View& view, const Vec3& p_color, const Vec3& direction) const {
+  const Vec3 d = view.T_color_world.linear() * direction;
+  return std::min(1.0, d.cross(p_color.normalized()).norm() / kUsualSine);
+}
+
 StripAgreement StripViews::AgreementAt(const Vec3& p, int look, int stride,
                                        const Vec3* direction) const {
   StripAgreement agreement;
@@ -295,12 +303,13 @@ StripAgreement StripViews::AgreementAt(const Vec3& p, int look, int stride,
     const double distance = view.to_strip(at.x(), at.y()) / kDistanceUnits;
     const bool seen = distance <= kReachPx[look] &&
                       (direction == nullptr || RunsAlong(view, p_color, pixel, *direction));
-    const Image<float>& told = seen ? view.seen[look] : view.not_seen[look];
+    const Image<float>& ratio = seen ? view.seen[look] : view.not_seen[look];
+    const double told = direction == nullptr ? 1 : ShareTold(view, p_color, *direction);
     ++agreement.looked;
     agreement.seen += seen;
-    agreement.evidence += stride * told(at.x() / kCellPx, at.y() / kCellPx);
+    agreement.evidence += stride * told * ratio(at.x() / kCellPx, at.y() / kCellPx);
     const double off = distance / kMiddlePx;
-    if (seen) agreement.middle_evidence += kAtMiddle - 0.5 * off * off;
+    if (seen) agreement.middle_evidence += told * (kAtMiddle - 0.5 * off * off);
   }
   agreement.evidence *= kCorrelation;
   agreement.middle_evidence *= kCorrelation;

@@ -68,7 +68,8 @@ class StripViews {
   /// By all images and strips within 1.4 pixels.
   StripAgreement CloseLook(const Vec3& p) const { return AgreementAt(p, 1, 1); }
 
-  /// By all images and strips within 1.4 pixels that run as a curve through a place does.
+  /// By all images and strips within 1.4 pixels that run as a curve through a place does. An image
+  /// counts less the more the curve is foreshortened in it.
   StripAgreement Along(const Vec3& p, const Vec3& direction) const {
     return AgreementAt(p, 1, 1, &direction);
   }
@@ -90,6 +91,7 @@ class StripViews {
                              const Vec3* direction = nullptr) const;
   bool RunsAlong(const View& view, const Vec3& p_color, const Vec2& pixel,
                  const Vec3& direction) const;
+  double ShareTold(const View& view, const Vec3& p_color, const Vec3& direction) const;
   float BehindIn(const View& view, const Vec3& p) const;
   cv::Rect RegionIn(const View& view) const;
   void ExplainIn(View& view, const Polyline& points, const std::vector<double>& radii) const;

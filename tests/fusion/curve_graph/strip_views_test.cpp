@@ -33,6 +33,16 @@ TEST(StripViews, ShowWhichWayAWireRuns) {
   EXPECT_EQ(views.Along(place + Vec3(0.01, 0, 0), Vec3::UnitY()).seen, 0);
 }
 
+// All images show a strip at a place of a curve that comes towards the cameras, by the same few pixels.
+TEST(StripViews, ForeshortenedCurvesTellLittle) {
+  const SilhouetteScan scan({TestLine({0, -0.06, 0}, {0, 0.06, 0})}, {}, kBehind, 0.2);
+  const StripViews views = scan.Strips({}, kAround);
+  const Vec3 place(0, 0.01, 0);
+  const double along = views.Along(place, Vec3::UnitY()).Sum();
+  EXPECT_GT(along, 5);
+  EXPECT_LT(views.Along(place, Vec3::UnitZ()).Sum(), 0.25 * along);
+}
+
 // What is joined from one wire of a row to the next lies on strips in many images.
 TEST(StripViews, RefuteWhatRunsAcrossARow) {
   const SilhouetteScan scan(Row(), {}, kBehind);
