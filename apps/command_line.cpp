@@ -13,9 +13,9 @@ void AddCommandLine(CLI::App& app, int& exit_code) {
   app.set_version_flag("--version", CURVEFUSION_VERSION);
   app.require_subcommand(1);
   app.footer(
-      "Exit codes: 0 done, 1 a mesh with defects (mesh --check), 2 usage, 3 bad input, 4 nothing\n"
-      "thin found, 5 out of memory or disk, 75 another run writes to the same place, 130 "
-      "interrupted.\n"
+      "Exit codes: 0 done, 1 a defect or failed runs (mesh --check, experiment, sweep), 2 usage,\n"
+      "3 bad input, 4 nothing thin found, 5 out of memory, threads or disk, 75 another run writes\n"
+      "to the same place, 130 interrupted.\n"
       "`curvefusion help COMMAND` tells more and gives examples.");
   AddReconstructCommand(app, exit_code);
   AddLiveCommand(app, exit_code);

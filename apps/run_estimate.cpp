@@ -30,7 +30,7 @@ void RunEstimate::Begin(const std::string& stage, double now) {
     }
   }
   stage_ = stage;
-  start_ = now;
+  start_ = steps_start_ = now;
   const auto from = plan_.begin() + static_cast<std::ptrdiff_t>(std::min(next_, plan_.size()));
   const auto planned = std::find_if(
       from, plan_.end(), [&](const PlannedStage& candidate) { return candidate.name == stage; });
@@ -40,6 +40,7 @@ void RunEstimate::Begin(const std::string& stage, double now) {
 
 void RunEstimate::Report(const std::string& stage, int64_t done, int64_t total, double now) {
   if (stage != stage_ || done < done_) Begin(stage, now);
+  if (done == 0) steps_start_ = now;
   done_ = done;
   share_ = total > 0 ? static_cast<double>(done) / static_cast<double>(total) : 0;
 }
@@ -60,17 +61,14 @@ double RunEstimate::RateOf(const std::string& stage, double rate) const {
 std::optional<double> RunEstimate::SecondsLeft(double now) const {
   const double rate = Rate(now);
   if (rate <= 0) return std::nullopt;
-  // How long the stage that runs takes may be up to the scan, not to the machine.
-  const bool is_known = all_.planned > 0 && all_.taken >= kEarliest;
-  const double rate_ahead = is_known ? all_.taken / all_.planned : rate;
   double ahead = 0;
   for (size_t i = next_; i < plan_.size(); ++i) {
-    ahead += plan_[i].cost * RateOf(plan_[i].name, rate_ahead);
+    ahead += plan_[i].cost * RateOf(plan_[i].name, rate);
   }
   const double elapsed = now - start_;
   const double as_planned = Cost() * RateOf(stage_, rate);
   if (share_ <= 0) return ahead + std::max(0.0, as_planned - elapsed);
-  const double by_itself = elapsed * (1 - share_) / share_;
+  const double by_itself = (now - steps_start_) * (1 - share_) / share_;
   const double trust = std::min(1.0, share_ / kSureShare);
   return ahead + trust * by_itself + (1 - trust) * (1 - share_) * as_planned;
 }

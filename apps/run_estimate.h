@@ -40,7 +40,8 @@ class RunEstimate {
   size_t next_ = 0;          // in the plan: the first that has not begun
   bool is_planned_ = false;  // whether the stage that runs is in the plan, the one before `next_`
   double start_ = 0;
-  double share_ = 0;  // of it that is done; 0 where it does not tell
+  double steps_start_ = 0;  // when its first step began; there may be work without steps before
+  double share_ = 0;        // of it that is done; 0 where it does not tell
   std::string stage_;
   int64_t done_ = 0;
   Spent all_;

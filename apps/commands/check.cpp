@@ -123,8 +123,8 @@ int RunCheck(const CheckArguments& arguments) {
 }  // namespace
 
 void AddCheckCommand(CLI::App& app, int& exit_code) {
-  CLI::App* command =
-      app.add_subcommand("check", "Tell what is wrong with a sequence before it is reconstructed");
+  CLI::App* command = app.add_subcommand(
+      "check", "Check a sequence before it is reconstructed; exit code 3 at errors");
   const auto arguments = std::make_shared<CheckArguments>();
   command->add_option("SEQUENCE", arguments->sequence, "Folder of the sequence, or its recording")
       ->required();

@@ -192,8 +192,7 @@ std::string StudyList() {
 }
 
 void AddRequestOptions(CLI::App& command, ExperimentArguments& arguments) {
-  command.add_flag("--quick", arguments.request.quick,
-                   "Fewer frames, cases and seeds: at most five minutes on two cores");
+  command.add_flag("--quick", arguments.request.quick, "Fewer frames, cases and seeds");
   command.add_option("--profile", arguments.profile, "paper, best or both (default)")
       ->check(CLI::IsMember({"paper", "best", "both"}));
   command.add_option("--seeds", arguments.request.seeds, "Number of seeds; otherwise 3, quick 1")
@@ -244,7 +243,7 @@ void AddExperimentCommand(CLI::App& app, int& exit_code) {
   AddRequestOptions(*command, *arguments);
   command
       ->add_option("--jobs", arguments->runner.jobs,
-                   "Scans worked on at the same time; more than 1 blurs times and memory")
+                   "Scans worked on at the same time; more than 1 distorts times and memory")
       ->check(CLI::Range(1, 64));
   command->add_flag("--remeasure", arguments->runner.remeasure,
                     "Measure again what another revision of this program has measured");
@@ -253,7 +252,8 @@ void AddExperimentCommand(CLI::App& app, int& exit_code) {
                       "figure is worse by more than the tolerance");
   command
       ->add_option("--tolerance", arguments->tolerance,
-                   "Of shares and of millimetres of diameter; otherwise 0.02")
+                   "With --baseline: the largest loss that passes, of shares and of mm of diameter "
+                   "(otherwise 0.02)")
       ->check(CLI::Range(0.0, 1.0));
   AddRunOptions(*command, arguments->run);
   command->footer(StudyList() +

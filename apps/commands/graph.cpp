@@ -150,16 +150,16 @@ int RunGraph(const GraphArguments& arguments) {
 }  // namespace
 
 void AddGraphCommand(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand(
-      "graph", "Look into a skeleton graph, validate, mend, smooth or convert it");
+  CLI::App* command =
+      app.add_subcommand("graph", "Inspect, validate, repair, smooth or convert a skeleton graph");
   const auto arguments = std::make_shared<GraphArguments>();
   command
       ->add_option("FILE", arguments->graph,
                    "A .json, .graphml, .ply or .obj file (in metres) or .swc (in micrometres)")
       ->required();
   command->add_flag("--info", arguments->info,
-                    "Print figures in mm, of the result where the graph is changed (what happens "
-                    "without options)");
+                    "Print figures in mm, after --resolve or --smooth those of the result (the "
+                    "default)");
   CLI::Option* const validate = command->add_flag(
       "--validate", arguments->validate,
       "Print everything that is wrong with the file and where; exit code 3 if anything is");

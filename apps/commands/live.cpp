@@ -148,8 +148,8 @@ void AddSourceOptions(CLI::App& command, LiveArguments& arguments) {
   const CLI::Option* rate =
       command
           .add_option("--rate", arguments.rate,
-                      "Frames a second of a replay; otherwise as the stamps say, or 30 where they "
-                      "are no times")
+                      "Frames per second of a replay; otherwise by the time stamps, or 30 without "
+                      "any")
           ->default_str("")
           ->check(CLI::Range(0.1, 1000.0));
   CLI::Option* follow = command.add_flag(
@@ -159,7 +159,7 @@ void AddSourceOptions(CLI::App& command, LiveArguments& arguments) {
   follow->excludes(const_cast<CLI::Option*>(rate));
   command
       .add_option("--idle", arguments.idle,
-                  "Of --follow: so many seconds after its last frame the capture ends")
+                  "With --follow: seconds without a new frame after which the capture ends")
       ->check(CLI::Range(0.1, 86400.0))
       ->needs(follow)
       ->capture_default_str();
@@ -169,9 +169,9 @@ void AddSourceOptions(CLI::App& command, LiveArguments& arguments) {
 }
 
 void AddServeOptions(CLI::App& command, LiveArguments& arguments) {
-  CLI::Option* serve =
-      command.add_flag("--serve", arguments.serve, "Show the curves in browsers of this machine");
-  command.add_option("--port", arguments.port, "Of --serve; 0 takes any that is free")
+  CLI::Option* serve = command.add_flag("--serve", arguments.serve,
+                                        "Show the curves in a web page, for this machine only");
+  command.add_option("--port", arguments.port, "Port of --serve; 0: any that is free")
       ->check(CLI::Range(0, 65535))
       ->needs(serve)
       ->capture_default_str();
@@ -185,7 +185,7 @@ void AddLiveCommand(CLI::App& app, int& exit_code) {
   const auto arguments = std::make_shared<LiveArguments>();
   command
       ->add_option("SOURCE", arguments->source,
-                   "Folder of a sequence, which is replayed; with --follow one that grows")
+                   "Sequence (folder or recording) to replay; with --follow a folder that grows")
       ->required();
   command
       ->add_option("-o,--output", arguments->output,
@@ -195,7 +195,7 @@ void AddLiveCommand(CLI::App& app, int& exit_code) {
   AddSourceOptions(*command, *arguments);
   AddServeOptions(*command, *arguments);
   command->add_flag("--force", arguments->force,
-                    "Take an output folder that holds other things; they stay as they are");
+                    "Write into a folder that holds other files; these are kept");
   AddConfigArguments(*command, arguments->config);
   AddRunOptions(*command, arguments->run);
   command->footer(

@@ -189,8 +189,8 @@ void AddMeshCommand(CLI::App& app, int& exit_code) {
   CLI::Option* const purpose =
       command
           ->add_option("--for", arguments->purpose,
-                       "print: for a 3D printer, as .stl or .3mf in mm; refuses wires that are too "
-                       "thin, and tells the size")
+                       "print: for a 3D printer, as .stl or .3mf in mm; prints the size, refuses "
+                       "wires thinner than --min-diameter")
           ->check(CLI::IsMember({"print"}));
   command
       ->add_option("--min-diameter", arguments->min_diameter_mm,
@@ -198,7 +198,7 @@ void AddMeshCommand(CLI::App& app, int& exit_code) {
       ->check(CLI::PositiveNumber)
       ->needs(purpose);
   command->add_flag("--check", arguments->check,
-                    "Read the file back and tell what it is; exit code 1 where it has a defect");
+                    "Examine the mesh as it is read back; exit code 1 at a defect");
   AddRunOptions(*command, arguments->run);
   command->footer(
       "Example:\n  curvefusion mesh result/skeleton.json -o wires.ply\n"

@@ -76,19 +76,19 @@ void AddReconstructCommand(CLI::App& app, int& exit_code) {
       ->required();
   command
       ->add_option("-o,--output", arguments->output,
-                   "Folder for skeleton.json, trajectory.txt, mesh.ply, preview.png, report.html, "
-                   "report.json, config.toml")
+                   "Folder for the result: report.html, skeleton.json, mesh.ply, preview.png, "
+                   "report.json and others")
       ->required();
   command->add_flag("--force", arguments->force,
-                    "Take an output folder that holds other things; they stay as they are");
+                    "Write into a folder that holds other files; these are kept");
   AddConfigArguments(*command, arguments->config);
   command->add_flag("--track", arguments->track,
                     "Find the camera poses by tracking (see track) even where the sequence has "
                     "some; without poses this is done anyway");
   command
       ->add_option("--colour-camera", arguments->colour_camera,
-                   "auto: where colour edges lie far from depth edges, the colour camera that was "
-                   "fitted to them is used; given: always that of the intrinsics")
+                   "auto: a colour camera fitted to the images where colour edges lie far from "
+                   "depth edges; given: always that of the intrinsics")
       ->check(CLI::IsMember({"auto", "given"}))
       ->capture_default_str();
   AddRunOptions(*command, arguments->run);

@@ -154,8 +154,8 @@ void AddColorOptions(CLI::App& command, SimulateArguments& arguments) {
   ColorOptions& color = arguments.scan.color;
   command
       .add_option("--registration", arguments.registration,
-                  "How colour lies to depth: registered (one viewpoint); or a colour camera of its "
-                  "own, told exactly, as calibrated, or not at all (raw)")
+                  "Colour camera: registered (viewpoint of depth), or its own with exact, "
+                  "calibrated (slightly wrong) or no (raw) calibration")
       ->check(CLI::IsMember(RegistrationNames()));
   command
       .add_option("--registration-error", arguments.scan.registration_error_px,
@@ -163,7 +163,7 @@ void AddColorOptions(CLI::App& command, SimulateArguments& arguments) {
       ->check(CLI::Range(0.0, 20.0));
   command
       .add_option("--exposure-time", color.exposure_time,
-                  "Seconds in which the camera's motion blurs an image")
+                  "Exposure time in seconds, in which motion blurs an image")
       ->check(CLI::Range(0.0, 0.033));
   command
       .add_option("--exposure-drift", color.exposure_drift,
@@ -171,13 +171,13 @@ void AddColorOptions(CLI::App& command, SimulateArguments& arguments) {
       ->check(CLI::Range(0.0, 3.0));
   command
       .add_option("--white-balance-drift", color.white_balance_drift,
-                  "The same of red and blue against green, as a share")
+                  "Standard deviation of the gain of red and blue against green")
       ->check(CLI::Range(0.0, 0.5));
   command.add_option("--vignetting", color.vignetting, "Share of light missing in the corners")
       ->check(CLI::Range(0.0, 0.9));
   command
       .add_option("--light", arguments.light,
-                  "From one lamp and all around, one side, several lamps, or all around alone")
+                  "lamp: one lamp and ambient light; side; several; diffuse: ambient light alone")
       ->check(CLI::IsMember(LightNames()));
 }
 
@@ -196,7 +196,7 @@ void AddMotionOptions(CLI::App& command, SimulateArguments& arguments) {
       ->check(CLI::Range(0.2, 3.0));
   command.add_option("--poses", scan.pose_source, "Where poses come from, with its errors")
       ->check(CLI::IsMember(PoseSourceNames()));
-  command.add_option("--pose-error", scan.pose_error_scale, "Factor on these errors")
+  command.add_option("--pose-error", scan.pose_error_scale, "Factor on the errors of --poses")
       ->check(CLI::Range(0.0, 10.0));
 }
 
@@ -223,7 +223,7 @@ void AddWireOptions(CLI::App& command, SimulateArguments& arguments) {
       ->check(CLI::Range(0.0, 1.0));
   command.add_option("--wire-hue", scene.wire_hue, "From red (0) over green and blue to red (1)")
       ->check(CLI::Range(0.0, 1.0));
-  command.add_option("--wire-saturation", scene.wire_saturation, "From grey (0) to clear (1)")
+  command.add_option("--wire-saturation", scene.wire_saturation, "From grey (0) to saturated (1)")
       ->check(CLI::Range(0.0, 1.0));
   command.add_flag("--wire-like-background", scene.wire_like_background,
                    "Wires of the colour of the wall behind them");
@@ -260,11 +260,10 @@ void AddSimulateCommand(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember(FamilyNames()));
   command
       ->add_option("--draw", arguments->draw,
-                   "Of random: the truth/settings.json of a simulated scan, to have it again")
+                   "With random: truth/settings.json of a scan to simulate again")
       ->check(CLI::ExistingFile);
   command->option_defaults()->group("Run");
-  command->add_option("--seed", arguments->scan.seed,
-                      "Another room, path and noise for each number");
+  command->add_option("--seed", arguments->scan.seed, "Seed of room, path and noise");
   AddRunOptions(*command, arguments->run);
   command->footer(
       "The folder appears when the scan is complete. The same options and seed give the same "

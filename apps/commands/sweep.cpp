@@ -214,32 +214,33 @@ int RunAction(const SweepArguments& arguments) {
 
 void AddRunnerOptions(CLI::App& command, SweepArguments& arguments) {
   command
-      .add_option("--cache", arguments.caches,
-                  "Of plan: another folder that may have finished cells and scans, such as another "
-                  "sweep; new ones go to the first that can be written; may be given several times")
+      .add_option(
+          "--cache", arguments.caches,
+          "With plan: another folder that may have finished cells and scans, such as another "
+          "sweep; new ones go to the first that can be written; may be given several times")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command
       .add_option("--jobs", arguments.runner.jobs,
-                  "Of run: cores of this machine, otherwise all; with --slurm, jobs in its queue "
+                  "With run: cores of this machine, otherwise all; with --slurm, jobs in its queue "
                   "at a time, otherwise 64")
       ->check(CLI::Range(1, 10000));
   command.add_flag("--slurm", arguments.runner.slurm,
-                   "Of run: every scan and cell is a job of Slurm; all machines see the folder");
+                   "With run: every scan and cell is a job of Slurm; all machines see the folder");
 }
 
 void AddJudgingOptions(CLI::App& command, SweepArguments& arguments) {
   command.add_option(
       "--setting", arguments.setting,
-      "Of compare: this setting of the second sweep, as table.csv writes it, against "
+      "With compare: this setting of the second sweep, as table.csv writes it, against "
       "the default of the first");
   command
       .add_option("--tolerance", arguments.tolerance,
-                  "Of compare: beyond this a cell is worse; of shares and of millimetres of "
+                  "With compare: beyond this a cell is worse; of shares and of millimetres of "
                   "diameter, of time a share; otherwise 0.02")
       ->check(CLI::Range(0.0, 1.0));
   command.add_option("--figure", arguments.figure,
-                     "Of best: the accuracy, as the tables name it; otherwise \"F2 aligned\"");
+                     "With best: the accuracy, as the tables name it; otherwise \"F2 aligned\"");
 }
 
 }  // namespace
@@ -253,12 +254,13 @@ void AddSweepCommand(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember(ActionNames()));
   command->add_option("PATH", arguments->paths, "A study file or the folder of a sweep")
       ->required();
-  command->add_option("-o,--output", arguments->output,
-                      "Of plan: the folder of the sweep; of compare: a CSV file of all pairs that "
-                      "are worse; of scan and cell: the result");
+  command->add_option(
+      "-o,--output", arguments->output,
+      "With plan: the folder of the sweep; of compare: a CSV file of all pairs that "
+      "are worse; of scan and cell: the result");
   AddRunnerOptions(*command, *arguments);
   AddJudgingOptions(*command, *arguments);
-  command->add_option("--scan", arguments->scan, "Of cell: the folder of its scan");
+  command->add_option("--scan", arguments->scan, "With cell: the folder of its scan");
   AddRunOptions(*command, arguments->run);
   command->footer(
       "Actions:\n"

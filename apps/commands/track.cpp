@@ -125,7 +125,7 @@ void AddTrackCommand(CLI::App& app, int& exit_code) {
                     "Leave out colour: KinectFusion's tracker");
   AddRunOptions(*command, arguments->run);
   command->footer(
-      "Poses that the sequence has are not used, but for the first, at which the path starts; \n"
+      "Poses that the sequence has are not used, but for the first, at which the path starts;\n"
       "without one it starts at the origin. Frames that cannot be placed are named and left out.\n"
       "Example:\n  curvefusion track scan -o trajectory.txt\n"
       "  curvefusion track scan -o trajectory.txt --reference scan/groundtruth.txt");

@@ -233,8 +233,9 @@ void ContractCarriedPoints(SegmentedScan scan, const SegmentationModel& model,
   scan.bundles.clear();
   SkeletonGraph first =
       Contract(bundles.points, bundles.ridge, "registered_bundles", space, options.ridge, reporter);
-  reporter.observer.OnPlan(
-      PlanBest(result.sequence, options, {.points = scan.points, .length = first.TotalLength()}));
+  RunSize size = {.points = scan.points};
+  size.SetCurves(first);
+  reporter.observer.OnPlan(PlanBest(result.sequence, options, size));
   AssignRadii(MeasureRadii(first, result.sequence, model.row_diameter, options.radius, reporter),
               first);
   if (space.ray_noise_ratio > 1) {

@@ -106,7 +106,9 @@ double AddWiresFromColour(StripViews& views, const RidgeOptions& options,
   views.ExplainAll(result.skeleton);
   const double radius = result.radii.unmeasured_radius;
   const double followed = TrackTips(radius, views, result.skeleton);
-  const ObservedPoints candidates = FindColourCandidates(views);
+  const ObservedPoints candidates = FindColourCandidates(views, [&](int64_t done, int64_t total) {
+    reporter.observer.OnProgress(stage, done, total);
+  });
   const double added =
       followed + AddCandidateCurves(candidates, options, radius, views, result.skeleton);
   reporter.log.Count(stage, "followed, m", followed);
@@ -152,7 +154,7 @@ bool UsesColourStart(const BestOptions& options, const std::optional<ColourAdjus
 // What is to come, now that more is known.
 void TellPlan(RunSize& size, const BestOptions& options, const StageReporter& reporter,
               const Reconstruction& result) {
-  size.length = result.skeleton.TotalLength();
+  size.SetCurves(result.skeleton);
   reporter.observer.OnPlan(PlanBest(result.sequence, options, size));
 }
 
@@ -164,13 +166,14 @@ void CompleteByColour(const Sequence& given, std::optional<StripViews> strips, d
                       RunSize size, const BestOptions& options, const StageReporter& reporter,
                       Reconstruction& result) {
   for (int round = 0; round < kColourRounds; ++round) {
+    TellPlan(size, options, reporter, result);
     const double added = AddWiresFromColour(*strips, options.ridge, reporter, result);
     strips.reset();  // its images take as much memory as the next adjustment
-    if (added == 0) break;
-    AssignMeasuredRadii(row_diameter, options.radius, reporter, result);
-    if (added < kLittle * result.skeleton.TotalLength()) break;
-    ++size.rounds;
+    size.has_last_round = added <= 0 || added < kLittle * result.skeleton.TotalLength();
+    if (!size.has_last_round) ++size.rounds;
     TellPlan(size, options, reporter, result);
+    if (added != 0) AssignMeasuredRadii(row_diameter, options.radius, reporter, result);
+    if (size.has_last_round) break;
     const auto before = result.trust;
     const std::optional<ColourAdjustment> adjusted = AdjustCurvesAndPoses(
         given, WireDepth::kShown, PoseErrors::kDrift, options.colour_adjustment, reporter, result);

@@ -25,6 +25,7 @@ constexpr size_t kMaxRays = 20000;     // more tell the same again
 constexpr int kMinFirstLooks = 2;
 constexpr int kMinLooks = 8;
 constexpr double kNearest = 0.05;  // metres before a camera
+constexpr int64_t kReports = 50;   // chosen: of progress
 
 using View = StripViews::View;
 using Ray = std::pair<const View*, Eigen::Vector2i>;  // of a pixel
@@ -40,7 +41,7 @@ class CandidateSearch {
  public:
   explicit CandidateSearch(const StripViews& views) : views_(views) {}
 
-  ObservedPoints Find() const {
+  ObservedPoints Find(const std::function<void(int64_t done, int64_t total)>& on_progress) const {
     std::vector<Ray> rays;
     for (size_t i = 0; i < views_.views().size(); i += kReferenceStride) {
       const View& view = views_.views()[i];
@@ -50,8 +51,12 @@ class CandidateSearch {
     }
     rays = Thinned(std::move(rays));
     std::vector<std::optional<Place>> places(rays.size());
-    ParallelFor(0, static_cast<int64_t>(rays.size()), 16,
-                [&](int64_t i) { places[i] = PlaceOn(*rays[i].first, rays[i].second); });
+    const auto count = static_cast<int64_t>(rays.size());
+    for (int64_t part = 0; part < kReports; ++part) {
+      on_progress(part, kReports);
+      ParallelFor(part * count / kReports, (part + 1) * count / kReports, 16,
+                  [&](int64_t i) { places[i] = PlaceOn(*rays[i].first, rays[i].second); });
+    }
     ObservedPoints points;
     for (size_t i = 0; i < rays.size(); ++i) {
       if (!places[i]) continue;
@@ -160,9 +165,10 @@ class CandidateSearch {
 
 }  // namespace
 
-ObservedPoints FindColourCandidates(const StripViews& views) {
+ObservedPoints FindColourCandidates(
+    const StripViews& views, const std::function<void(int64_t done, int64_t total)>& on_progress) {
   if (views.views().empty()) return {};
-  return CandidateSearch(views).Find();
+  return CandidateSearch(views).Find(on_progress);
 }
 
 }  // namespace curvefusion

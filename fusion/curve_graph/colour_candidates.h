@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <functional>
+
 #include "fusion/curve_graph/strip_views.h"
 #include "kernel/observed_points.h"
 
@@ -10,7 +13,9 @@ namespace curvefusion {
 /// counts where nearly all images that look at it show the middle of a strip there as well, and
 /// where depth shows something farther behind it. Nothing for a line of sight on which two places
 /// do so, or many in a row, as along wires that the camera moves along. Counts are those of the
-/// images that agree. Costs about 50 ns for each unexplained pixel, depth and view.
-ObservedPoints FindColourCandidates(const StripViews& views);
+/// images that agree. Costs about 50 ns for each unexplained pixel, depth and view. `on_progress`
+/// is called by the caller's thread; its exceptions pass through.
+ObservedPoints FindColourCandidates(
+    const StripViews& views, const std::function<void(int64_t done, int64_t total)>& on_progress);
 
 }  // namespace curvefusion

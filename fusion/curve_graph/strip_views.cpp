@@ -161,8 +161,7 @@ StripViews::StripViews(const Sequence& sequence, const std::vector<int>& frames,
                        const std::vector<PosteriorImage>& posteriors,
                        const Eigen::AlignedBox3d& around)
     : depth_camera_(sequence.depth_camera),
-      color_camera_(sequence.color_camera.fx > kLargestFocal ? sequence.color_camera.Scaled(0.5)
-                                                             : sequence.color_camera),
+      color_camera_(CameraLookedThrough(sequence.color_camera)),
       bounds_(around) {
   if (bounds_.isEmpty()) return;
   const Vec3 margin = Vec3::Constant(kMargin + kMarginShare * bounds_.diagonal().norm());
@@ -186,6 +185,10 @@ StripViews::StripViews(const Sequence& sequence, const std::vector<int>& frames,
     view.explained = MaskImage(color_camera_.width, color_camera_.height, 0);
     FindStripsWithin(RegionIn(view), parts[i], view);
   });
+}
+
+PinholeCamera StripViews::CameraLookedThrough(const PinholeCamera& color_camera) {
+  return color_camera.fx > kLargestFocal ? color_camera.Scaled(0.5) : color_camera;
 }
 
 // Where the bounds lie in an image.

@@ -46,6 +46,9 @@ class StripViews {
   StripViews(const Sequence& sequence, const std::vector<int>& frames,
              const std::vector<PosteriorImage>& posteriors, const Eigen::AlignedBox3d& around);
 
+  /// The camera of images as they are looked at.
+  static PinholeCamera CameraLookedThrough(const PinholeCamera& color_camera);
+
   const std::vector<View>& views() const { return views_; }
 
   /// Around the object: a quarter of its extent farther to all sides. Strips elsewhere are not

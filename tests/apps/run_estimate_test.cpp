@@ -56,6 +56,16 @@ TEST(RunEstimate, AStageTakesAsLongAsTheOneOfItsNameDid) {
   EXPECT_NEAR(*run.SecondsLeft(40), 30, 0.5);
 }
 
+TEST(RunEstimate, WorkBeforeTheFirstStepOfAStageIsNotTakenForSteps) {
+  RunEstimate run;
+  run.Plan({{"a", 10}, {"b", 10}});
+  run.Report("a", 0, 1, 0);
+  run.Report("b", 0, 1, 10);
+  run.Report("b", 0, 10, 15);  // five seconds of preparation
+  run.Report("b", 1, 10, 16);
+  EXPECT_DOUBLE_EQ(*run.SecondsLeft(16), 9);
+}
+
 // A stage of twice its expected cost: the surer, the more of it is done.
 TEST(RunEstimate, AStageIsKnownTheBetterTheMoreOfItIsDone) {
   RunEstimate run;

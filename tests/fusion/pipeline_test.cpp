@@ -26,11 +26,14 @@ struct PlanFollower : PipelineObserver {
   std::vector<PlannedStage> plan;
   size_t next = 0;
   std::string stage;
-  std::vector<std::string> unplanned, left_out;
+  int64_t done_before = 0;
+  std::vector<std::string> unplanned, left_out;  // of these those that were to take time
 
   void OnPlan(const std::vector<PlannedStage>& stages) override { plan = stages; }
   void OnProgress(const std::string& name, int64_t done, int64_t /*total*/) override {
-    if (name == stage && done > 0) return;
+    const bool is_same = name == stage && done >= done_before;
+    done_before = done;
+    if (is_same) return;
     stage = name;
     size_t at = next;
     while (at < plan.size() && plan[at].name != name) ++at;
@@ -38,7 +41,8 @@ struct PlanFollower : PipelineObserver {
       unplanned.push_back(name);
       return;
     }
-    for (; next < at; ++next) left_out.push_back(plan[next].name);
+    for (; next < at; ++next)
+      if (plan[next].cost > 0) left_out.push_back(plan[next].name);
     ++next;
   }
 };

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
+
 #include "fusion/curve_graph/candidate_curves.h"
 #include "graph/validate.h"
 #include "kernel/quantile.h"
@@ -23,9 +25,13 @@ SkeletonGraph Known() {
 
 double DistanceTo(const Polyline& curve, const Vec3& p) { return Project(curve, p).distance; }
 
+ObservedPoints FindCandidates(const StripViews& views) {
+  return FindColourCandidates(views, [](int64_t, int64_t) {});
+}
+
 TEST(ColourCandidates, LieOnTheWireThatNoCurveExplains) {
   const SilhouetteScan scan({kStem, kTwig}, {}, kBehind);
-  const ObservedPoints candidates = FindColourCandidates(scan.Strips(Known()));
+  const ObservedPoints candidates = FindCandidates(scan.Strips(Known()));
   EXPECT_GT(candidates.size(), 50u);
   std::vector<double> distances;
   for (const Vec3& p : candidates.positions) distances.push_back(DistanceTo(kTwig, p));
@@ -37,26 +43,39 @@ TEST(ColourCandidates, NoneWhereCurvesExplainAllStrips) {
   const SilhouetteScan scan({kStem, kTwig}, {}, kBehind);
   SkeletonGraph graph = Known();
   AddTestEdge(graph, kTwig);
-  EXPECT_TRUE(FindColourCandidates(scan.Strips(graph)).empty());
+  EXPECT_TRUE(FindCandidates(scan.Strips(graph)).empty());
 }
 
 // What is painted on a wall at the twig's own distance is no wire.
 TEST(ColourCandidates, NoneWhereNothingIsFarBehind) {
   const SilhouetteScan scan({kStem, kTwig}, {}, 0.605);
-  EXPECT_TRUE(FindColourCandidates(scan.Strips(Known())).empty());
+  EXPECT_TRUE(FindCandidates(scan.Strips(Known())).empty());
+}
+
+TEST(ColourCandidates, TellHowFarTheSearchIs) {
+  const SilhouetteScan scan({kStem, kTwig}, {}, kBehind);
+  std::vector<int64_t> steps;
+  int64_t of = 0;
+  FindColourCandidates(scan.Strips(Known()), [&](int64_t done, int64_t total) {
+    steps.push_back(done);
+    of = total;
+  });
+  ASSERT_GT(of, 10);
+  std::vector<int64_t> all(of);
+  std::iota(all.begin(), all.end(), 0);
+  EXPECT_EQ(steps, all);
 }
 
 TEST(ColourCandidates, NoneWithoutCurves) {
   const SilhouetteScan scan({kTwig}, {}, kBehind);
-  EXPECT_TRUE(FindColourCandidates(scan.Strips({})).empty());
+  EXPECT_TRUE(FindCandidates(scan.Strips({})).empty());
 }
 
 TEST(CandidateCurves, JoinWhatIsThere) {
   const SilhouetteScan scan({kStem, kTwig}, {}, kBehind);
   SkeletonGraph graph = Known();
   StripViews views = scan.Strips(graph);
-  const double added =
-      AddCandidateCurves(FindColourCandidates(views), {}, kTestRadius, views, graph);
+  const double added = AddCandidateCurves(FindCandidates(views), {}, kTestRadius, views, graph);
   EXPECT_NEAR(added, Length(kTwig), 0.01);
   EXPECT_EQ(graph.ComponentCount(), 1);
   EXPECT_TRUE(Faults(graph).empty());
@@ -67,7 +86,7 @@ TEST(CandidateCurves, ThatHangTogetherWithNothingAreLeftOut) {
   const SilhouetteScan scan({kStem, far}, {}, kBehind);
   SkeletonGraph graph = Known();
   StripViews views = scan.Strips(graph);
-  const ObservedPoints candidates = FindColourCandidates(views);
+  const ObservedPoints candidates = FindCandidates(views);
   EXPECT_FALSE(candidates.empty());
   EXPECT_EQ(AddCandidateCurves(candidates, {}, kTestRadius, views, graph), 0);
   EXPECT_EQ(graph.edge_count(), 1);
