@@ -38,6 +38,8 @@ enum class Kind {
   kVolume,
   kKinectFusion,
   kAllFrames,
+  kBundle,
+  kBridgedBundle,
   kColourEdges,
   kSilhouettes,
   kStudio
@@ -57,6 +59,8 @@ constexpr Method kMethods[] = {{"VolumeFusion 2 mm", Kind::kVolume, 2},
                                {"BundleFusion poses", Kind::kVolume, 4, "bundlefusion"},
                                {"KinectFusion", Kind::kKinectFusion, 5},
                                {"L1 of all frames", Kind::kAllFrames},
+                               {"L1 of a bundle", Kind::kBundle},
+                               {"Huang 2013 branches", Kind::kBridgedBundle},
                                {"colour edges", Kind::kColourEdges},
                                {"Tabb 2013", Kind::kSilhouettes, 2},
                                {"Tabb 2013 studio", Kind::kStudio, 2}};
@@ -161,6 +165,22 @@ RunOutcome RunTabb(const RunInput& input, const Sequence& sequence, const Method
   return outcome;
 }
 
+// The frames of a bundle around the middle of the scan.
+BundleFrames MiddleBundle(const Sequence& sequence, const PaperOptions& options) {
+  const int count = std::min(options.bundle.frames, sequence.frame_count());
+  const int first = (sequence.frame_count() - count) / 2;
+  return {first, first + count};
+}
+
+SkeletonOfPoints L1Skeleton(const RunInput& input, const Sequence& sequence, Kind kind) {
+  const auto& options = std::get<PaperOptions>(input.study_case.config.pipeline);
+  const BundleFrames frames = kind == Kind::kAllFrames ? BundleFrames(0, sequence.frame_count())
+                                                       : MiddleBundle(sequence, options);
+  const BranchStrategy strategy = kind == Kind::kBridgedBundle ? BranchStrategy::kBridgePoints
+                                                               : BranchStrategy::kExplicitJunctions;
+  return SkeletonOfFrames(sequence, frames, strategy, options, input.progress);
+}
+
 RunOutcome Run(const RunInput& input) {
   const Sequence sequence = OpenSequence(input.scan);
   const SkeletonGraph truth = ReadTruth(input.scan / "truth");
@@ -178,7 +198,9 @@ RunOutcome Run(const RunInput& input) {
           input, FuseAsKinectFusion(sequence, VolumeOptions(options), input.progress).surface,
           truth);
     case Kind::kAllFrames:
-      return keep(SkeletonOfAllFrames(sequence, std::get<PaperOptions>(options), input.progress));
+    case Kind::kBundle:
+    case Kind::kBridgedBundle:
+      return keep(L1Skeleton(input, sequence, method.kind));
     case Kind::kColourEdges:
       return keep(SkeletonOfColourEdges(sequence, BoxAround(truth), std::get<PaperOptions>(options),
                                         input.progress));
@@ -196,6 +218,8 @@ const std::vector<TableColumn> kColumns = {{"F5", "F5"},
                                            {"recall at 5 mm", "recall"},
                                            {"precision at 5 mm", "precision"},
                                            {"pieces", "pieces", 0},
+                                           {"junctions: spurious", "spurious_junctions", 0},
+                                           {"missed", "missed_junctions", 0},
                                            {"surface: F2", "surface.F2"},
                                            {"surface: recall at 5 mm", "surface.recall"},
                                            {"normals off by (deg)", "normal_error_deg", 0}};
@@ -237,8 +261,8 @@ void Report(const StudyResults& results) {
 
 Study ComparisonsStudy() {
   return {"comparisons",
-          "VolumeFusion, KinectFusion, L1 of all frames, colour edges and Tabb 2013 beside both "
-          "profiles",
+          "VolumeFusion, KinectFusion, L1 of all frames, branches of Huang 2013, colour edges and "
+          "Tabb 2013 beside both profiles",
           Cases, Run, Report};
 }
 

@@ -55,6 +55,12 @@ void AddCommonFigures(const std::string& kind, const std::string& pieces, Figure
   copy(pieces, "pieces");
 }
 
+void AddJunctionFigures(Figures& figures) {
+  const std::string kind = "aligned.junctions_10mm.";
+  figures["spurious_junctions"] = figures.at(kind + "found") - figures.at(kind + "matched");
+  figures["missed_junctions"] = figures.at(kind + "truth") - figures.at(kind + "matched");
+}
+
 void AddSurfaceFigures(const TriangleMesh& mesh, const Evaluation& evaluation,
                        const SkeletonGraph& truth, Figures& figures) {
   const SurfaceScores& scores = *evaluation.aligned.surface;
@@ -76,6 +82,7 @@ RunOutcome KeepSkeletonOfMethod(const RunInput& input, const SkeletonGraph& skel
   WritePng(input.folder / "skeleton.png", Picture(skeleton, {}, framing));
   RunOutcome outcome = EvaluateAndKeep(skeleton, input);
   AddCommonFigures("aligned.curves", "components", outcome.figures);
+  AddJunctionFigures(outcome.figures);
   return outcome;
 }
 
