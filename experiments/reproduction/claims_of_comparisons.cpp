@@ -23,7 +23,7 @@ std::vector<Claim> OfTabb(const std::string& method, const std::string& given) {
                  .bound = bound,
                  .origin = "as the paper says: the better of the two",
                  .beside = method,
-                 .cause = "experiments.md#tabb-2013"};
+                 .cause = "baselines.md#tabb-2013"};
   };
   return {claim("\"a ... more complete", "recall at 5 mm of its surface", "surface.recall", {}),
           claim("more complete and no less precise: \"a ...", "F at 2 mm of its surface",
@@ -92,7 +92,7 @@ std::vector<Claim> OfOtherMethods() {
        .decimals = 0,
        .subjects = {"L1 of a bundle"},
        .beside = "Huang 2013 branches",
-       .cause = "experiments.md#huang-2013"},
+       .cause = "baselines.md#huang-2013"},
       {.topic = topic,
        .words = "Liu et al. 2017 \"results in many spurious 3D curves\"",
        .place = "4, Comparisons; Fig. 14",
