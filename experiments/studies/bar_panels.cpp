@@ -48,7 +48,7 @@ std::string PlotCommands(const std::vector<StudyRun>& runs, const std::vector<Ru
       "set errorbars small linecolor rgb '#222222' linewidth 0.9\nset style fill solid 0.85 "
       "noborder\n" +
       fmt::format("set multiplot layout {},2 margins 0.055,0.99,{},0.89 spacing 0.065,{}\n",
-                  (panels.size() + 1) / 2, is_long ? 0.24 : 0.155, is_long ? 0.32 : 0.25);
+                  (panels.size() + 1) / 2, is_long ? 0.21 : 0.155, is_long ? 0.28 : 0.25);
   int column = 2;
   for (const BarPanel& panel : panels) {
     commands += fmt::format(
@@ -77,7 +77,8 @@ void DrawBarPanels(const StudyResults& results, const std::vector<std::string>& 
   const std::vector<RunGroup> profiles = GroupRuns(runs, {"profile"});
   DrawPlot(results.folder, results.stem,
            {SpreadBlocks(groups, "profile", "row", FiguresOf(panels)),
-            PlotCommands(runs, profiles, groups.size() / profiles.size(), panels), 6.5, 4.2});
+            PlotCommands(runs, profiles, groups.size() / profiles.size(), panels), 6.5,
+            HasLongNames(runs) ? 5.4 : 4.2});
 }
 
 }  // namespace curvefusion
