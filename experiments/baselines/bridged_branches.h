@@ -5,7 +5,7 @@
 
 namespace curvefusion {
 
-/// Skeleton branches in the manner of Huang et al. 2013, 4.2 and 4.3, of samples that are
+/// Skeleton branches in the manner of Huang et al. 2013, section 4, of samples that are
 /// contracted already, added to a graph: what CurveFusion 3.2 calls the "rather sophisticated
 /// strategy" that its explicit junctions replace (its figure 5). Our own program, after the
 /// published description:

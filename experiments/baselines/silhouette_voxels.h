@@ -27,7 +27,6 @@ namespace curvefusion {
 //   pixel or more, again and again until nothing changes.
 // - Searched are voxels that half of the views see and that lower the sum where they stand alone:
 //   the mean probability of their pixels is more than a half.
-// The description starts from coarse voxels to save time; this program does not need to.
 
 /// The occupied voxels of a grid; voxel (x, y, z) has its centre at (x, y, z) * voxel_size.
 struct VoxelSet {
