@@ -129,7 +129,7 @@ TEST_F(ReproductionOf, FinishedRunsGiveFigureVerdictPictureAndCommand) {
 TEST_F(ReproductionOf, VerdictsOfAnUnfinishedStudySaySo) {
   Finish("poses", {{"aligned.curves.2mm.f", 1}, {"aligned.curves.5mm.f", 1}});
   EXPECT_THAT(Page(), Not(HasSubstr("<br>from ")));
-  fs::remove_all(folder_ / "runs/poses_train_quick/true_paper_s1");
+  fs::remove_all(folder_ / "runs/poses_train_quick/true_registered_paper_s1");
   EXPECT_THAT(Page(), HasSubstr("best: 0.00: reproduced<br>from 11 of 12 runs"));
 }
 
