@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "experiments/baselines/bridged_branches.h"
 #include "fusion/paper/bundle_skeleton.h"
 #include "fusion/paper/colour_edge_samples.h"
 #include "fusion/paper/ghost_clusters.h"
@@ -11,28 +12,45 @@
 
 namespace curvefusion {
 
-SkeletonOfPoints SkeletonOfAllFrames(const Sequence& sequence, const PaperOptions& options,
-                                     const Progress& progress) {
+namespace {
+
+// Each cluster by itself, as ExtractBundleSkeleton does.
+SkeletonGraph BridgedSkeleton(const std::vector<ObservedPoints>& clusters,
+                              const L1Options& options) {
+  SkeletonGraph skeleton;
+  for (const ObservedPoints& cluster : clusters) {
+    AddBridgedBranches(ContractToMedian(cluster, options), options.maximum_radius, skeleton);
+  }
+  return skeleton;
+}
+
+}  // namespace
+
+SkeletonOfPoints SkeletonOfFrames(const Sequence& sequence, const BundleFrames& frames,
+                                  BranchStrategy strategy, const PaperOptions& options,
+                                  const Progress& progress) {
   SkeletonOfPoints result;
   if (sequence.frames.empty()) return result;
-  const BundleFrames all = {0, sequence.frame_count()};
-  int frames = 0;
+  int fused = 0;
   const TsdfVolume volume = FuseVolume(
-      sequence, options.volume, 1, [&] { progress("volume", ++frames, sequence.frame_count()); });
+      sequence, options.volume, 1, [&] { progress("volume", ++fused, sequence.frame_count()); });
   const ObservedPoints merged =
-      ResampleOnGrid(FindBundleDifference(sequence, all, volume, options.surfaces).points,
+      ResampleOnGrid(FindBundleDifference(sequence, frames, volume, options.surfaces).points,
                      options.bundle.voxel_size);
   progress("difference set", 1, 1);
   PointFunnel funnel;
   const std::vector<ObservedPoints> clusters =
-      RemoveGhostClusters(merged, LiftColourEdges(sequence, all, options.edges),
+      RemoveGhostClusters(merged, LiftColourEdges(sequence, frames, options.edges),
                           options.bundle.voxel_size, options.ghosts, funnel);
   progress("ghosts", 1, 1);
-  const RigidTransform& T_world_first = sequence.frames.front().T_world_camera;
+  const RigidTransform& T_world_first = sequence.frames[frames.first].T_world_camera;
   for (const ObservedPoints& cluster : clusters) {
     Append(result.points, Transformed(cluster, T_world_first));
   }
-  result.skeleton = Transformed(ExtractBundleSkeleton(clusters, options.l1), T_world_first);
+  result.skeleton = Transformed(strategy == BranchStrategy::kBridgePoints
+                                    ? BridgedSkeleton(clusters, options.l1)
+                                    : ExtractBundleSkeleton(clusters, options.l1),
+                                T_world_first);
   return result;
 }
 

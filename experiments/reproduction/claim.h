@@ -45,7 +45,8 @@ struct Claim {
   int decimals = 2;
   /// Profiles, methods, or "" for a study without either; a row of results each.
   std::vector<std::string> subjects = {"paper", "best"};
-  std::string cause = {};  ///< what is known of why it fails, shown where it is not reproduced
+  std::string beside = {};  ///< a method whose runs the measure gets beside those of each subject
+  std::string cause = {};   ///< what is known of why it fails, shown where it is not reproduced
 };
 
 /// Every quantitative claim and every "works" or "fails" of the paper's section 4 (Results), with

@@ -101,6 +101,18 @@ Measure DifferenceOf(const std::string& figure, const Labels& these, const Label
   };
 }
 
+Measure LeadOver(const std::string& method, const std::string& figure) {
+  return [=](const RunGroup& group) -> std::optional<double> {
+    RunGroup subject, others;
+    for (const StudyRun* run : group.runs) {
+      (HasLabels(*run, {{"method", method}}) ? others : subject).runs.push_back(run);
+    }
+    const auto a = MedianIn(subject, figure, {});
+    const auto b = MedianIn(others, figure, {});
+    return a && b ? std::optional(*a - *b) : std::nullopt;
+  };
+}
+
 Measure AmountOf(const Measure& measure) {
   return [=](const RunGroup& group) -> std::optional<double> {
     const auto value = measure(group);

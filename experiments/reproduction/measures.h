@@ -20,7 +20,11 @@ Measure RatioOf(const std::string& part, const std::string& whole, const Labels&
 /// MedianOf(figure, these) - MedianOf(figure, others).
 Measure DifferenceOf(const std::string& figure, const Labels& these, const Labels& others);
 
-/// The amount of it.
+/// The median of a figure over the runs of a subject less that over the runs of the method beside
+/// it (Claim::beside).
+Measure LeadOver(const std::string& method, const std::string& figure);
+
+/// The amount of a difference.
 Measure AmountOf(const Measure& measure);
 
 /// The median at one value of a numeric label less the greatest median at any value.

@@ -35,7 +35,12 @@ ClaimResult ResultOf(const Claim& claim, const std::vector<StudyRun>& runs,
                      const std::string& subject) {
   ClaimResult result{.subject = subject};
   if (!claim.measure) return result;
-  const std::vector<double> figures = FigureOfSeeds(claim, RunsOf(runs, subject));
+  std::vector<StudyRun> measured = RunsOf(runs, subject);
+  if (!claim.beside.empty()) {
+    const std::vector<StudyRun> others = RunsOf(runs, claim.beside);
+    measured.insert(measured.end(), others.begin(), others.end());
+  }
+  const std::vector<double> figures = FigureOfSeeds(claim, measured);
   result.figure = SpreadOf(figures);
   result.seeds = static_cast<int>(figures.size());
   if (!result.figure) return result;

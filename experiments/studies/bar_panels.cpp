@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "experiments/studies/gnuplot.h"
 #include "experiments/studies/result_table.h"
 
@@ -25,16 +27,28 @@ std::vector<std::string> FiguresOf(const std::vector<BarPanel>& panels) {
   return figures;
 }
 
+// Names that would leave the picture at 35 degrees, characters; measured on the font of DrawPlot.
+constexpr size_t kLongName = 12;
+
+bool HasLongNames(const std::vector<StudyRun>& runs) {
+  return std::any_of(runs.begin(), runs.end(), [](const StudyRun& run) {
+    return LabelOf(run.labels, "row").size() > kLongName;
+  });
+}
+
 std::string PlotCommands(const std::vector<StudyRun>& runs, const std::vector<RunGroup>& profiles,
                          size_t row_count, const std::vector<BarPanel>& panels) {
+  const bool is_long = HasLongNames(runs);
   std::string commands =
       fmt::format("set xrange [-0.6:{:.1f}]\n", static_cast<double>(row_count) - 0.4) +
-      "set datafile missing '?'\nset xtics noenhanced rotate by 35 right scale 0\nunset grid\n"
+      fmt::format("set datafile missing '?'\nset xtics noenhanced rotate by {} right scale 0\n",
+                  is_long ? 60 : 35) +
+      "unset grid\n"
       "set grid ytics linecolor rgb '#DDDDDD' linewidth 0.6 dashtype 1\n"
       "set errorbars small linecolor rgb '#222222' linewidth 0.9\nset style fill solid 0.85 "
       "noborder\n" +
-      fmt::format("set multiplot layout {},2 margins 0.055,0.99,0.155,0.89 spacing 0.065,0.25\n",
-                  (panels.size() + 1) / 2);
+      fmt::format("set multiplot layout {},2 margins 0.055,0.99,{},0.89 spacing 0.065,{}\n",
+                  (panels.size() + 1) / 2, is_long ? 0.21 : 0.155, is_long ? 0.28 : 0.25);
   int column = 2;
   for (const BarPanel& panel : panels) {
     commands += fmt::format(
@@ -63,7 +77,8 @@ void DrawBarPanels(const StudyResults& results, const std::vector<std::string>& 
   const std::vector<RunGroup> profiles = GroupRuns(runs, {"profile"});
   DrawPlot(results.folder, results.stem,
            {SpreadBlocks(groups, "profile", "row", FiguresOf(panels)),
-            PlotCommands(runs, profiles, groups.size() / profiles.size(), panels), 6.5, 4.2});
+            PlotCommands(runs, profiles, groups.size() / profiles.size(), panels), 6.5,
+            HasLongNames(runs) ? 5.4 : 4.2});
 }
 
 }  // namespace curvefusion

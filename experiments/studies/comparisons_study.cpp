@@ -9,6 +9,8 @@
 #include "capture/sequence.h"
 #include "experiments/baselines/lifted_edges.h"
 #include "experiments/baselines/merged_skeleton.h"
+#include "experiments/baselines/silhouette_maps.h"
+#include "experiments/baselines/silhouette_voxels.h"
 #include "experiments/baselines/volumetric_fusion.h"
 #include "experiments/metrics/truth.h"
 #include "experiments/pictures/orthographic_view.h"
@@ -28,7 +30,20 @@ namespace fs = std::filesystem;
 // As a mesh is cut to the object (PartAroundTruth).
 constexpr double kMargin = 30 * kMillimetre;
 
-enum class Kind { kCurveFusion, kVolume, kKinectFusion, kAllFrames, kColourEdges };
+// "40 calibrated cameras" of the original setup of Tabb 2013 (CurveFusion 4, Comparisons).
+constexpr int kSilhouetteViews = 40;
+
+enum class Kind {
+  kCurveFusion,
+  kVolume,
+  kKinectFusion,
+  kAllFrames,
+  kBundle,
+  kBridgedBundle,
+  kColourEdges,
+  kSilhouettes,
+  kStudio
+};
 
 struct Method {
   const char* name;
@@ -36,23 +51,34 @@ struct Method {
   double voxel_mm = 0;
   const char* poses = "orbslam2";
 };
-// KinectFusion's volume is that of 5 mm, near the 5.9 mm of its 512^3 voxels over 3 m.
+// KinectFusion's volume is that of 5 mm, near the 5.9 mm of its 512^3 voxels over 3 m. Tabb 2013
+// has the finest voxels of VolumeFusion, 1.5 pixels wide at .7 m; it had 3.6 mm for trees.
 constexpr Method kMethods[] = {{"VolumeFusion 2 mm", Kind::kVolume, 2},
                                {"VolumeFusion 4 mm", Kind::kVolume, 4},
                                {"VolumeFusion 5 mm", Kind::kVolume, 5},
                                {"BundleFusion poses", Kind::kVolume, 4, "bundlefusion"},
                                {"KinectFusion", Kind::kKinectFusion, 5},
                                {"L1 of all frames", Kind::kAllFrames},
-                               {"colour edges", Kind::kColourEdges}};
+                               {"L1 of a bundle", Kind::kBundle},
+                               {"Huang 2013 branches", Kind::kBridgedBundle},
+                               {"colour edges", Kind::kColourEdges},
+                               {"Tabb 2013", Kind::kSilhouettes, 2},
+                               {"Tabb 2013 studio", Kind::kStudio, 2}};
 
-bool IsSurface(Kind kind) { return kind == Kind::kVolume || kind == Kind::kKinectFusion; }
+bool IsVolume(Kind kind) { return kind == Kind::kVolume || kind == Kind::kKinectFusion; }
 
-Kind KindOf(const std::string& method) {
+bool IsSilhouettes(Kind kind) { return kind == Kind::kSilhouettes || kind == Kind::kStudio; }
+
+bool IsSurface(Kind kind) { return IsVolume(kind) || IsSilhouettes(kind); }
+
+Method MethodNamed(const std::string& name) {
   for (const Method& known : kMethods) {
-    if (known.name == method) return known.kind;
+    if (known.name == name) return known;
   }
-  return Kind::kCurveFusion;
+  return {"CurveFusion", Kind::kCurveFusion};
 }
+
+Kind KindOf(const std::string& method) { return MethodNamed(method).kind; }
 
 std::vector<std::string> ComparedObjects(const StudyRequest& request) {
   if (!request.objects.empty()) return ObjectsOf(request);
@@ -61,7 +87,7 @@ std::vector<std::string> ComparedObjects(const StudyRequest& request) {
 }
 
 Config ConfigOf(const StudyRequest& request, const Method& method) {
-  if (!IsSurface(method.kind)) return CaseConfig(request, Profile::kPaper);
+  if (!IsVolume(method.kind)) return CaseConfig(request, Profile::kPaper);
   return CaseConfig(request, Profile::kPaper,
                     {fmt::format("volume.voxel_size={}", method.voxel_mm * kMillimetre),
                      fmt::format("volume.truncation_voxels={}", TsdfOptions().truncation_voxels)});
@@ -98,7 +124,61 @@ RunOutcome RunCurveFusion(const RunInput& input, Sequence sequence, const Skelet
   UseFittedColourCamera(sequence);  // as the command does
   InterruptibleObserver observer(input.progress);
   const Reconstruction result = Reconstruct(sequence, input.study_case.config.pipeline, observer);
-  return KeepSkeletonOfMethod(input, result.skeleton, result.points, truth);
+  RunOutcome outcome = KeepSkeletonOfMethod(input, result.skeleton, result.points, truth);
+  AddSurfaceOfCurves(result.skeleton, input.study_case.config.tubes, truth, outcome.figures);
+  return outcome;
+}
+
+double MeanDistance(const Sequence& sequence, const Vec3& p) {
+  double sum = 0;
+  for (const SequenceFrame& frame : sequence.frames) {
+    sum += (frame.T_world_camera.translation() - p).norm();
+  }
+  return sum / sequence.frame_count();
+}
+
+// What a user can segment of the scan's colour images; or true silhouettes of the depth camera all
+// around the object, as far away as in the scan.
+std::vector<SilhouetteMap> SilhouettesOf(const RunInput& input, Sequence sequence, Kind kind,
+                                         const SkeletonGraph& truth) {
+  if (kind == Kind::kStudio) {
+    const Vec3 center = BoxAround(truth).center();
+    return TrueSilhouettes(truth, sequence.depth_camera,
+                           PosesAround(center, MeanDistance(sequence, center), kSilhouetteViews));
+  }
+  UseFittedColourCamera(sequence);  // as for CurveFusion
+  return ColourSilhouettes(sequence, EvenlySpacedFrames(sequence.frame_count(), kSilhouetteViews),
+                           std::get<PaperOptions>(input.study_case.config.pipeline),
+                           input.progress);
+}
+
+RunOutcome RunTabb(const RunInput& input, const Sequence& sequence, const Method& method,
+                   const SkeletonGraph& truth) {
+  VoxelSet voxels;
+  const Cost cost = CostOf([&] {
+    voxels =
+        FitVoxelsToSilhouettes(SilhouettesOf(input, sequence, method.kind, truth), BoxAround(truth),
+                               method.voxel_mm * kMillimetre, input.progress);
+  });
+  RunOutcome outcome = KeepSurfaceOfMethod(input, SurfaceOf(voxels), truth);
+  AddCost(cost, sequence.frame_count(), outcome.figures);
+  return outcome;
+}
+
+// The frames of a bundle around the middle of the scan.
+BundleFrames MiddleBundle(const Sequence& sequence, const PaperOptions& options) {
+  const int count = std::min(options.bundle.frames, sequence.frame_count());
+  const int first = (sequence.frame_count() - count) / 2;
+  return {first, first + count};
+}
+
+SkeletonOfPoints L1Skeleton(const RunInput& input, const Sequence& sequence, Kind kind) {
+  const auto& options = std::get<PaperOptions>(input.study_case.config.pipeline);
+  const BundleFrames frames = kind == Kind::kAllFrames ? BundleFrames(0, sequence.frame_count())
+                                                       : MiddleBundle(sequence, options);
+  const BranchStrategy strategy = kind == Kind::kBridgedBundle ? BranchStrategy::kBridgePoints
+                                                               : BranchStrategy::kExplicitJunctions;
+  return SkeletonOfFrames(sequence, frames, strategy, options, input.progress);
 }
 
 RunOutcome Run(const RunInput& input) {
@@ -108,7 +188,8 @@ RunOutcome Run(const RunInput& input) {
   const auto keep = [&](const SkeletonOfPoints& result) {
     return KeepSkeletonOfMethod(input, result.skeleton, result.points, truth);
   };
-  switch (KindOf(LabelOf(input.study_case.labels, "method"))) {
+  const Method method = MethodNamed(LabelOf(input.study_case.labels, "method"));
+  switch (method.kind) {
     case Kind::kVolume:
       return KeepSurfaceOfMethod(
           input, VolumeFusionSurface(sequence, VolumeOptions(options), input.progress), truth);
@@ -117,10 +198,15 @@ RunOutcome Run(const RunInput& input) {
           input, FuseAsKinectFusion(sequence, VolumeOptions(options), input.progress).surface,
           truth);
     case Kind::kAllFrames:
-      return keep(SkeletonOfAllFrames(sequence, std::get<PaperOptions>(options), input.progress));
+    case Kind::kBundle:
+    case Kind::kBridgedBundle:
+      return keep(L1Skeleton(input, sequence, method.kind));
     case Kind::kColourEdges:
       return keep(SkeletonOfColourEdges(sequence, BoxAround(truth), std::get<PaperOptions>(options),
                                         input.progress));
+    case Kind::kSilhouettes:
+    case Kind::kStudio:
+      return RunTabb(input, sequence, method, truth);
     case Kind::kCurveFusion:
       break;
   }
@@ -131,7 +217,12 @@ const std::vector<TableColumn> kColumns = {{"F5", "F5"},
                                            {"F2", "F2"},
                                            {"recall at 5 mm", "recall"},
                                            {"precision at 5 mm", "precision"},
-                                           {"pieces", "pieces", 0}};
+                                           {"pieces", "pieces", 0},
+                                           {"junctions: spurious", "spurious_junctions", 0},
+                                           {"missed", "missed_junctions", 0},
+                                           {"surface: F2", "surface.F2"},
+                                           {"surface: recall at 5 mm", "surface.recall"},
+                                           {"normals off by (deg)", "normal_error_deg", 0}};
 
 // What each method gives of the first seed, seen from the same side: a row an object.
 void DrawPictures(const StudyResults& results) {
@@ -170,10 +261,9 @@ void Report(const StudyResults& results) {
 
 Study ComparisonsStudy() {
   return {"comparisons",
-          "VolumeFusion, KinectFusion, L1 of all frames and colour edges beside both profiles",
-          Cases,
-          Run,
-          Report};
+          "VolumeFusion, KinectFusion, L1 of all frames, branches of Huang 2013, colour edges and "
+          "Tabb 2013 beside both profiles",
+          Cases, Run, Report};
 }
 
 }  // namespace curvefusion

@@ -1,8 +1,10 @@
 #include "experiments/studies/method_outcome.h"
 
+#include <numbers>
 #include <string>
 
 #include "experiments/metrics/evaluation_files.h"
+#include "experiments/metrics/normal_error.h"
 #include "experiments/pictures/mesh_view.h"
 #include "experiments/pictures/orthographic_view.h"
 #include "experiments/pictures/png.h"
@@ -53,6 +55,24 @@ void AddCommonFigures(const std::string& kind, const std::string& pieces, Figure
   copy(pieces, "pieces");
 }
 
+void AddJunctionFigures(Figures& figures) {
+  const std::string kind = "aligned.junctions_10mm.";
+  figures["spurious_junctions"] = figures.at(kind + "found") - figures.at(kind + "matched");
+  figures["missed_junctions"] = figures.at(kind + "truth") - figures.at(kind + "matched");
+}
+
+void AddSurfaceFigures(const TriangleMesh& mesh, const Evaluation& evaluation,
+                       const SkeletonGraph& truth, Figures& figures) {
+  const SurfaceScores& scores = *evaluation.aligned.surface;
+  figures["surface.F2"] = scores.within[1].F().value_or(0);
+  figures["surface.recall"] = scores.within[2].recall.value_or(0);
+  static_assert(kDistanceThresholds[1] == 2 * kMillimetre);
+  static_assert(kDistanceThresholds[2] == 5 * kMillimetre);
+  const std::optional<double> error =
+      MeanNormalError(Transformed(mesh, evaluation.T_truth_result), truth);
+  if (error) figures["normal_error_deg"] = *error * 180 / std::numbers::pi;
+}
+
 }  // namespace
 
 RunOutcome KeepSkeletonOfMethod(const RunInput& input, const SkeletonGraph& skeleton,
@@ -62,7 +82,14 @@ RunOutcome KeepSkeletonOfMethod(const RunInput& input, const SkeletonGraph& skel
   WritePng(input.folder / "skeleton.png", Picture(skeleton, {}, framing));
   RunOutcome outcome = EvaluateAndKeep(skeleton, input);
   AddCommonFigures("aligned.curves", "components", outcome.figures);
+  AddJunctionFigures(outcome.figures);
   return outcome;
+}
+
+void AddSurfaceOfCurves(const SkeletonGraph& skeleton, const TubeOptions& options,
+                        const SkeletonGraph& truth, Figures& figures) {
+  const TriangleMesh mesh = ToTriangleMesh(BuildTubes(skeleton, options).surface);
+  AddSurfaceFigures(mesh, EvaluateMesh(mesh, truth), truth, figures);
 }
 
 RunOutcome KeepSurfaceOfMethod(const RunInput& input, const TriangleMesh& surface,
@@ -71,8 +98,10 @@ RunOutcome KeepSurfaceOfMethod(const RunInput& input, const TriangleMesh& surfac
   const Framing framing = FramingOf(truth);
   WritePng(input.folder / "mesh.png",
            DrawMesh(mesh, framing.view, framing.bounds, kPicture, kPicture, framing.scale));
-  RunOutcome outcome{!mesh.triangles.empty(), EvaluationFigures(EvaluateMesh(mesh, truth))};
+  const Evaluation evaluation = EvaluateMesh(mesh, truth);
+  RunOutcome outcome{!mesh.triangles.empty(), EvaluationFigures(evaluation)};
   AddCommonFigures("aligned.surface", "mesh.components", outcome.figures);
+  AddSurfaceFigures(mesh, evaluation, truth, outcome.figures);
   return outcome;
 }
 

@@ -102,7 +102,8 @@ std::string SpreadBlocks(const std::vector<RunGroup>& groups, const std::string&
       names.push_back(name);
       blocks.push_back("# " + name + "\n");
     }
-    blocks[place] += LabelOf(group.labels, row_label);
+    const std::string row = LabelOf(group.labels, row_label);
+    blocks[place] += row.find(' ') == std::string::npos ? row : '"' + row + '"';
     for (const std::string& figure : figures)
       blocks[place] += fmt::format(" {}", SpreadData(SpreadOf(group, figure)));
     blocks[place] += "\n";

@@ -43,8 +43,8 @@ double GreatestOf(const std::vector<StudyRun>& runs, const std::string& figure, 
 std::string SpreadData(const std::optional<Spread>& spread);
 
 /// Data for gnuplot: a block (gnuplot's `index`) for each value of `block_label`, in it a row for
-/// each group with that value: its `row_label`, then median, least and greatest of every figure,
-/// "?" for those that no run has.
+/// each group with that value: its `row_label` (in quotes where it has spaces), then median, least
+/// and greatest of every figure, "?" for those that no run has.
 std::string SpreadBlocks(const std::vector<RunGroup>& groups, const std::string& block_label,
                          const std::string& row_label, const std::vector<std::string>& figures);
 

@@ -63,7 +63,9 @@ TEST_F(Baselines, KinectFusionTracksAndFusesInTheWorldOfTheFirstPose) {
 }
 
 TEST_F(Baselines, AllFramesContractedAtOnceAreTheWiresWhereNothingDrifts) {
-  const SkeletonOfPoints result = SkeletonOfAllFrames(sequence_, PaperOptions(), NoProgress);
+  const SkeletonOfPoints result =
+      SkeletonOfFrames(sequence_, {0, sequence_.frame_count()}, BranchStrategy::kExplicitJunctions,
+                       PaperOptions(), NoProgress);
   EXPECT_FALSE(result.points.empty());
   // Half: eight frames see one side of the arches.
   EXPECT_GT(RecallAt5mm(Evaluate(result.skeleton, nullptr, truth_)), 0.5);
@@ -80,7 +82,9 @@ TEST_F(Baselines, WithoutFramesThereIsNothing) {
   Sequence empty = sequence_;
   empty.frames.clear();
   EXPECT_TRUE(FuseAsKinectFusion(empty, {}, NoProgress).surface.triangles.empty());
-  EXPECT_TRUE(SkeletonOfAllFrames(empty, PaperOptions(), NoProgress).skeleton.empty());
+  EXPECT_TRUE(
+      SkeletonOfFrames(empty, {0, 0}, BranchStrategy::kBridgePoints, PaperOptions(), NoProgress)
+          .skeleton.empty());
 }
 
 }  // namespace

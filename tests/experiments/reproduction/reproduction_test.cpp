@@ -75,6 +75,7 @@ TEST(Claims, AreMeasuredByTheFullSizeOfTheirStudies) {
   Figures figures;
   for (const char* name :
        {"F2", "F5", "recall", "wires.resolved", "contraction_share", "global_diameter_mm",
+        "surface.F2", "surface.recall", "normal_error_deg", "spurious_junctions",
         "seconds_per_30_frames", "seconds_per_30_frames_without_contraction"}) {
     figures[name] = 1;
   }
@@ -128,15 +129,15 @@ TEST_F(ReproductionOf, FinishedRunsGiveFigureVerdictPictureAndCommand) {
 TEST_F(ReproductionOf, VerdictsOfAnUnfinishedStudySaySo) {
   Finish("poses", {{"aligned.curves.2mm.f", 1}, {"aligned.curves.5mm.f", 1}});
   EXPECT_THAT(Page(), Not(HasSubstr("<br>from ")));
-  fs::remove_all(folder_ / "runs/poses_train_quick/true_paper_s1");
-  EXPECT_THAT(Page(), HasSubstr("best: 0.00: reproduced<br>from 9 of 10 runs"));
+  fs::remove_all(folder_ / "runs/poses_train_quick/true_registered_paper_s1");
+  EXPECT_THAT(Page(), HasSubstr("best: 0.00: reproduced<br>from 11 of 12 runs"));
 }
 
 TEST_F(ReproductionOf, RunsWithOtherSettingsDoNotCount) {
   Finish("poses", {{"aligned.curves.2mm.f", 1}, {"aligned.curves.5mm.f", 1}});
   StudyRequest other = request_;
   other.assignments = {"volume.voxel_size=0.02"};
-  EXPECT_EQ(FinishedRuns(PosesStudy(), request_, folder_).runs.size(), 10u);
+  EXPECT_EQ(FinishedRuns(PosesStudy(), request_, folder_).runs.size(), 12u);
   EXPECT_TRUE(FinishedRuns(PosesStudy(), other, folder_).runs.empty());
 }
 
@@ -151,7 +152,7 @@ TEST_F(ReproductionOf, DataHoldTheSameVerdicts) {
       measured += result.at("verdict") == "not measured" ? 0 : 1;
     }
   }
-  EXPECT_EQ(measured, 6);  // three claims on poses, two profiles
+  EXPECT_EQ(measured, 8);  // three claims on poses, one on raw colour, two profiles
   EXPECT_THAT(Contents(folder_ / "reproduction_claims.csv"), HasSubstr("PTAM"));
   EXPECT_THAT(Contents(folder_ / "reproduction_claims.tex"), HasSubstr("\\toprule"));
 }

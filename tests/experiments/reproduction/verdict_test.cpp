@@ -116,6 +116,21 @@ TEST(Measures, DifferencesNeedBothSides) {
   EXPECT_EQ(DifferenceOf("f", {{"s", "a"}}, {{"s", "c"}})(GroupOf(runs)), std::nullopt);
 }
 
+TEST(Measures, ALeadIsOverTheMethodBesideEachSubject) {
+  Claim claim = AtLeast(ClaimKind::kWorks, 0);
+  claim.measure = LeadOver("other", "f");
+  claim.beside = "other";
+  const std::vector<StudyRun> runs = {
+      MadeUp({{"method", "paper"}}, {{"f", 0.5}}), MadeUp({{"method", "best"}}, {{"f", 0.9}}),
+      MadeUp({{"method", "other"}}, {{"f", 0.7}}), MadeUp({{"method", "unasked"}}, {{"f", 0}})};
+  const std::vector<ClaimResult> results = Judge(claim, runs);
+  ASSERT_EQ(results.size(), 2u);
+  EXPECT_DOUBLE_EQ(results[0].figure->median, 0.5 - 0.7);
+  EXPECT_DOUBLE_EQ(results[1].figure->median, 0.9 - 0.7);
+  claim.beside = "missing";
+  EXPECT_EQ(Judge(claim, runs)[0].verdict, Verdict::kNotMeasured);
+}
+
 TEST(Measures, TheLeastSpacingEndsAtTheFirstThatIsNotResolved) {
   const auto resolved = [](const std::map<int, int>& spacings) {
     std::vector<StudyRun> runs;

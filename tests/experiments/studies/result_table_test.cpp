@@ -35,6 +35,9 @@ TEST(ResultTable, BlocksForGnuplot) {
   runs[2].figures = {{"other", 4}};
   EXPECT_EQ(SpreadBlocks(GroupRuns(runs, {"object", "profile"}), "profile", "object", {"f"}),
             "# best\na 1 1 1\nb 2 2 2\n\n\n# paper\na ? ? ?\n");
+  const std::vector<StudyRun> spaced = {RunOf("of a bundle", 1, {{"f", 1}})};
+  EXPECT_EQ(SpreadBlocks(GroupRuns(spaced, {"object", "profile"}), "profile", "object", {"f"}),
+            "# best\n\"of a bundle\" 1 1 1\n");  // one column
   EXPECT_EQ(GreatestOf(runs, "f", 0.5), 2);
   EXPECT_EQ(GreatestOf(runs, "none", 0.5), 0.5);
 }
