@@ -101,7 +101,12 @@ std::vector<Claim> OfOtherMethods() {
        .words = "structures over 10 mm \"can be reconstructed with reasonable quality using the "
                 "conventional KinectFusion pipeline\"",
        .place = "3, assumption (iv)",
-       .figure = "no study gives KinectFusion such an object"}};
+       .study = "comparisons",
+       .figure = "F at 5 mm of its surface, wires of 15 mm",
+       .measure = MedianOf("F5"),
+       .bound = kReconstructed,
+       .origin = "chosen: nine tenths, within 5 mm, a voxel",
+       .subjects = {"KinectFusion, 15 mm"}}};
 }
 
 std::vector<Claim> OfLimitations() {
