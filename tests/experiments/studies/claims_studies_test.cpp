@@ -37,25 +37,31 @@ TEST(RgbResolutionStudy, ScansDifferInTheSizeOfColourAlone) {
   }
 }
 
-TEST(ThicknessColourStudy, ScansDifferInTheGreyOfWiresAlone) {
+TEST(ThicknessColourStudy, ScansDifferInTheFinishOfWiresAlone) {
   const auto scans = ScansBy(ThicknessColourStudy(), "albedo");
   ASSERT_THAT(scans, SizeIs(3));
+  EXPECT_THAT(scans.at("0.3"), SizeIs(1));
   for (StudyCase& study_case : ThicknessColourStudy().cases({.quick = true})) {
     SceneOptions& scene = study_case.scan->scene;
     EXPECT_EQ(study_case.scan->object, "triangles");
     EXPECT_EQ(scene.wire_albedo, std::stod(LabelOf(study_case.labels, "albedo")));
+    EXPECT_EQ(scene.wire_shininess, std::stod(LabelOf(study_case.labels, "shininess")));
     EXPECT_EQ(scene.wire_saturation, 0);
     scene.wire_albedo = 0.9;
-    EXPECT_THAT(scans.at("0.9"), ElementsAre(ScanSettings(*study_case.scan)));
+    scene.wire_shininess = 0;
+    EXPECT_EQ(scans.at("0.9").count(ScanSettings(*study_case.scan)), 1u);
   }
 }
 
-TEST(PosesStudy, ScansDifferInThePoseSourceAlone) {
+TEST(PosesStudy, ScansDifferInPosesAndRegistrationAlone) {
   const auto scans = ScansBy(PosesStudy(), "poses");
   ASSERT_THAT(scans, SizeIs(5));
   for (StudyCase& study_case : PosesStudy().cases({.quick = true})) {
     EXPECT_EQ(study_case.scan->pose_source, LabelOf(study_case.labels, "poses"));
+    const Registration colour = study_case.scan->color.registration;
+    EXPECT_EQ(RegistrationName(colour), LabelOf(study_case.labels, "colour"));
     study_case.scan->pose_source = "true";
+    study_case.scan->color.registration = Registration::kRegistered;
     EXPECT_THAT(scans.at("true"), ElementsAre(ScanSettings(*study_case.scan)));
   }
 }
