@@ -20,15 +20,10 @@ constexpr int kMaxPlanes = 12;
 constexpr size_t kScored = 4000;  // triangles: enough to tell a share of a few percent
 constexpr int kRefinements = 3;
 
-struct Plane {
-  Vec3 normal = Vec3::UnitZ();
-  double offset = 0;
-
-  bool Holds(const Vec3& center, const Vec3& triangle_normal, double tolerance) const {
-    return std::abs(normal.dot(center) - offset) <= tolerance &&
-           normal.dot(triangle_normal) >= kMinCosine;
-  }
-};
+bool Holds(const RoomPlane& plane, const SurfaceTriangles& surface, size_t i, double tolerance) {
+  return std::abs(plane.normal.dot(surface.centers[i]) - plane.offset) <= tolerance &&
+         plane.normal.dot(surface.normals[i]) >= kMinCosine;
+}
 
 // Draws triangles by their area.
 class TriangleDraw {
@@ -50,26 +45,27 @@ class TriangleDraw {
   std::vector<double> cumulative_;
 };
 
-Plane PlaneThrough(const SurfaceTriangles& surface, size_t a, size_t b, size_t c) {
+RoomPlane PlaneThrough(const SurfaceTriangles& surface, size_t a, size_t b, size_t c) {
   const Vec3& p = surface.centers[a];
-  Plane plane;
+  RoomPlane plane;
   plane.normal = (surface.centers[b] - p).cross(surface.centers[c] - p).normalized();
   if (plane.normal.dot(surface.normals[a]) < 0) plane.normal = -plane.normal;
   plane.offset = plane.normal.dot(p);
   return plane;
 }
 
-TriangleMarks Held(const SurfaceTriangles& surface, const TriangleMarks& left, const Plane& plane,
-                   double tolerance) {
+TriangleMarks Held(const SurfaceTriangles& surface, const TriangleMarks& left,
+                   const RoomPlane& plane, double tolerance) {
   TriangleMarks held(surface.size(), 0);
   for (size_t i = 0; i < surface.size(); ++i) {
-    held[i] = left[i] && plane.Holds(surface.centers[i], surface.normals[i], tolerance);
+    held[i] = left[i] && Holds(plane, surface, i, tolerance);
   }
   return held;
 }
 
 // The plane of least squares of the marked triangles.
-Plane Fitted(const SurfaceTriangles& surface, const TriangleMarks& marked, const Plane& before) {
+RoomPlane Fitted(const SurfaceTriangles& surface, const TriangleMarks& marked,
+                 const RoomPlane& before) {
   double area = 0;
   Vec3 sum = Vec3::Zero();
   Mat3 moments = Mat3::Zero();
@@ -83,7 +79,7 @@ Plane Fitted(const SurfaceTriangles& surface, const TriangleMarks& marked, const
   if (area <= 0) return before;
   const Vec3 mean = sum / area;
   const Eigen::SelfAdjointEigenSolver<Mat3> axes(moments / area - mean * mean.transpose());
-  Plane plane;
+  RoomPlane plane;
   plane.normal = axes.eigenvectors().col(0);
   if (plane.normal.dot(before.normal) < 0) plane.normal = -plane.normal;
   plane.offset = plane.normal.dot(mean);
@@ -91,22 +87,22 @@ Plane Fitted(const SurfaceTriangles& surface, const TriangleMarks& marked, const
 }
 
 // The plane with the most area, of many drawn ones.
-Plane LargestPlane(const SurfaceTriangles& surface, const TriangleMarks& left, double tolerance,
-                   std::mt19937_64& random) {
+RoomPlane LargestPlane(const SurfaceTriangles& surface, const TriangleMarks& left, double tolerance,
+                       std::mt19937_64& random) {
   const TriangleDraw draw(surface, left);
   std::vector<size_t> scored(kScored);
   for (size_t& i : scored) i = draw(random);
-  std::vector<Plane> planes(kDraws);
-  for (Plane& plane : planes) {
+  std::vector<RoomPlane> planes(kDraws);
+  for (RoomPlane& plane : planes) {
     plane = PlaneThrough(surface, draw(random), draw(random), draw(random));
   }
   std::vector<int> votes(kDraws, 0);
   ParallelFor(0, kDraws, 16, [&](int64_t k) {
     for (const size_t i : scored) {
-      votes[k] += planes[k].Holds(surface.centers[i], surface.normals[i], tolerance) ? 1 : 0;
+      votes[k] += Holds(planes[k], surface, i, tolerance) ? 1 : 0;
     }
   });
-  Plane best = planes[std::max_element(votes.begin(), votes.end()) - votes.begin()];
+  RoomPlane best = planes[std::max_element(votes.begin(), votes.end()) - votes.begin()];
   for (int round = 0; round < kRefinements; ++round) {
     best = Fitted(surface, Held(surface, left, best, tolerance), best);
   }
@@ -115,21 +111,24 @@ Plane LargestPlane(const SurfaceTriangles& surface, const TriangleMarks& left, d
 
 }  // namespace
 
-TriangleMarks FindRoomPlanes(const SurfaceTriangles& surface, double tolerance) {
-  TriangleMarks room(surface.size(), 0);
+RoomPlanes FindRoomPlanes(const SurfaceTriangles& surface, double tolerance) {
+  RoomPlanes room{TriangleMarks(surface.size(), 0), {}};
   TriangleMarks left(surface.size(), 1);
   std::mt19937_64 random(1);
   for (int k = 0; k < kMaxPlanes && TriangleDraw(surface, left).area() > kMinArea; ++k) {
-    const Plane plane = LargestPlane(surface, left, tolerance, random);
+    const RoomPlane plane = LargestPlane(surface, left, tolerance, random);
     const TriangleMarks held = Held(surface, left, plane, tolerance);
     double area = 0;
+    bool is_room = false;
     for (const SurfacePiece& piece : PiecesOf(surface, held)) {
       area += piece.area;
+      is_room = is_room || piece.is_cut;
       for (const int i : piece.triangles) {
         left[i] = 0;
-        if (piece.is_cut) room[i] = 1;
+        if (piece.is_cut) room.marks[i] = 1;
       }
     }
+    if (is_room) room.planes.push_back(plane);
     if (area < kMinArea) break;
   }
   return room;

@@ -4,10 +4,22 @@
 
 namespace curvefusion {
 
+/// The points with normal . p = offset; the free side is that to which the normal points.
+struct RoomPlane {
+  Vec3 normal = Vec3::UnitZ();
+  double offset = 0;
+};
+
+/// What an object stands on or before.
+struct RoomPlanes {
+  TriangleMarks marks;
+  std::vector<RoomPlane> planes;
+};
+
 /// The triangles of what an object stands on or before: planes (RANSAC, Fischler and Bolles 1981)
 /// that go on beyond the box, as floors, table tops and walls do. A seat or a lid ends within it. A
 /// triangle belongs to a plane where it lies within `tolerance` metres and is turned by less than
 /// 30 degrees. The same surface gives the same planes.
-TriangleMarks FindRoomPlanes(const SurfaceTriangles& surface, double tolerance);
+RoomPlanes FindRoomPlanes(const SurfaceTriangles& surface, double tolerance);
 
 }  // namespace curvefusion

@@ -18,6 +18,7 @@ namespace {
 
 // Voxels: a vertex keeps so far from the samples on either side, which avoids slivers.
 constexpr double kLeastValue = 0.1;
+constexpr int kGap = 2;             // voxels, of the ball that closes hidden gaps
 constexpr double kGroupVoxels = 8;  // of triangles whose winding is taken together
 
 // Taubin's factors, and rounds; chosen: what is a few voxels wide stays.
@@ -79,6 +80,7 @@ class SolidField {
     size_ = {high.x - low_.x + 1, high.y - low_.y + 1, high.z - low_.z + 1};
     values_.assign(static_cast<size_t>(size_[0]) * size_[1] * size_[2],
                    static_cast<float>(voxel_size));
+    is_free_.assign(values_.size(), 0);
   }
 
   // What lies within half the thickness of a surface that was moved inwards by as much.
@@ -108,6 +110,7 @@ class SolidField {
           const VoxelKey voxel{low_.x + i, low_.y + j, low_.z + static_cast<int>(k)};
           const double seen = volume.DistanceAt(voxel);
           float& value = values_[IndexOf(voxel)];
+          is_free_[IndexOf(voxel)] = seen > 0;
           if (seen > 0) {
             value = std::max(value, static_cast<float>(seen));
           } else if (value > 0) {
@@ -115,6 +118,23 @@ class SolidField {
             value = std::min(value, static_cast<float>(-4 * voxel_size_ * excess));
           }
         }
+    });
+  }
+
+  // A closing by a ball, of what was not seen free: hidden gaps narrower than it are solid.
+  void CloseGaps() {
+    std::vector<char> grown(values_.size());
+    for (size_t i = 0; i < values_.size(); ++i) grown[i] = values_[i] < 0 || is_free_[i];
+    const std::vector<char> solid_or_free = grown;
+    ForEachInner([&](size_t index, const std::vector<std::ptrdiff_t>& ball) {
+      if (values_[index] >= 0) return;
+      for (const std::ptrdiff_t step : ball) grown[index + step] = 1;
+    });
+    ForEachInner([&](size_t index, const std::vector<std::ptrdiff_t>& ball) {
+      if (solid_or_free[index] || !grown[index]) return;
+      const bool is_gap = std::all_of(
+          ball.begin(), ball.end(), [&](std::ptrdiff_t step) { return grown[index + step] != 0; });
+      if (is_gap) values_[index] = static_cast<float>(-voxel_size_ / 2);
     });
   }
 
@@ -154,6 +174,22 @@ class SolidField {
     }
   }
 
+  // Calls visit(index, ball) for the samples around which a ball of two voxels is stored: `ball`
+  // has the steps from the sample's index to those of the ball.
+  template <class Visit>
+  void ForEachInner(const Visit& visit) const {
+    std::vector<std::ptrdiff_t> ball;
+    const std::ptrdiff_t row = size_[0], layer = row * size_[1];
+    for (int z = -kGap; z <= kGap; ++z)
+      for (int y = -kGap; y <= kGap; ++y)
+        for (int x = -kGap; x <= kGap; ++x)
+          if (x * x + y * y + z * z <= kGap * kGap) ball.push_back(x + y * row + z * layer);
+    for (int z = kGap; z + kGap < size_[2]; ++z)
+      for (int y = kGap; y + kGap < size_[1]; ++y)
+        for (int x = kGap; x + kGap < size_[0]; ++x)
+          visit(static_cast<size_t>(x + y * row + z * layer), ball);
+  }
+
   bool Holds(const VoxelKey& v) const {
     return v.x >= low_.x && v.y >= low_.y && v.z >= low_.z && v.x < low_.x + size_[0] &&
            v.y < low_.y + size_[1] && v.z < low_.z + size_[2];
@@ -177,6 +213,7 @@ class SolidField {
   VoxelKey low_;
   std::array<int, 3> size_{};
   std::vector<float> values_;  // metres, negative inside
+  std::vector<char> is_free_;  // some frame saw it so
 };
 
 // One step of Laplacian smoothing: every vertex goes `share` of the way to the mean of its
@@ -224,15 +261,30 @@ TriangleMesh WithoutSmall(const TriangleMesh& mesh, double min_volume) {
   return MarkedPart(mesh, kept);
 }
 
+// The surface, and the contact as seen from outside.
+TriangleMesh WithContact(const SolidBounds& bounds) {
+  TriangleMesh closed = bounds.surface;
+  const int first = static_cast<int>(closed.vertices.size());
+  closed.vertices.insert(closed.vertices.end(), bounds.contact.vertices.begin(),
+                         bounds.contact.vertices.end());
+  for (const auto& [a, b, c] : bounds.contact.triangles) {
+    closed.triangles.push_back({first + a, first + c, first + b});
+  }
+  return closed;
+}
+
 }  // namespace
 
-TriangleMesh SolidBehind(const TriangleMesh& surface, const TriangleMesh& room,
-                         const BoxVolume& volume, double thickness, double min_volume) {
-  if (surface.triangles.empty()) return {};
-  SolidField field(surface, volume.voxel_size(), thickness);
-  field.AddLayer(MovedInwards(surface, thickness / 2));
-  field.AddEnclosedAndCarve(volume, WindingNumber(surface, kGroupVoxels * volume.voxel_size()));
-  field.CutBehind(room);
+TriangleMesh SolidBehind(const SolidBounds& bounds, const BoxVolume& volume, double thickness,
+                         double min_volume) {
+  if (bounds.surface.triangles.empty()) return {};
+  const double voxel_size = volume.voxel_size();
+  SolidField field(bounds.surface, voxel_size, thickness);
+  field.AddLayer(MovedInwards(bounds.surface, thickness / 2));
+  field.AddEnclosedAndCarve(volume, WindingNumber(WithContact(bounds), kGroupVoxels * voxel_size));
+  field.CloseGaps();
+  field.CutBehind(bounds.room);
+  field.CutBehind(bounds.contact);
   TriangleMesh solid = WithoutSmall(field.Surface(), min_volume);
   Smooth(solid);
   return solid;

@@ -5,13 +5,20 @@
 
 namespace curvefusion {
 
-/// The closed surface of the solid behind an open surface that was extracted from `volume`: what
-/// lies at most `thickness` metres behind it, and what no frame saw as free and the surface would
-/// enclose if its holes were closed (winding number above 1/2), but not behind a surface of the room,
-/// on which it stands. Closed, oriented, 2-manifold;
-/// hollows and pieces of less than `min_volume` (m^3) are filled and dropped. Cost: linear in the
-/// voxels of the surface's box.
-TriangleMesh SolidBehind(const TriangleMesh& surface, const TriangleMesh& room,
-                         const BoxVolume& volume, double thickness, double min_volume);
+/// What bounds a solid.
+struct SolidBounds {
+  TriangleMesh surface;  ///< as it was seen, open, towards the free side
+  TriangleMesh room;     ///< what it stands on, towards the solid
+  TriangleMesh contact;  ///< where it does so, hidden, towards the solid
+};
+
+/// The closed surface of the solid behind a surface that was extracted from `volume`: what lies at
+/// most `thickness` metres behind it, and what no frame saw as free and the surface with its
+/// contact faces would enclose if its holes were closed (winding number above 1/2). Nothing lies
+/// behind room or contact. Gaps that no frame saw and that are narrower than four voxels are
+/// closed, hollows and pieces of less than `min_volume` (m^3) filled and dropped. Closed, oriented,
+/// 2-manifold. Cost: linear in the voxels of the surface's box.
+TriangleMesh SolidBehind(const SolidBounds& bounds, const BoxVolume& volume, double thickness,
+                         double min_volume);
 
 }  // namespace curvefusion

@@ -5,6 +5,7 @@
 #include "fusion/solid_parts/attached_ends.h"
 #include "fusion/solid_parts/attached_surface.h"
 #include "fusion/solid_parts/box_volume.h"
+#include "fusion/solid_parts/contact_faces.h"
 #include "fusion/solid_parts/room_planes.h"
 #include "fusion/solid_parts/solid_field.h"
 #include "fusion/solid_parts/surface_triangles.h"
@@ -40,15 +41,17 @@ SolidParts FindSolidParts(const BoxVolume& volume, const SkeletonGraph& skeleton
   SolidParts parts{.skeleton = skeleton};
   const double blur = kBlurVoxels * volume.voxel_size();
   const SurfaceTriangles surface = TrianglesWithin(volume.ExtractMesh(), volume.box());
-  const TriangleMarks room = FindRoomPlanes(surface, blur);
-  const AttachedSurface attached = FindAttachedSurface(surface, room, skeleton, kReach, blur);
+  const RoomPlanes room = FindRoomPlanes(surface, blur);
+  const AttachedSurface attached = FindAttachedSurface(surface, room.marks, skeleton, kReach, blur);
+  const SolidBounds bounds = {MarkedPart(surface.mesh, attached.marks),
+                              MarkedPart(surface.mesh, room.marks),
+                              ContactFaces(surface, attached.marks, room.planes, 2 * blur)};
   const double disc = std::numbers::pi * kReach * kReach;
-  parts.surface = SolidBehind(MarkedPart(surface.mesh, attached.marks),
-                              MarkedPart(surface.mesh, room), volume, thickness, disc * thickness);
-  parts.skeleton = LedToSurface(skeleton, parts.surface, kReach + blur);
+  parts.surface = SolidBehind(bounds, volume, thickness, disc * thickness);
+  parts.skeleton = LedToSurface(skeleton, parts.surface, kReach + blur + thickness);
   parts.parts = attached.pieces;
   parts.seen_area = attached.area;
-  parts.room_area = AreaOf(surface, room);
+  parts.room_area = AreaOf(surface, room.marks);
   return parts;
 }
 

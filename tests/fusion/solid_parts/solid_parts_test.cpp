@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <numbers>
 #include <utility>
@@ -22,15 +23,15 @@ SkeletonGraph UprightWire(double from, double to) {
   return graph;
 }
 
-// Eight views from all sides, half a metre away.
-BoxVolume Scanned(const DepthAlongRay& scene, const SkeletonGraph& skeleton) {
+// Views half a metre away, of the eighths of a full turn that are asked for.
+BoxVolume Scanned(const DepthAlongRay& scene, const SkeletonGraph& skeleton, int views = 8) {
   Eigen::AlignedBox3d box;
   for (const EdgeId id : skeleton.Edges()) {
     for (const Vec3& p : skeleton.edge(id).points) box.extend(p);
   }
   BoxVolume volume({box.min() - Vec3::Constant(0.2), box.max() + Vec3::Constant(0.2)}, kVoxel);
   const PinholeCamera camera = KinectCamera(0.5);
-  for (int i = 0; i < 8; ++i) {
+  for (int i = 0; i < views; ++i) {
     const double angle = 2 * std::numbers::pi * (i + 0.3) / 8;
     const RigidTransform pose =
         LookAt({0.5 * std::cos(angle), 0.5 * std::sin(angle), 0.45}, {0, 0, 0.07});
@@ -81,6 +82,20 @@ TEST(SolidParts, APotIsFoundAndTheTableIsNot) {
   }
   EXPECT_NEAR(lowest, 0.1, kVoxel);
   EXPECT_EQ(parts.skeleton.edge_count(), 1);
+}
+
+TEST(SolidParts, AHalfSeenPotIsClosedFlatBehindAndBelow) {
+  const SkeletonGraph wire = UprightWire(0.115, 0.3);
+  const DepthAlongRay pot = Box({-0.05, -0.05, -0.001}, {0.05, 0.05, 0.1});
+  const BoxVolume volume = Scanned(Union(pot, Plane(Vec3::UnitZ(), 0)), wire, 4);
+  const SolidParts parts = FindSolidParts(volume, wire, kThickness);
+  EXPECT_TRUE(IsClosed(parts.surface));
+  // A skin of 10 mm on top and two or three sides would have half of that.
+  EXPECT_GT(VolumeOf(parts.surface), 0.7e-3);
+  EXPECT_LT(VolumeOf(parts.surface), 1.1e-3);
+  double lowest = 1;
+  for (const Vec3f& v : parts.surface.vertices) lowest = std::min<double>(lowest, v.z());
+  EXPECT_NEAR(lowest, 0, kVoxel);  // it stands on the table
 }
 
 TEST(SolidParts, WhatIsNotAttachedIsLeftOut) {
