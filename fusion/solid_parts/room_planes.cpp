@@ -112,7 +112,7 @@ RoomPlane LargestPlane(const SurfaceTriangles& surface, const TriangleMarks& lef
 }  // namespace
 
 RoomPlanes FindRoomPlanes(const SurfaceTriangles& surface, double tolerance) {
-  RoomPlanes room{TriangleMarks(surface.size(), 0), {}};
+  RoomPlanes room{{}, TriangleMarks(surface.size(), 0)};
   TriangleMarks left(surface.size(), 1);
   std::mt19937_64 random(1);
   for (int k = 0; k < kMaxPlanes && TriangleDraw(surface, left).area() > kMinArea; ++k) {
@@ -125,13 +125,33 @@ RoomPlanes FindRoomPlanes(const SurfaceTriangles& surface, double tolerance) {
       is_room = is_room || piece.is_cut;
       for (const int i : piece.triangles) {
         left[i] = 0;
-        if (piece.is_cut) room.marks[i] = 1;
+        if (piece.is_cut) room.marks[i] = static_cast<char>(room.planes.size() + 1);
       }
     }
     if (is_room) room.planes.push_back(plane);
     if (area < kMinArea) break;
   }
   return room;
+}
+
+TriangleMesh FlatRoom(const TriangleMesh& mesh, const RoomPlanes& room) {
+  TriangleMesh flat;
+  for (size_t k = 0; k < room.planes.size(); ++k) {
+    const RoomPlane& plane = room.planes[k];
+    TriangleMarks marks;
+    for (const char mark : room.marks) marks.push_back(mark == static_cast<char>(k + 1));
+    const TriangleMesh part = MarkedPart(mesh, marks);
+    const int first = static_cast<int>(flat.vertices.size());
+    for (const Vec3f& v : part.vertices) {
+      const Vec3 p = v.cast<double>();
+      flat.vertices.push_back(
+          (p - (plane.normal.dot(p) - plane.offset) * plane.normal).cast<float>());
+    }
+    for (const auto& [a, b, c] : part.triangles) {
+      flat.triangles.push_back({first + a, first + b, first + c});
+    }
+  }
+  return flat;
 }
 
 }  // namespace curvefusion

@@ -12,8 +12,8 @@ struct RoomPlane {
 
 /// What an object stands on or before.
 struct RoomPlanes {
-  TriangleMarks marks;
-  std::vector<RoomPlane> planes;
+  std::vector<RoomPlane> planes;  ///< 100 at most
+  TriangleMarks marks;            ///< 1 + index of its plane; 0 for what is not of the room
 };
 
 /// The triangles of what an object stands on or before: planes (RANSAC, Fischler and Bolles 1981)
@@ -21,5 +21,8 @@ struct RoomPlanes {
 /// triangle belongs to a plane where it lies within `tolerance` metres and is turned by less than
 /// 30 degrees. The same surface gives the same planes.
 RoomPlanes FindRoomPlanes(const SurfaceTriangles& surface, double tolerance);
+
+/// The marked triangles, flat in their planes.
+TriangleMesh FlatRoom(const TriangleMesh& mesh, const RoomPlanes& room);
 
 }  // namespace curvefusion

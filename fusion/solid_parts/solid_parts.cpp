@@ -44,7 +44,7 @@ SolidParts FindSolidParts(const BoxVolume& volume, const SkeletonGraph& skeleton
   const RoomPlanes room = FindRoomPlanes(surface, blur);
   const AttachedSurface attached = FindAttachedSurface(surface, room.marks, skeleton, kReach, blur);
   const SolidBounds bounds = {MarkedPart(surface.mesh, attached.marks),
-                              MarkedPart(surface.mesh, room.marks),
+                              FlatRoom(surface.mesh, room),
                               ContactFaces(surface, attached.marks, room.planes, 2 * blur)};
   const double disc = std::numbers::pi * kReach * kReach;
   parts.surface = SolidBehind(bounds, volume, thickness, disc * thickness);

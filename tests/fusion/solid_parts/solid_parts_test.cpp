@@ -72,8 +72,9 @@ TEST(SolidParts, APotIsFoundAndTheTableIsNot) {
   // Its inside, which no frame saw, is filled; edges are rounded by a voxel or two.
   EXPECT_NEAR(VolumeOf(parts.surface), 1e-3, 0.1e-3);
   EXPECT_GT(parts.room_area, 0.1);
+  // In its crease with the table a volume is rounded by two voxels, and smoothing adds to it.
   for (const Vec3f& v : parts.surface.vertices) {
-    EXPECT_LT(v.head<2>().cwiseAbs().maxCoeff(), 0.05 + 2 * kVoxel);  // what a volume blurs
+    EXPECT_LT(v.head<2>().cwiseAbs().maxCoeff(), 0.05 + 3 * kVoxel);
   }
   // The wire, which ends 15 mm above, is led to it.
   double lowest = 1;
