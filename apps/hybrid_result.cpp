@@ -23,7 +23,7 @@ double LeastRadius(const SkeletonGraph& skeleton, double default_radius) {
 
 std::vector<std::string> WarningsOf(const SolidParts& parts, const HybridMesh& hybrid) {
   std::vector<std::string> warnings;
-  if (parts.surface.triangles.empty()) {
+  if (parts.solids.empty()) {
     warnings.emplace_back(
         "the hybrid mesh holds the tubes alone: no surface was found that they are attached to");
   }
@@ -49,14 +49,14 @@ HybridRecord WriteHybrid(const Reconstruction& reconstruction, const TubeOptions
       FindSolidParts(reconstruction.sequence, reconstruction.skeleton, {}, progress);
   const TubeMesh tubes = BuildTubes(parts.skeleton, options);
   const HybridMesh hybrid =
-      UniteTubesAndSolids(ToTriangleMesh(tubes.surface), {parts.surface},
+      UniteTubesAndSolids(ToTriangleMesh(tubes.surface), parts.solids,
                           LeastRadius(parts.skeleton, options.default_radius));
   WriteMesh(folder / "hybrid.ply", hybrid.mesh, {});
   WriteMesh(folder / "hybrid.stl", hybrid.mesh, {.unit = MeshUnit::kMillimetres});
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   return {.figures = hybrid.report,
           .seconds = seconds.count(),
-          .parts = parts.parts,
+          .parts = static_cast<int>(parts.solids.size()),
           .seen_area = parts.seen_area,
           .room_area = parts.room_area,
           .warnings = WarningsOf(parts, hybrid)};

@@ -25,7 +25,7 @@ struct MeshRecord {
 struct HybridRecord {
   WatertightReport figures;
   double seconds = 0;
-  int parts = 0;         ///< attached surfaces
+  int parts = 0;         ///< solids
   double seen_area = 0;  ///< m^2, of these
   double room_area = 0;  ///< m^2, of floors, walls and table tops near the curves, left out
   std::vector<std::string> warnings;

@@ -78,17 +78,20 @@ void LeadOn(const SkeletonEdge& given, NodeId end, const Vec3& target, SkeletonG
 
 }  // namespace
 
-SkeletonGraph LedToSurface(SkeletonGraph skeleton, const TriangleMesh& surface, double reach) {
-  for (const NodeId node : skeleton.Nodes()) {
-    if (skeleton.Degree(node) != 1) continue;
-    const EdgeId id = skeleton.IncidentEdges(node)[0];
-    const SkeletonEdge edge = skeleton.edge(id);
-    Polyline points = edge.points;
-    if (edge.nodes[1] != node) std::reverse(points.begin(), points.end());
-    const std::optional<Vec3> target = TargetOf(RayAtEnd(points), surface, reach);
-    if (target && *target != points.back()) LeadOn(edge, node, *target, skeleton, id);
+SkeletonGraph LedToSolids(SkeletonGraph skeleton, const std::vector<TriangleMesh>& solids,
+                          double reach) {
+  for (const TriangleMesh& solid : solids) {
+    for (const NodeId node : skeleton.Nodes()) {
+      if (skeleton.Degree(node) != 1) continue;
+      const EdgeId id = skeleton.IncidentEdges(node)[0];
+      const SkeletonEdge edge = skeleton.edge(id);
+      Polyline points = edge.points;
+      if (edge.nodes[1] != node) std::reverse(points.begin(), points.end());
+      const std::optional<Vec3> target = TargetOf(RayAtEnd(points), solid, reach);
+      if (target && *target != points.back()) LeadOn(edge, node, *target, skeleton, id);
+    }
+    skeleton.RemoveIsolatedNodes();
   }
-  skeleton.RemoveIsolatedNodes();
   return skeleton;
 }
 

@@ -92,8 +92,8 @@ void GrowBack(const SurfaceTriangles& surface, const TriangleMarks& passable, do
 
 }  // namespace
 
-AttachedSurface FindAttachedSurface(const SurfaceTriangles& surface, const TriangleMarks& room,
-                                    const SkeletonGraph& skeleton, double reach, double blur) {
+TriangleMarks FindAttachedSurface(const SurfaceTriangles& surface, const TriangleMarks& room,
+                                  const SkeletonGraph& skeleton, double reach, double blur) {
   const std::vector<TubeView> views = ViewsOf(surface, skeleton);
   TriangleMarks clear(surface.size(), 0), passable(surface.size(), 0);
   for (size_t i = 0; i < surface.size(); ++i) {
@@ -101,20 +101,15 @@ AttachedSurface FindAttachedSurface(const SurfaceTriangles& surface, const Trian
     clear[i] = !room[i] && views[i].distance > reach;
     passable[i] = !room[i] && !clear[i] && !on_tube;
   }
-  AttachedSurface attached;
-  attached.marks.assign(surface.size(), 0);
+  TriangleMarks attached(surface.size(), 0);
   for (const SurfacePiece& piece : PiecesOf(surface, clear)) {
     double nearest = std::numeric_limits<double>::infinity();
     for (const int i : piece.triangles) nearest = std::min(nearest, views[i].distance);
     const bool is_large = piece.area > std::numbers::pi * reach * reach;
     if (piece.is_cut || !is_large || nearest > reach + blur) continue;
-    ++attached.pieces;
-    for (const int i : piece.triangles) attached.marks[i] = 1;
+    for (const int i : piece.triangles) attached[i] = 1;
   }
-  GrowBack(surface, passable, reach, attached.marks);
-  for (size_t i = 0; i < surface.size(); ++i) {
-    if (attached.marks[i]) attached.area += surface.areas[i];
-  }
+  GrowBack(surface, passable, reach, attached);
   return attached;
 }
 

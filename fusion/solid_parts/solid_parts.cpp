@@ -1,6 +1,7 @@
 #include "fusion/solid_parts/solid_parts.h"
 
 #include <numbers>
+#include <utility>
 
 #include "fusion/solid_parts/attached_ends.h"
 #include "fusion/solid_parts/attached_surface.h"
@@ -42,15 +43,19 @@ SolidParts FindSolidParts(const BoxVolume& volume, const SkeletonGraph& skeleton
   const double blur = kBlurVoxels * volume.voxel_size();
   const SurfaceTriangles surface = TrianglesWithin(volume.ExtractMesh(), volume.box());
   const RoomPlanes room = FindRoomPlanes(surface, blur);
-  const AttachedSurface attached = FindAttachedSurface(surface, room.marks, skeleton, kReach, blur);
-  const SolidBounds bounds = {MarkedPart(surface.mesh, attached.marks),
-                              FlatRoom(surface.mesh, room),
-                              ContactFaces(surface, attached.marks, room.planes, 2 * blur)};
+  const TriangleMesh flat_room = FlatRoom(surface.mesh, room);
+  const TriangleMarks attached = FindAttachedSurface(surface, room.marks, skeleton, kReach, blur);
   const double disc = std::numbers::pi * kReach * kReach;
-  parts.surface = SolidBehind(bounds, volume, thickness, disc * thickness);
-  parts.skeleton = LedToSurface(skeleton, parts.surface, kReach + blur + thickness);
-  parts.parts = attached.pieces;
-  parts.seen_area = attached.area;
+  for (const SurfacePiece& piece : PiecesOf(surface, attached)) {
+    TriangleMarks marks(surface.size(), 0);
+    for (const int i : piece.triangles) marks[i] = 1;
+    TriangleMesh solid = SolidBehind({MarkedPart(surface.mesh, marks), flat_room,
+                                      ContactFaces(surface, marks, room.planes, 2 * blur)},
+                                     volume, thickness, disc * thickness);
+    if (!solid.triangles.empty()) parts.solids.push_back(std::move(solid));
+  }
+  parts.skeleton = LedToSolids(skeleton, parts.solids, kReach + blur + thickness);
+  parts.seen_area = AreaOf(surface, attached);
   parts.room_area = AreaOf(surface, room.marks);
   return parts;
 }

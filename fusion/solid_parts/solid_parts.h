@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "capture/sequence.h"
 #include "fusion/solid_parts/box_volume.h"
 #include "graph/skeleton_graph.h"
@@ -18,11 +20,10 @@ struct SolidPartsOptions {
 
 /// The solid parts of an object, and its curves as they are attached to them.
 struct SolidParts {
-  TriangleMesh surface;    ///< closed, oriented, 2-manifold; empty where there are none
-  SkeletonGraph skeleton;  ///< free ends before the surface are led on to it
-  int parts = 0;           ///< attached surfaces
-  double seen_area = 0;    ///< m^2, of these
-  double room_area = 0;    ///< m^2, of planes in the box that were left out
+  std::vector<TriangleMesh> solids;  ///< each closed, oriented, 2-manifold
+  SkeletonGraph skeleton;            ///< free ends before the solids are led on to them
+  double seen_area = 0;              ///< m^2, of the surfaces behind which the solids lie
+  double room_area = 0;              ///< m^2, of planes in the box that were left out
 };
 
 /// The surfaces that the curves are attached to. Left out: what a tube explains (2 cm around it),

@@ -67,13 +67,13 @@ TEST(SolidParts, APotIsFoundAndTheTableIsNot) {
   const DepthAlongRay pot = Box({-0.05, -0.05, -0.001}, {0.05, 0.05, 0.1});
   const BoxVolume volume = Scanned(Union(pot, Plane(Vec3::UnitZ(), 0)), wire);
   const SolidParts parts = FindSolidParts(volume, wire, kThickness);
-  EXPECT_EQ(parts.parts, 1);
-  EXPECT_TRUE(IsClosed(parts.surface));
+  ASSERT_EQ(parts.solids.size(), 1);
+  EXPECT_TRUE(IsClosed(parts.solids[0]));
   // Its inside, which no frame saw, is filled; edges are rounded by a voxel or two.
-  EXPECT_NEAR(VolumeOf(parts.surface), 1e-3, 0.1e-3);
+  EXPECT_NEAR(VolumeOf(parts.solids[0]), 1e-3, 0.1e-3);
   EXPECT_GT(parts.room_area, 0.1);
   // In its crease with the table a volume is rounded by two voxels, and smoothing adds to it.
-  for (const Vec3f& v : parts.surface.vertices) {
+  for (const Vec3f& v : parts.solids[0].vertices) {
     EXPECT_LT(v.head<2>().cwiseAbs().maxCoeff(), 0.05 + 3 * kVoxel);
   }
   // The wire, which ends 15 mm above, is led to it.
@@ -90,12 +90,13 @@ TEST(SolidParts, AHalfSeenPotIsClosedFlatBehindAndBelow) {
   const DepthAlongRay pot = Box({-0.05, -0.05, -0.001}, {0.05, 0.05, 0.1});
   const BoxVolume volume = Scanned(Union(pot, Plane(Vec3::UnitZ(), 0)), wire, 4);
   const SolidParts parts = FindSolidParts(volume, wire, kThickness);
-  EXPECT_TRUE(IsClosed(parts.surface));
+  ASSERT_EQ(parts.solids.size(), 1);
+  EXPECT_TRUE(IsClosed(parts.solids[0]));
   // A skin of 10 mm on top and two or three sides would have half of that.
-  EXPECT_GT(VolumeOf(parts.surface), 0.7e-3);
-  EXPECT_LT(VolumeOf(parts.surface), 1.1e-3);
+  EXPECT_GT(VolumeOf(parts.solids[0]), 0.7e-3);
+  EXPECT_LT(VolumeOf(parts.solids[0]), 1.1e-3);
   double lowest = 1;
-  for (const Vec3f& v : parts.surface.vertices) lowest = std::min<double>(lowest, v.z());
+  for (const Vec3f& v : parts.solids[0].vertices) lowest = std::min<double>(lowest, v.z());
   EXPECT_NEAR(lowest, 0, kVoxel);  // it stands on the table
 }
 
@@ -104,8 +105,7 @@ TEST(SolidParts, WhatIsNotAttachedIsLeftOut) {
   const DepthAlongRay pot = Box({-0.05, -0.05, -0.001}, {0.05, 0.05, 0.1});
   const BoxVolume volume = Scanned(Union(pot, Plane(Vec3::UnitZ(), 0)), wire);
   const SolidParts parts = FindSolidParts(volume, wire, kThickness);
-  EXPECT_EQ(parts.parts, 0);
-  EXPECT_TRUE(parts.surface.triangles.empty());
+  EXPECT_TRUE(parts.solids.empty());
   EXPECT_EQ(parts.skeleton.edge(parts.skeleton.Edges()[0]).points,
             wire.edge(wire.Edges()[0]).points);
 }
@@ -118,25 +118,25 @@ TEST(SolidParts, ASheetSeenFromAboveGetsTheThickness) {
     return depth > 0 && (origin + depth * direction).z() > -1e-6 ? depth : 0.0;
   };
   const SolidParts parts = FindSolidParts(Scanned(seen_above, wire), wire, kThickness);
-  EXPECT_EQ(parts.parts, 1);
-  EXPECT_TRUE(IsClosed(parts.surface));
+  ASSERT_EQ(parts.solids.size(), 1);
+  EXPECT_TRUE(IsClosed(parts.solids[0]));
   // The rim, of 5 mm, is rounded, and lies within a voxel.
-  EXPECT_NEAR(VolumeOf(parts.surface), 0.16 * 0.16 * kThickness, 0.15 * 0.16 * 0.16 * kThickness);
-  for (const Vec3f& v : parts.surface.vertices) EXPECT_NEAR(v.z(), -0.005, 0.007);
+  EXPECT_NEAR(VolumeOf(parts.solids[0]), 0.16 * 0.16 * kThickness, 0.15 * 0.16 * 0.16 * kThickness);
+  for (const Vec3f& v : parts.solids[0].vertices) EXPECT_NEAR(v.z(), -0.005, 0.007);
 }
 
 TEST(SolidParts, AFattenedWireOnATableIsNone) {
   const SkeletonGraph wire = UprightWire(0.01, 0.3);
   const DepthAlongRay post = Box({-0.006, -0.006, -0.001}, {0.006, 0.006, 0.3});
   const BoxVolume volume = Scanned(Union(post, Plane(Vec3::UnitZ(), 0)), wire);
-  EXPECT_EQ(FindSolidParts(volume, wire, kThickness).parts, 0);
+  EXPECT_EQ(FindSolidParts(volume, wire, kThickness).solids.size(), 0);
   EXPECT_FALSE(volume.ExtractMesh().triangles.empty());
 }
 
 TEST(SolidParts, AnEmptyVolumeHasNone) {
   const SkeletonGraph wire = UprightWire(0, 0.3);
   const BoxVolume volume({Vec3::Constant(-0.2), Vec3::Constant(0.2)}, kVoxel);
-  EXPECT_TRUE(FindSolidParts(volume, wire, kThickness).surface.triangles.empty());
+  EXPECT_TRUE(FindSolidParts(volume, wire, kThickness).solids.empty());
 }
 
 }  // namespace
