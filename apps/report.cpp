@@ -62,6 +62,7 @@ std::string Summary(const RunRecord& record, const std::filesystem::path& folder
   if (!skeleton.empty()) {
     add_file("picture", folder / "preview.png");
     add_file("mesh", folder / "mesh.ply");
+    if (record.hybrid) add_file("hybrid", folder / "hybrid.ply");
     add_file("skeleton", folder / "skeleton.json");
     if (!record.reconstruction.uncertain.graph.empty()) {
       add_file("uncertain", folder / "uncertain.json");

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "apps/commands/command.h"
+#include "apps/hybrid_result.h"
 #include "apps/preview.h"
 #include "apps/report.h"
 #include "apps/report_page.h"
@@ -92,17 +93,21 @@ void WriteReport(RunRecord& record, const ColorImage& preview, Clock::time_point
 }
 
 // Where the curves have no sound mesh the other files are complete without it; the error follows.
-void WriteResult(RunRecord& record, Clock::time_point start, const ResultFolder& output) {
+void WriteResult(RunRecord& record, const ResultRun& run, const ResultFolder& output,
+                 const Progress& progress) {
   std::optional<Error> failure;
   output.Replace([&](const fs::path& folder) {
     const ColorImage preview = WriteSkeletonAndPicture(record, folder);
     try {
       record.mesh = WriteTubes(record, folder);
+      if (run.hybrid) {
+        record.hybrid = WriteHybrid(record.reconstruction, record.config.tubes, folder, progress);
+      }
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::kBadInput) throw;
       failure = WithPathReplaced(error, folder, output.path());
     }
-    WriteReport(record, preview, start, output, folder);
+    WriteReport(record, preview, run.start, output, folder);
   });
   if (!failure) return;
   throw Error(failure->kind(), fmt::format("{}; {} is complete", failure->what(),
@@ -129,7 +134,7 @@ int ReconstructInto(const ResultFolder& output, Sequence sequence, const ResultR
   const fs::path page = final_path("report.html");
   const fs::path report = final_path("report.json");
   if (found) {
-    WriteResult(record, run.start, output);
+    WriteResult(record, run, output, InterruptibleProgress(printer));
   } else {
     output.AddNothingFound([&](const fs::path& folder) {
       WriteUncertain(reconstruction, folder);

@@ -17,6 +17,7 @@ struct ResultRun {
   StageOutputs stages;
   bool quiet = false;
   std::chrono::steady_clock::time_point start;  ///< of the command, for its report
+  bool hybrid = false;                          ///< write hybrid.ply and .stl as well
 };
 
 /// Finds what the sequence lacks (poses, the colour camera), reconstructs it and writes all files

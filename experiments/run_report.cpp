@@ -134,9 +134,8 @@ Json SkeletonJson(const Reconstruction& reconstruction) {
           {"per_junction", JunctionsJson(reconstruction)}};
 }
 
-Json MeshJson(const MeshRecord& mesh) {
-  const WatertightReport& figures = mesh.figures;
-  return {{"seconds", mesh.seconds},
+Json MeshJson(const WatertightReport& figures, double seconds) {
+  return {{"seconds", seconds},
           {"watertight", figures.IsWatertight()},
           {"vertices", figures.vertices},
           {"faces", figures.faces},
@@ -150,6 +149,14 @@ Json MeshJson(const MeshRecord& mesh) {
           {"misoriented_edges", figures.misoriented_edges},
           {"degenerate_faces", figures.degenerate_faces},
           {"self_intersections", figures.self_intersections}};
+}
+
+Json HybridJson(const HybridRecord& hybrid) {
+  Json json = MeshJson(hybrid.figures, hybrid.seconds);
+  json["solid_parts"] = hybrid.parts;
+  json["seen_area"] = hybrid.seen_area;
+  json["room_area_left_out"] = hybrid.room_area;
+  return json;
 }
 
 Json PixelsJson(double value) { return value > 0 ? Json(value) : Json(nullptr); }
@@ -209,13 +216,14 @@ std::vector<std::string> AllWarnings(const RunRecord& record) {
   append(record.reconstruction.warnings);
   append(Doubts(record.reconstruction.trust));
   if (record.mesh) append(record.mesh->warnings);
+  if (record.hybrid) append(record.hybrid->warnings);
   return warnings;
 }
 
 Json ReportData(const RunRecord& record) {
   const Reconstruction& reconstruction = record.reconstruction;
   const int frames = record.sequence.frame_count();
-  return {
+  Json data = {
       {"format", "curvefusion-report"},
       {"version", 1},
       {"profile", ProfileName(record.config.profile)},
@@ -231,8 +239,10 @@ Json ReportData(const RunRecord& record) {
       {"funnel", FunnelJson(reconstruction.funnel)},
       {"trust", reconstruction.trust.is_judged() ? TrustJson(reconstruction.trust) : Json(nullptr)},
       {"skeleton", SkeletonJson(reconstruction)},
-      {"mesh", record.mesh ? MeshJson(*record.mesh) : Json(nullptr)},
+      {"mesh", record.mesh ? MeshJson(record.mesh->figures, record.mesh->seconds) : Json(nullptr)},
       {"warnings", AllWarnings(record)}};
+  if (record.hybrid) data["hybrid"] = HybridJson(*record.hybrid);
+  return data;
 }
 
 std::string ReportJson(const RunRecord& record) {

@@ -21,6 +21,16 @@ struct MeshRecord {
   std::vector<std::string> warnings;
 };
 
+/// What became of the tubes together with the solid parts they are attached to.
+struct HybridRecord {
+  WatertightReport figures;
+  double seconds = 0;
+  int parts = 0;         ///< solids
+  double seen_area = 0;  ///< m^2, of these
+  double room_area = 0;  ///< m^2, of floors, walls and table tops near the curves, left out
+  std::vector<std::string> warnings;
+};
+
 /// What report.json tells of a run.
 struct RunRecord {
   const Sequence& sequence;
@@ -30,7 +40,8 @@ struct RunRecord {
   double seconds = 0;                 ///< the whole run
   int64_t peak_memory = 0;            ///< bytes
   bool colour_camera_fitted = false;  ///< that of the sequence; otherwise that of the intrinsics
-  std::optional<TrackingResult> tracking;  ///< where the poses come from it
+  std::optional<TrackingResult> tracking;   ///< where the poses come from it
+  std::optional<HybridRecord> hybrid = {};  ///< where it was asked for
 };
 
 /// What report.json holds: profile, sequence, frames, stages with seconds and counts, warnings,

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "kernel/disjoint_sets.h"
+#include "kernel/solid_angle.h"
 #include "meshing/face_division.h"
 #include "meshing/half_edges.h"
-#include "meshing/solid_angle.h"
 #include "meshing/solid_crossing.h"
 
 namespace curvefusion {

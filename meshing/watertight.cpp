@@ -12,9 +12,9 @@
 
 #include "kernel/disjoint_sets.h"
 #include "kernel/error.h"
+#include "kernel/solid_angle.h"
 #include "meshing/half_edges.h"
 #include "meshing/self_intersections.h"
-#include "meshing/solid_angle.h"
 
 namespace curvefusion {
 

@@ -26,6 +26,7 @@ struct ReconstructArguments {
   bool track = false;
   StageOutputs stages;
   std::string colour_camera = "auto";
+  bool hybrid = false;
   RunOptions run;
 };
 
@@ -61,8 +62,12 @@ int RunReconstruct(const ReconstructArguments& arguments) {
   const ResultFolder output(arguments.output, {arguments.stages.folder, arguments.stages.volume},
                             arguments.force);
   ProgressPrinter printer = MakeProgressPrinter(arguments.run.quiet);
-  const ResultRun run{config, arguments.colour_camera == "auto", arguments.stages,
-                      arguments.run.quiet, start};
+  const ResultRun run{config,
+                      arguments.colour_camera == "auto",
+                      arguments.stages,
+                      arguments.run.quiet,
+                      start,
+                      arguments.hybrid};
   return ReconstructInto(output, std::move(sequence), run, printer);
 }
 
@@ -91,6 +96,10 @@ void AddReconstructCommand(CLI::App& app, int& exit_code) {
                    "depth edges; given: always that of the intrinsics")
       ->check(CLI::IsMember({"auto", "given"}))
       ->capture_default_str();
+  command->add_flag("--hybrid", arguments->hybrid,
+                    "Write hybrid.ply (m) and hybrid.stl (mm, for printing) as well: one watertight "
+                    "mesh of the wires and of the solid parts that they are attached to (a seat, a "
+                    "pot, a mug), without floor, walls and table");
   AddRunOptions(*command, arguments->run);
   command->add_option("--save-stages", arguments->stages.folder,
                       "Folder for the points and curves of every step, as PLY");
@@ -100,6 +109,7 @@ void AddReconstructCommand(CLI::App& app, int& exit_code) {
       "Example:\n  curvefusion reconstruct scan -o result\n"
       "  curvefusion reconstruct scan -o result --profile paper --set volume.voxel_size=0.01\n"
       "  curvefusion reconstruct scan -o result --track\n"
+      "  curvefusion reconstruct scan -o result --hybrid\n"
       "  curvefusion reconstruct scan -o result --save-stages result/stages");
   command->callback([arguments, &exit_code] { exit_code = RunReconstruct(*arguments); });
 }

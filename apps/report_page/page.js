@@ -282,6 +282,8 @@ const ReportPage = (() => {
     "skeleton.json": "the curves with their junctions and diameters",
     "uncertain.json": "curves that may be thin but are no proven wires",
     "mesh.ply": "the tubes as one closed surface, for CAD, printing or rendering",
+    "hybrid.ply": "the tubes and the solid parts they are attached to, as one closed surface",
+    "hybrid.stl": "the same in millimetres, for printing",
     "preview.png": "a picture of the result",
     "trajectory.txt": "the camera's poses, as corrected",
     "report.json": "all figures of this page, for programs",

@@ -1,6 +1,7 @@
 #include "experiments/simulation/objects.h"
 
 #include "experiments/simulation/families/families.h"
+#include "experiments/simulation/solid_objects.h"
 #include "kernel/error.h"
 #include "kernel/options.h"
 
@@ -18,7 +19,7 @@ WireObject MakeObject(const std::string& name, const ObjectOptions& options) {
   if (options.shape_seed) {
     object = MakeFamilyObject(name, *options.shape_seed);
   } else if (object.curves.empty() && !MakePaperObject(name, object.curves) &&
-             !MakeEverydayObject(name, object.curves) &&
+             !MakeEverydayObject(name, object.curves) && !MakeSolidObject(name, object.curves) &&
              !MakeStudyObject(name, options, object.curves)) {
     throw Error(ErrorKind::kUsage, "no object is called '" + name + "'; did you mean '" +
                                        NearestName(name, ObjectNames()) + "'?");

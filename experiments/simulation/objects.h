@@ -48,9 +48,9 @@ std::vector<std::string> ObjectNames();
 /// `chair`, `wine`: sizes guessed from its figures, diameters from its Table 1), and objects of the
 /// studies: `triangles` (1, 2, 3 and 4 mm), `parallel_wires`, `breadholder`, `valence6` (the
 /// junction of the paper's limitations), `mesh_panel`, `cubeframe`, `empty` (no wire at all), and
-/// of other shapes: `stool`, `basket`, `shelf`, `ladder`, `dome`, `spring`, `knot`, `coat_stand`.
-/// Throws Error(kUsage) for another name, unless the options bring the curves, and for parallel
-/// wires thicker than their spacing.
+/// of other shapes: `stool`, `basket`, `shelf`, `ladder`, `dome`, `spring`, `knot`, `coat_stand`,
+/// and with solid parts (solid_objects.h). Throws Error(kUsage) for another name, unless the options
+/// bring the curves, and for parallel wires thicker than their spacing.
 WireObject MakeObject(const std::string& name, const ObjectOptions& options = {});
 
 /// The paper's eight; false where `name` is none of them.

@@ -6,6 +6,7 @@
 
 #include "experiments/simulation/furniture.h"
 #include "experiments/simulation/random.h"
+#include "experiments/simulation/solid_objects.h"
 
 namespace curvefusion {
 namespace {
@@ -15,7 +16,7 @@ constexpr double kLongestCapsule = 0.010;  // keeps the tiles a piece may touch 
 constexpr double kTaperStep = 5e-5;  // of a radius from piece to piece: below what any sensor sees
 constexpr double kFlat = 1.0 / 3;    // height over width below which an object is stood up
 
-Eigen::AlignedBox3d Bounds(const WireObject& object) {
+Eigen::AlignedBox3d Bounds(const WireObject& object, const std::vector<SceneBox>& solids) {
   Eigen::AlignedBox3d bounds;
   for (const WireCurve& curve : object.curves) {
     for (size_t i = 0; i < curve.points.size(); ++i) {
@@ -25,22 +26,27 @@ Eigen::AlignedBox3d Bounds(const WireObject& object) {
       bounds.extend(Vec3(p + Vec3::Constant(radius)));
     }
   }
+  for (const SceneBox& solid : solids) {
+    bounds.extend(Vec3(solid.center - solid.half_size));
+    bounds.extend(Vec3(solid.center + solid.half_size));
+  }
   if (bounds.isEmpty()) bounds.extend(Vec3::Constant(-0.15)).extend(Vec3::Constant(0.15));
   return bounds;
 }
 
-// Stood up if flat, and moved so that its bounding box is centred at the origin.
-WireObject Placed(WireObject object) {
-  const Vec3 size = Bounds(object).sizes();
-  if (size.z() < kFlat * std::min(size.x(), size.y())) {
+// Stood up if flat and all of wire, and moved so that its bounding box is centred at the origin.
+WireObject Placed(WireObject object, std::vector<SceneBox>& solids) {
+  const Vec3 size = Bounds(object, solids).sizes();
+  if (solids.empty() && size.z() < kFlat * std::min(size.x(), size.y())) {
     for (WireCurve& curve : object.curves) {
       for (Vec3& p : curve.points) p = Vec3(p.x(), -p.z(), p.y());
     }
   }
-  const Vec3 center = Bounds(object).center();
+  const Vec3 center = Bounds(object, solids).center();
   for (WireCurve& curve : object.curves) {
     for (Vec3& p : curve.points) p -= center;
   }
+  for (SceneBox& solid : solids) solid.center -= center;
   return object;
 }
 
@@ -147,6 +153,17 @@ std::vector<SceneBox> BoxesAround(const Eigen::AlignedBox3d& object,
   return boxes;
 }
 
+// The scene's last boxes, each of a material of its own.
+void AddSolids(const std::vector<SceneBox>& solids, Random& random, uint64_t seed, Scene& scene) {
+  for (SceneBox solid : solids) {
+    const size_t material = scene.materials.size();
+    const uint64_t texture_seed = Random(seed, RandomStream::kTexture, material).Next();
+    scene.materials.push_back(BackgroundMaterial(random, texture_seed));
+    solid.material = static_cast<int>(material);
+    scene.boxes.push_back(solid);
+  }
+}
+
 }  // namespace
 
 void VisitOptions(SceneOptions& options, OptionVisitor& visitor) {
@@ -176,10 +193,13 @@ void VisitOptions(SceneOptions& options, OptionVisitor& visitor) {
 Scene MakeScene(const WireObject& object, const SceneOptions& options, uint64_t seed) {
   Random random(seed, RandomStream::kScene);
   Scene scene;
-  scene.object = Placed(object);
-  scene.object_bounds = Bounds(scene.object);
+  std::vector<SceneBox> solids = SolidsOf(object);
+  scene.object = Placed(object, solids);
+  scene.object_bounds = Bounds(scene.object, solids);
   scene.capsules = Capsules(scene.object);
-  scene.planes = RoomAround(scene.object_bounds, options.table_gap, random);
+  std::optional<double> table_gap = options.table_gap;
+  if (!solids.empty() && !table_gap) table_gap = 0;
+  scene.planes = RoomAround(scene.object_bounds, table_gap, random);
   scene.boxes = BoxesAround(scene.object_bounds, scene.planes, random);
   scene.materials.push_back(WireMaterial(options));
   for (size_t i = 0; i < scene.planes.size() + scene.boxes.size(); ++i) {
@@ -187,6 +207,7 @@ Scene MakeScene(const WireObject& object, const SceneOptions& options, uint64_t 
     scene.materials.push_back(BackgroundMaterial(random, texture_seed));
   }
   Furnish(scene, options.furniture, seed);
+  AddSolids(solids, random, seed, scene);
   if (options.wire_like_background) PaintAs(scene.materials[kWall], scene.materials[0]);
   scene.lighting = MakeLighting(options.light, seed);
   return scene;

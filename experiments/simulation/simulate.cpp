@@ -17,12 +17,16 @@
 #include "experiments/simulation/random.h"
 #include "experiments/simulation/scan_files.h"
 #include "experiments/simulation/scan_settings.h"
+#include "experiments/simulation/solid_objects.h"
 #include "graph/io/graph_io.h"
 #include "kernel/atomic_file.h"
 #include "kernel/error.h"
 #include "kernel/free_space.h"
 #include "kernel/options.h"
 #include "kernel/parallel.h"
+#include "meshing/hybrid_mesh.h"
+#include "meshing/io/mesh_io.h"
+#include "meshing/tubes.h"
 
 namespace curvefusion {
 namespace {
@@ -233,11 +237,26 @@ Trajectory TrajectoryOf(const std::vector<RigidTransform>& poses,
   return trajectory;
 }
 
+// Of an object with solid parts, which are the scene's last boxes: wires and parts united.
+void WriteTrueSurface(const Scene& scene, const WireObject& object,
+                      const std::filesystem::path& path) {
+  std::vector<TriangleMesh> solids;
+  for (size_t i = scene.boxes.size() - SolidsOf(object).size(); i < scene.boxes.size(); ++i) {
+    solids.push_back(SurfaceOf(scene.boxes[i]));
+  }
+  if (solids.empty()) return;
+  const TubeMesh tubes = BuildTubes(TruthSkeleton(scene.object), {});
+  const double radius = object.curves.front().diameter / 2;
+  WriteMesh(path, UniteTubesAndSolids(ToTriangleMesh(tubes.surface), solids, radius).mesh, {});
+}
+
 void WriteTruth(const ScanPlan& plan, const SimulationOptions& options,
                 const std::filesystem::path& folder) {
   std::filesystem::create_directory(folder);
   WriteSkeleton(folder / "skeleton.json", TruthSkeleton(plan.scene.object));
   WriteCurves(folder / "curves.json", plan.scene.object);
+  WriteTrueSurface(plan.scene, MakeObject(options.object, options.object_options),
+                   folder / "surface.ply");
   WriteTumTrajectory(folder / "trajectory.txt", TrajectoryOf(plan.true_poses, options));
   const nlohmann::ordered_json scene = SceneJson(plan, options);
   WriteStreamAtomically(folder / "scene.json",

@@ -63,7 +63,8 @@ TEST(IncludeArrows, EveryIncludeRunsDownwards) {
 
 // Within floors, rooms have arrows too. What a room may include besides its own files; a floor's
 // files outside of its rooms are the room "". The two profiles of fusion know the kit only, and the
-// kit neither of them: pipeline alone chooses between them. Live is the best profile frame by frame.
+// kit neither of them: pipeline alone chooses between them. Live is the best profile frame by
+// frame.
 const std::map<std::string, std::map<std::string, std::set<std::string>>> kRoomsMayInclude = {
     {"graph", {{"", {}}, {"contraction", {""}}, {"io", {""}}}},
     {"meshing", {{"", {}}, {"io", {""}}}},
@@ -81,6 +82,7 @@ const std::map<std::string, std::map<std::string, std::set<std::string>>> kRooms
       {"best",
        {"", "adjustment", "appearance", "curve_graph", "registration", "segmentation",
         "silhouettes", "strips", "tracking", "volume"}},
+      {"solid_parts", {"volume"}},
       {"live", {"best", "registration", "segmentation", "volume"}},
       {"", {"best", "curve_graph", "paper", "silhouettes", "strips", "volume"}}}},
 };

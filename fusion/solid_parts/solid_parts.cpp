@@ -1,0 +1,71 @@
+#include "fusion/solid_parts/solid_parts.h"
+
+#include <numbers>
+#include <utility>
+
+#include "fusion/solid_parts/attached_ends.h"
+#include "fusion/solid_parts/attached_surface.h"
+#include "fusion/solid_parts/box_volume.h"
+#include "fusion/solid_parts/contact_faces.h"
+#include "fusion/solid_parts/room_planes.h"
+#include "fusion/solid_parts/solid_field.h"
+#include "fusion/solid_parts/surface_triangles.h"
+
+namespace curvefusion {
+
+namespace {
+
+// Half of what is thin to segmentation (segmentation.opening_radius; CurveFusion 3.1): a volume's
+// surface so near to a wire is the wire's, what is no wider is no surface.
+constexpr double kReach = 20 * kMillimetre;
+// A volume smears a surface by about as much; planes and tubes hold what is within.
+constexpr double kBlurVoxels = 2;
+
+Eigen::AlignedBox3d BoxAround(const SkeletonGraph& skeleton, double margin) {
+  Eigen::AlignedBox3d box;
+  for (const EdgeId id : skeleton.Edges()) {
+    for (const Vec3& p : skeleton.edge(id).points) box.extend(p);
+  }
+  return {box.min() - Vec3::Constant(margin), box.max() + Vec3::Constant(margin)};
+}
+
+double AreaOf(const SurfaceTriangles& surface, const TriangleMarks& marks) {
+  double area = 0;
+  for (size_t i = 0; i < surface.size(); ++i) area += marks[i] ? surface.areas[i] : 0;
+  return area;
+}
+
+}  // namespace
+
+SolidParts FindSolidParts(const BoxVolume& volume, const SkeletonGraph& skeleton,
+                          double thickness) {
+  SolidParts parts{.skeleton = skeleton};
+  const double blur = kBlurVoxels * volume.voxel_size();
+  const SurfaceTriangles surface = TrianglesWithin(volume.ExtractMesh(), volume.box());
+  const RoomPlanes room = FindRoomPlanes(surface, blur);
+  const TriangleMesh flat_room = FlatRoom(surface.mesh, room);
+  const TriangleMarks attached = FindAttachedSurface(surface, room.marks, skeleton, kReach, blur);
+  const double disc = std::numbers::pi * kReach * kReach;
+  for (const SurfacePiece& piece : PiecesOf(surface, attached)) {
+    TriangleMarks marks(surface.size(), 0);
+    for (const int i : piece.triangles) marks[i] = 1;
+    TriangleMesh solid = SolidBehind({MarkedPart(surface.mesh, marks), flat_room,
+                                      ContactFaces(surface, marks, room.planes, 2 * blur)},
+                                     volume, thickness, disc * thickness);
+    if (!solid.triangles.empty()) parts.solids.push_back(std::move(solid));
+  }
+  parts.skeleton = LedToSolids(skeleton, parts.solids, kReach + blur + thickness);
+  parts.seen_area = AreaOf(surface, attached);
+  parts.room_area = AreaOf(surface, room.marks);
+  return parts;
+}
+
+SolidParts FindSolidParts(const Sequence& sequence, const SkeletonGraph& skeleton,
+                          const SolidPartsOptions& options, const Progress& progress) {
+  if (skeleton.empty()) return {.skeleton = skeleton};
+  const Eigen::AlignedBox3d box = BoxAround(skeleton, options.margin);
+  return FindSolidParts(FuseBox(sequence, box, options.voxel_size, progress), skeleton,
+                        options.thickness);
+}
+
+}  // namespace curvefusion

@@ -1,0 +1,41 @@
+#include "meshing/hybrid_mesh.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "kernel/error.h"
+#include "meshing/junction_mesh.h"
+#include "meshing/union_resampling.h"
+
+namespace curvefusion {
+
+namespace {
+
+constexpr int kAttempts = 4;  // measured: scans have needed one or two
+// In radii: a tube has a dozen corners on such a grid (junction_resampling).
+constexpr double kResampling = 0.5;
+
+}  // namespace
+
+HybridMesh UniteTubesAndSolids(const TriangleMesh& tubes, const std::vector<TriangleMesh>& solids,
+                               double radius) {
+  Junction junction{{tubes}, {}, radius};
+  for (const TriangleMesh& solid : solids) {
+    if (!solid.triangles.empty()) junction.stubs.push_back(solid);
+  }
+  HybridMesh hybrid{.mesh = tubes};
+  if (junction.stubs.size() > 1) {
+    JunctionMesh united = MeshJunction(junction, {kAttempts, false}, 0);
+    hybrid.attempts = united.attempts;
+    hybrid.resampled = !united.surface;
+    hybrid.mesh = united.surface ? std::move(*united.surface)
+                                 : ResampleUnion(junction.stubs, kResampling * radius);
+  }
+  hybrid.report = ExamineMesh(hybrid.mesh);
+  if (hybrid.report.IsWatertight()) return hybrid;
+  throw Error(ErrorKind::kBadInput, fmt::format("the tubes and the solid parts do not unite: {}",
+                                                hybrid.report.Defects()));
+}
+
+}  // namespace curvefusion
