@@ -15,8 +15,8 @@ void AddRunOptions(CLI::App& command, RunOptions& options) {
 }
 
 void LimitThreads(const RunOptions& options) {
-  static const ThreadLimit* const limit = new ThreadLimit(options.threads);
-  static_cast<void>(limit);
+  static ThreadLimit* limit = nullptr;  // never destroyed: interrupted steps may outlive main
+  if (limit == nullptr) limit = new ThreadLimit(options.threads);
 }
 
 Progress InterruptibleProgress(ProgressPrinter& printer) {
