@@ -18,6 +18,8 @@
 #include "fusion/silhouettes/colour_pruning.h"
 #include "fusion/silhouettes/weak_wires.h"
 #include "graph/intersections.h"
+#include "graph/validate.h"
+#include "kernel/geometry.h"
 
 namespace curvefusion {
 
@@ -32,6 +34,8 @@ constexpr double kHardlyAWire = 0.4;  // times evidence.min_probability
 constexpr double kWrongScatter = 6;
 // Chosen on training scans of random families and of the paper's objects (docs/lab_notebook.md).
 constexpr int kColourRounds = 6;
+constexpr double kApart =
+    1 * kMillimetre;              // what `graph --validate` asks of curves that do not meet
 constexpr double kLittle = 0.01;  // of the length; less is not worth another round
 
 // Thin by proof: what is a wire with less than `min_probability` leaves the result, by so many
@@ -247,6 +251,10 @@ void RefineByColour(const Sequence& given, const SegmentationModel& model, RunSi
     adjusted.reset();  // its images are not needed any more
     CompleteByColour(given, std::move(strips), model.row_diameter, size, options, reporter, result);
     strips.reset();
+  }
+  if (!Violations(result.skeleton, kApart).empty()) {
+    ResolveIntersections(result.skeleton, kApart);
+    measure_radii();
   }
   LookForEvidence(options.evidence, reporter, result);
 }
