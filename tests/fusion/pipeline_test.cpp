@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "graph/io/graph_io.h"
+#include "graph/validate.h"
 #include "kernel/parallel.h"
 #include "kernel/spatial_search.h"
 #include "tests/test_data.h"
@@ -95,6 +96,7 @@ TEST(Pipeline, ReconstructsTheSimulatedCube) {
   EXPECT_EQ(result.skeleton.ComponentCount(), 1);
   EXPECT_NEAR(JunctionCount(result.skeleton), 13, 3);
   EXPECT_NEAR(2 * result.radii.global_radius, 0.0045, 0.0005);
+  EXPECT_EQ(Violations(result.skeleton, 0.001), std::vector<std::string>());
 }
 
 // A stage that is not in the plan, or later there than it runs, makes the time left too short.
