@@ -317,6 +317,14 @@ int SkeletonGraph::CycleRank() const {
   return edge_count_ - used_nodes + ComponentCount();
 }
 
+Eigen::AlignedBox3d BoundsOf(const SkeletonGraph& graph) {
+  Eigen::AlignedBox3d bounds;
+  for (const EdgeId id : graph.Edges()) {
+    for (const Vec3& p : graph.edge(id).points) bounds.extend(p);
+  }
+  return bounds;
+}
+
 SkeletonGraph Transformed(const SkeletonGraph& graph, const AffineTransform& T) {
   SkeletonGraph moved = graph;
   for (const NodeId node : graph.Nodes()) moved.MoveNode(node, T * graph.position(node));

@@ -171,6 +171,9 @@ class SkeletonGraph {
   size_t point_count_ = 0;
 };
 
+/// The box around the points of all curves; empty without any.
+Eigen::AlignedBox3d BoundsOf(const SkeletonGraph& graph);
+
 /// The graph after a motion or another affine map; radii stay.
 SkeletonGraph Transformed(const SkeletonGraph& graph, const AffineTransform& T);
 

@@ -49,14 +49,6 @@ Junction JunctionOf(const TubeLayout& layout, const std::vector<TubeStretch>& gr
   return junction;
 }
 
-void AppendMesh(const TriangleMesh& part, TriangleMesh& whole) {
-  const int offset = static_cast<int>(whole.vertices.size());
-  whole.vertices.insert(whole.vertices.end(), part.vertices.begin(), part.vertices.end());
-  for (const auto& [a, b, c] : part.triangles) {
-    whole.triangles.push_back({a + offset, b + offset, c + offset});
-  }
-}
-
 Vec3 MiddleOf(const Junction& junction) {
   Eigen::AlignedBox3f box;
   for (const TriangleMesh& stub : junction.stubs) {
@@ -96,7 +88,7 @@ void AppendJunction(const Junction& junction, const JunctionMesh& part, Assembly
     assembly.fallbacks.push_back({place, static_cast<int>(junction.stubs.size()), part.attempts,
                                   "moved vertices by a few thousandths of the radius"});
   }
-  AppendMesh(*part.surface, assembly.mesh);
+  Append(*part.surface, assembly.mesh);
 }
 
 Assembly Assemble(const TubeLayout& layout, const JunctionMeshOptions& options) {
@@ -112,8 +104,7 @@ Assembly Assemble(const TubeLayout& layout, const JunctionMeshOptions& options) 
   for (int64_t i = 0; i < count; ++i) {
     if (layout.groups[i].size() == 1) {
       const TubeStretch& stretch = layout.groups[i][0];
-      AppendMesh(SideOfStub(layout.rings[stretch.path], stretch.first, stretch.last),
-                 assembly.mesh);
+      Append(SideOfStub(layout.rings[stretch.path], stretch.first, stretch.last), assembly.mesh);
     } else {
       AppendJunction(junctions[i], parts[i], assembly);
     }

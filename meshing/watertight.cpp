@@ -90,10 +90,6 @@ int64_t ExamineEdges(const TriangleMesh& mesh, WatertightReport& report,
   return edges;
 }
 
-Vec3 Corner(const TriangleMesh& mesh, size_t face, int k) {
-  return mesh.vertices[mesh.triangles[face][k]].cast<double>();
-}
-
 double SmallestAngle(const Vec3& a, const Vec3& b, const Vec3& c) {
   const auto angle = [](const Vec3& u, const Vec3& v) {
     return std::atan2(u.cross(v).norm(), u.dot(v));
@@ -114,9 +110,7 @@ std::vector<Shell> ShellsOf(const TriangleMesh& mesh, const std::vector<int>& co
   report.min_angle = mesh.triangles.empty() ? 0 : std::numbers::pi;
   const Vec3 origin = mesh.vertices.empty() ? Vec3::Zero() : Vec3(mesh.vertices[0].cast<double>());
   for (size_t f = 0; f < mesh.triangles.size(); ++f) {
-    const Vec3 a = Corner(mesh, f, 0);
-    const Vec3 b = Corner(mesh, f, 1);
-    const Vec3 c = Corner(mesh, f, 2);
+    const auto [a, b, c] = CornersOf(mesh, f);
     Shell& shell = shells[component[f]];
     shell.volume += (a - origin).dot((b - origin).cross(c - origin)) / 6;
     shell.box.extend(a).extend(b).extend(c);
@@ -142,8 +136,8 @@ int MisplacedShells(const TriangleMesh& mesh, const std::vector<int>& component,
     const Vec3& p = shells[inner].point;
     for (size_t f = 0; f < mesh.triangles.size(); ++f) {
       if (!around[component[f]]) continue;
-      winding[inner] +=
-          SolidAngle(Corner(mesh, f, 0) - p, Corner(mesh, f, 1) - p, Corner(mesh, f, 2) - p);
+      const auto [a, b, c] = CornersOf(mesh, f);
+      winding[inner] += SolidAngle(a - p, b - p, c - p);
     }
   }
   int misplaced = 0;

@@ -27,7 +27,7 @@ struct GraphArguments {
   std::filesystem::path graph;
   bool info = false;
   bool validate = false;
-  double proximity_mm = 1;
+  double proximity_mm = kProximity / kMillimetre;
   double resolve_mm = 0;  // 0 = do not
   double smooth = 0;      // lambda; 0 = do not
   std::filesystem::path output;

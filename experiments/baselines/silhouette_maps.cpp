@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <numbers>
 
+#include "capture/frame_stream.h"
 #include "experiments/simulation/scene.h"
 #include "experiments/simulation/scene_view.h"
 #include "fusion/appearance/wire_posterior.h"
@@ -67,15 +68,6 @@ Image<float> ProbabilityOf(const PosteriorImage& posterior) {
 
 }  // namespace
 
-std::vector<int> EvenlySpacedFrames(int frame_count, int wanted) {
-  const int count = std::min(frame_count, wanted);
-  std::vector<int> frames;
-  for (int i = 0; i < count; ++i) {
-    frames.push_back(static_cast<int>((i + 0.5) * frame_count / count));
-  }
-  return frames;
-}
-
 std::vector<RigidTransform> PosesAround(const Vec3& center, double distance, int count) {
   std::vector<RigidTransform> poses;
   for (int i = 0; i < count; ++i) {
@@ -119,9 +111,9 @@ std::vector<SilhouetteMap> ColourSilhouettes(const Sequence& sequence,
       sequence, options.volume, 1, [&] { progress("volume", ++fused, sequence.frame_count()); });
   WireColourModel model;
   bool is_wire_seen = false;
-  for (const int i : EvenlySpacedFrames(static_cast<int>(frames.size()), kModelFrames)) {
-    const MaskImage thin = ThinPixels(sequence, frames[i], volume, options.surfaces);
-    AddPixels(BinColours(LoadColor(sequence, frames[i])), thin, model);
+  for (const int frame : EvenlyThinned(frames, kModelFrames)) {
+    const MaskImage thin = ThinPixels(sequence, frame, volume, options.surfaces);
+    AddPixels(BinColours(LoadColor(sequence, frame)), thin, model);
     is_wire_seen = is_wire_seen || AnySet(thin);
   }
   std::vector<SilhouetteMap> maps;

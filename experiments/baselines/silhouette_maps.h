@@ -19,9 +19,6 @@ struct SilhouetteMap {
   Image<float> probability;
 };
 
-/// So many frames of a sequence, evenly spaced; all of them where it has fewer.
-std::vector<int> EvenlySpacedFrames(int frame_count, int wanted);
-
 /// So many cameras at a distance all around a point, in directions of a Fibonacci lattice, looking
 /// at it.
 std::vector<RigidTransform> PosesAround(const Vec3& center, double distance, int count);

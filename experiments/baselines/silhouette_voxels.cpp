@@ -181,11 +181,6 @@ class SilhouetteFit {
   double error_ = 0;
 };
 
-constexpr VoxelKey BlockOf(const VoxelKey& voxel) {
-  static_assert(kBlockSide == 8);
-  return {voxel.x >> 3, voxel.y >> 3, voxel.z >> 3};
-}
-
 // The number of the block that holds a voxel; a new one is empty space.
 int BlockHolding(const VoxelKey& voxel, VoxelBlockGrid& grid) {
   const VoxelKey key = BlockOf(voxel);
@@ -215,8 +210,7 @@ TriangleMesh SurfaceOf(const VoxelSet& set) {
     for (int i = 0; i < 27; ++i) {  // cells at the border need the empty voxels around
       BlockHolding({voxel.x + i % 3 - 1, voxel.y + i / 3 % 3 - 1, voxel.z + i / 9 - 1}, grid);
     }
-    const int index = (voxel.x & 7) + 8 * (voxel.y & 7) + 64 * (voxel.z & 7);
-    grid.block(BlockHolding(voxel, grid)).tsdf[index] = -1;
+    grid.block(BlockHolding(voxel, grid)).tsdf[IndexInBlock(voxel)] = -1;
   }
   for (int block = 0; block < grid.size(); ++block) {
     grid.SetSigns(block, FindSigns(grid.block(block)));

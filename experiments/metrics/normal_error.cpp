@@ -26,10 +26,8 @@ std::optional<double> MeanNormalError(const TriangleMesh& mesh, const SkeletonGr
   if (axis.positions.empty()) return std::nullopt;
   const PointIndex index(axis.positions);
   double sum = 0, area = 0;
-  for (const std::array<int, 3>& triangle : mesh.triangles) {
-    const Vec3 a = mesh.vertices[triangle[0]].cast<double>();
-    const Vec3 b = mesh.vertices[triangle[1]].cast<double>();
-    const Vec3 c = mesh.vertices[triangle[2]].cast<double>();
+  for (size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const auto [a, b, c] = CornersOf(mesh, i);
     const Vec3 normal = (b - a).cross(c - a);  // twice the area long
     const Vec3 center = (a + b + c) / 3;
     const int nearest = index.Nearest(center);

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "capture/content/colour_findings.h"
+#include "capture/frame_stream.h"
 #include "capture/sequence.h"
 #include "experiments/baselines/lifted_edges.h"
 #include "experiments/baselines/merged_skeleton.h"
@@ -121,7 +122,7 @@ std::vector<StudyCase> Cases(const StudyRequest& request) {
 }
 
 Eigen::AlignedBox3d BoxAround(const SkeletonGraph& truth) {
-  Eigen::AlignedBox3d box = ViewBounds(truth, Mat3::Identity());
+  Eigen::AlignedBox3d box = BoundsOf(truth);
   return {box.min() - Vec3::Constant(kMargin), box.max() + Vec3::Constant(kMargin)};
 }
 
@@ -152,7 +153,7 @@ std::vector<SilhouetteMap> SilhouettesOf(const RunInput& input, Sequence sequenc
                            PosesAround(center, MeanDistance(sequence, center), kSilhouetteViews));
   }
   UseFittedColourCamera(sequence);  // as for CurveFusion
-  return ColourSilhouettes(sequence, EvenlySpacedFrames(sequence.frame_count(), kSilhouetteViews),
+  return ColourSilhouettes(sequence, EvenlyThinned(AllFrames(sequence), kSilhouetteViews),
                            std::get<PaperOptions>(input.study_case.config.pipeline),
                            input.progress);
 }

@@ -16,8 +16,6 @@ constexpr double kPointsPerFrame = 500;
 constexpr double kLength = 3;
 // The image size that costs were measured at.
 constexpr double kPixels = 640 * 480;
-// Of rounds of colour, at most (fusion/best/colour_stages.cpp).
-constexpr int kRounds = 6;
 // How many rounds follow. Free ends are where wires go on that depth has lost: of 17 training scans
 // 4 of the 6 with at most 6 of them after the registration of bundles had no further round, 9 of
 // the 11 with 8 to 20 had one to six. Chosen on these and 10 validation scans so that the length of
@@ -49,7 +47,6 @@ double SizeOf(const PinholeCamera& camera) {
 Amounts AmountsOf(const Sequence& sequence, const BestOptions& options, const RunSize& size) {
   // Of the colour adjustment: the rest is thinned.
   constexpr double kMaxAdjusted = 120;
-  constexpr double kMaxSearched = 90;  // of StripViews
   const double frames = sequence.frame_count();
   const double points = size.points > 0 ? size.points : kPointsPerFrame * frames;
   const int stride = IsVideo(sequence) ? options.colour_adjustment.frame_stride : 1;
@@ -64,7 +61,7 @@ Amounts AmountsOf(const Sequence& sequence, const BestOptions& options, const Ru
           .length = size.length > 0 ? size.length : kLength,
           .strips = std::min<double>(frames, options.radius.max_frames),
           .adjusted = adjusted,
-          .searched = std::min(adjusted, kMaxSearched),
+          .searched = std::min<double>(adjusted, StripViews::kMaxViews),
           .looked = std::min<double>(frames, options.evidence.max_frames)};
 }
 
@@ -136,7 +133,7 @@ std::vector<PlannedStage> BestStages(const Costs& costs, const RunSize& size) {
   Append({costs.Strips(), costs.Silhouettes(), costs.Radius(), costs.Evidence(), radii_again}, 1,
          plan);
   double probability = size.by_colour ? 0 : 1;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kColourRounds; ++round) {
     Append({costs.Wires(), costs.Radius()}, probability, plan);
     if (round >= size.rounds) probability *= AnotherRound(size);
     Append({costs.Adjustment(), costs.Strips(), costs.Silhouettes(), costs.Radius()}, probability,

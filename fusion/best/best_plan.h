@@ -10,6 +10,10 @@
 
 namespace curvefusion {
 
+/// Rounds in which colour adds wires, at most. Chosen on training scans of random families and of
+/// the paper's objects (docs/lab_notebook.md).
+inline constexpr int kColourRounds = 6;
+
 /// What a run has found so far; 0 = not yet known.
 struct RunSize {
   double points = 0;             ///< of all bundles

@@ -19,7 +19,6 @@
 #include "fusion/silhouettes/weak_wires.h"
 #include "graph/intersections.h"
 #include "graph/validate.h"
-#include "kernel/geometry.h"
 
 namespace curvefusion {
 
@@ -32,10 +31,6 @@ constexpr double kHardlyAWire = 0.4;  // times evidence.min_probability
 // Measured (docs/wires_from_colour.md): 1.7 to 4.7 where depth shows wires in their places, 5.7 and
 // more with time of flight.
 constexpr double kWrongScatter = 6;
-// Chosen on training scans of random families and of the paper's objects (docs/lab_notebook.md).
-constexpr int kColourRounds = 6;
-constexpr double kApart =
-    1 * kMillimetre;              // what `graph --validate` asks of curves that do not meet
 constexpr double kLittle = 0.01;  // of the length; less is not worth another round
 
 // Thin by proof: what is a wire with less than `min_probability` leaves the result, by so many
@@ -59,10 +54,7 @@ bool KeepProvenWires(const std::string& name, double min_probability, int depth_
 StripViews LookForStrips(const ColourAdjustment& adjusted, const StageReporter& reporter,
                          const Reconstruction& result) {
   const StageLog::Timer timer = reporter.Begin("strips");
-  Eigen::AlignedBox3d around;
-  for (const EdgeId id : result.skeleton.Edges())
-    for (const Vec3& p : result.skeleton.edge(id).points) around.extend(p);
-  return {result.sequence, adjusted.frames, adjusted.posteriors, around};
+  return {result.sequence, adjusted.frames, adjusted.posteriors, BoundsOf(result.skeleton)};
 }
 
 // Deviation: what images look past is dropped, and what they show besides is added.
@@ -252,8 +244,8 @@ void RefineByColour(const Sequence& given, const SegmentationModel& model, RunSi
     CompleteByColour(given, std::move(strips), model.row_diameter, size, options, reporter, result);
     strips.reset();
   }
-  if (!Violations(result.skeleton, kApart).empty()) {
-    ResolveIntersections(result.skeleton, kApart);
+  if (!Violations(result.skeleton, kProximity).empty()) {
+    ResolveIntersections(result.skeleton, kProximity);
     measure_radii();
   }
   LookForEvidence(options.evidence, reporter, result);

@@ -16,7 +16,6 @@ namespace {
 
 // Chosen while looking at training scans chair 3, furnished 1, rack 2, tree 2, umbrella 1 and
 // vine 1 (docs/lab_notebook.md).
-constexpr int kViews = 90;                  // images that are asked, at most
 constexpr int kPixelStride = 2;             // every so many-th pixel of strips' middles
 constexpr double kExplainedPx = 1.2;        // curves cover so much beside their outline
 constexpr double kReachPx[2] = {3.5, 1.4};  // from a strip's middle: first look, close look
@@ -167,7 +166,7 @@ StripViews::StripViews(const Sequence& sequence, const std::vector<int>& frames,
   const Vec3 margin = Vec3::Constant(kMargin + kMarginShare * bounds_.diagonal().norm());
   bounds_.min() -= margin;
   bounds_.max() += margin;
-  const std::vector<int> used = EvenlyThinned(frames, kViews);
+  const std::vector<int> used = EvenlyThinned(frames, kMaxViews);
   std::vector<Part> parts;
   ForEachFrame(sequence, used, {.depth = true, .color = true}, [&](const DecodedFrame& frame) {
     View& view = views_.emplace_back();

@@ -28,6 +28,8 @@ struct StripAgreement {
 /// the space in front of them. Where images are full of strips one more tells little.
 class StripViews {
  public:
+  static constexpr int kMaxViews = 90;  ///< images that are asked, at most
+
   struct View {
     RigidTransform T_depth_world;
     RigidTransform T_color_world;

@@ -7,7 +7,7 @@
 #include "fusion/best/contraction_space.h"
 #include "graph/contraction/ridge_projection.h"
 #include "graph/intersections.h"
-#include "kernel/geometry.h"
+#include "graph/validate.h"
 #include "kernel/polyline.h"
 #include "kernel/quantile.h"
 
@@ -20,8 +20,6 @@ namespace {
 constexpr double kEnoughFrames = 15;
 constexpr double kEnoughSpread = std::numbers::pi / 3;  // chosen: what is behind shows beside it
 constexpr double kSampleStep = 0.01;                    // that of the sightings
-constexpr double kApart =
-    1 * kMillimetre;  // what `graph --validate` asks of curves that do not meet
 
 // The places of a curve whose sightings are looked up; at least one.
 struct CurvePlaces {
@@ -72,7 +70,7 @@ LiveSnapshot MakeSnapshot(const LiveEvidence& evidence, const BestOptions& optio
   }
   LiveSnapshot snapshot;
   snapshot.graph = ContractIn(space, points, ridge, options.ridge);
-  ResolveIntersections(snapshot.graph, kApart);
+  ResolveIntersections(snapshot.graph, kProximity);
   const SkeletonGraph& graph = snapshot.graph;
   for (const EdgeId id : graph.Edges()) {
     const SkeletonEdge& edge = graph.edge(id);

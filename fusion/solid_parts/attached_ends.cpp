@@ -38,10 +38,8 @@ std::optional<Vec3> TargetOf(const Ray& ray, const TriangleMesh& surface, double
   double ahead = reach, nearest = reach;
   std::optional<Vec3> target, beside;
   bool is_inside = false;
-  for (const auto& triangle : surface.triangles) {
-    const Vec3 a = surface.vertices[triangle[0]].cast<double>();
-    const Vec3 b = surface.vertices[triangle[1]].cast<double>();
-    const Vec3 c = surface.vertices[triangle[2]].cast<double>();
+  for (size_t i = 0; i < surface.triangles.size(); ++i) {
+    const auto [a, b, c] = CornersOf(surface, i);
     const Vec3 way = (a + b + c) / 3 - ray.origin;
     if (way.norm() < nearest && way.dot(ray.direction) > kMinCosine * way.norm()) {
       nearest = way.norm();

@@ -140,16 +140,12 @@ TriangleMesh FlatRoom(const TriangleMesh& mesh, const RoomPlanes& room) {
     const RoomPlane& plane = room.planes[k];
     TriangleMarks marks;
     for (const char mark : room.marks) marks.push_back(mark == static_cast<char>(k + 1));
-    const TriangleMesh part = MarkedPart(mesh, marks);
-    const int first = static_cast<int>(flat.vertices.size());
-    for (const Vec3f& v : part.vertices) {
+    TriangleMesh part = MarkedPart(mesh, marks);
+    for (Vec3f& v : part.vertices) {
       const Vec3 p = v.cast<double>();
-      flat.vertices.push_back(
-          (p - (plane.normal.dot(p) - plane.offset) * plane.normal).cast<float>());
+      v = (p - (plane.normal.dot(p) - plane.offset) * plane.normal).cast<float>();
     }
-    for (const auto& [a, b, c] : part.triangles) {
-      flat.triangles.push_back({first + a, first + b, first + c});
-    }
+    Append(part, flat);
   }
   return flat;
 }

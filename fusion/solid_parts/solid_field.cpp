@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <utility>
 
 #include "fusion/solid_parts/surface_triangles.h"
 #include "fusion/solid_parts/winding_number.h"
@@ -54,11 +55,9 @@ Vec3 NearestOn(const Corners& t, const Vec3& p) {
 // Moved against its normals.
 TriangleMesh MovedInwards(const TriangleMesh& surface, double distance) {
   std::vector<Vec3> normals(surface.vertices.size(), Vec3::Zero());
-  for (const auto& triangle : surface.triangles) {
-    const Vec3 a = surface.vertices[triangle[0]].cast<double>();
-    const Vec3 b = surface.vertices[triangle[1]].cast<double>();
-    const Vec3 c = surface.vertices[triangle[2]].cast<double>();
-    for (const int v : triangle) normals[v] += (b - a).cross(c - a);
+  for (size_t i = 0; i < surface.triangles.size(); ++i) {
+    const auto [a, b, c] = CornersOf(surface, i);
+    for (const int v : surface.triangles[i]) normals[v] += (b - a).cross(c - a);
   }
   TriangleMesh moved = surface;
   for (size_t v = 0; v < normals.size(); ++v) {
@@ -103,7 +102,7 @@ class SolidField {
   }
 
   // What was not seen free and is enclosed; what was seen free is none.
-  void AddEnclosedAndCarve(const BoxVolume& volume, const WindingNumber& winding) {
+  void AddEnclosedAndCarve(const TsdfVolume& volume, const WindingNumber& winding) {
     ParallelFor(0, size_[2], 1, [&](int64_t k) {
       for (int j = 1; j + 1 < size_[1]; ++j)
         for (int i = 1; i + 1 < size_[0]; ++i) {
@@ -140,10 +139,11 @@ class SolidField {
 
   TriangleMesh Surface() const {
     VoxelBlockGrid grid;
-    const auto block_of = [](int voxel) { return voxel >> 3; };
-    for (int z = block_of(low_.z); z <= block_of(low_.z + size_[2]); ++z)
-      for (int y = block_of(low_.y); y <= block_of(low_.y + size_[1]); ++y)
-        for (int x = block_of(low_.x); x <= block_of(low_.x + size_[0]); ++x) {
+    const VoxelKey first = BlockOf(low_);
+    const VoxelKey last = BlockOf({low_.x + size_[0], low_.y + size_[1], low_.z + size_[2]});
+    for (int z = first.z; z <= last.z; ++z)
+      for (int y = first.y; y <= last.y; ++y)
+        for (int x = first.x; x <= last.x; ++x) {
           VoxelBlock& block = grid.block(grid.Insert({x, y, z}));
           for (int k = 0; k < kBlockVoxels; ++k) {
             block.tsdf[k] = Sample({8 * x + k % 8, 8 * y + k / 8 % 8, 8 * z + k / 64});
@@ -158,13 +158,10 @@ class SolidField {
   template <class Visit>
   void ForEachNear(const TriangleMesh& mesh, double reach, const Visit& visit) {
     const Vec3 margin = Vec3::Constant(reach);
-    for (const auto& triangle : mesh.triangles) {
-      Corners corners;
+    for (size_t i = 0; i < mesh.triangles.size(); ++i) {
+      const Corners corners = CornersOf(mesh, i);
       Eigen::AlignedBox3d box;
-      for (int k = 0; k < 3; ++k) {
-        corners[k] = mesh.vertices[triangle[k]].cast<double>();
-        box.extend(corners[k]);
-      }
+      for (const Vec3& corner : corners) box.extend(corner);
       const VoxelKey first = VoxelOf(box.min() - margin, voxel_size_);
       const VoxelKey last = VoxelOf(box.max() + margin, voxel_size_);
       for (int z = std::max(first.z, low_.z); z <= std::min(last.z, low_.z + size_[2] - 1); ++z)
@@ -250,9 +247,9 @@ TriangleMesh WithoutSmall(const TriangleMesh& mesh, double min_volume) {
     sets.Unite(b, c);
   }
   std::map<int, double> volume;
-  for (const auto& [a, b, c] : mesh.triangles) {
-    const Vec3 p = mesh.vertices[a].cast<double>(), q = mesh.vertices[b].cast<double>();
-    volume[sets.Root(a)] += p.dot(q.cross(mesh.vertices[c].cast<double>())) / 6;
+  for (size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const auto [a, b, c] = CornersOf(mesh, i);
+    volume[sets.Root(mesh.triangles[i][0])] += a.dot(b.cross(c)) / 6;
   }
   TriangleMarks kept;
   for (const auto& triangle : mesh.triangles) {
@@ -263,19 +260,15 @@ TriangleMesh WithoutSmall(const TriangleMesh& mesh, double min_volume) {
 
 // The surface, and the contact as seen from outside.
 TriangleMesh WithContact(const SolidBounds& bounds) {
-  TriangleMesh closed = bounds.surface;
-  const int first = static_cast<int>(closed.vertices.size());
-  closed.vertices.insert(closed.vertices.end(), bounds.contact.vertices.begin(),
-                         bounds.contact.vertices.end());
-  for (const auto& [a, b, c] : bounds.contact.triangles) {
-    closed.triangles.push_back({first + a, first + c, first + b});
-  }
+  TriangleMesh closed = bounds.surface, turned = bounds.contact;
+  for (auto& triangle : turned.triangles) std::swap(triangle[1], triangle[2]);
+  Append(turned, closed);
   return closed;
 }
 
 }  // namespace
 
-TriangleMesh SolidBehind(const SolidBounds& bounds, const BoxVolume& volume, double thickness,
+TriangleMesh SolidBehind(const SolidBounds& bounds, const TsdfVolume& volume, double thickness,
                          double min_volume) {
   if (bounds.surface.triangles.empty()) return {};
   const double voxel_size = volume.voxel_size();

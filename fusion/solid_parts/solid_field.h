@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fusion/solid_parts/box_volume.h"
+#include "fusion/volume/tsdf_volume.h"
 #include "kernel/triangle_mesh.h"
 
 namespace curvefusion {
@@ -18,7 +18,7 @@ struct SolidBounds {
 /// behind room or contact. Gaps that no frame saw and that are narrower than four voxels are
 /// closed, hollows and pieces of less than `min_volume` (m^3) filled and dropped. Closed, oriented,
 /// 2-manifold. Cost: linear in the voxels of the surface's box.
-TriangleMesh SolidBehind(const SolidBounds& bounds, const BoxVolume& volume, double thickness,
+TriangleMesh SolidBehind(const SolidBounds& bounds, const TsdfVolume& volume, double thickness,
                          double min_volume);
 
 }  // namespace curvefusion

@@ -5,11 +5,11 @@
 
 #include "fusion/solid_parts/attached_ends.h"
 #include "fusion/solid_parts/attached_surface.h"
-#include "fusion/solid_parts/box_volume.h"
 #include "fusion/solid_parts/contact_faces.h"
 #include "fusion/solid_parts/room_planes.h"
 #include "fusion/solid_parts/solid_field.h"
 #include "fusion/solid_parts/surface_triangles.h"
+#include "fusion/volume/volume_fusion.h"
 
 namespace curvefusion {
 
@@ -20,14 +20,7 @@ namespace {
 constexpr double kReach = 20 * kMillimetre;
 // A volume smears a surface by about as much; planes and tubes hold what is within.
 constexpr double kBlurVoxels = 2;
-
-Eigen::AlignedBox3d BoxAround(const SkeletonGraph& skeleton, double margin) {
-  Eigen::AlignedBox3d box;
-  for (const EdgeId id : skeleton.Edges()) {
-    for (const Vec3& p : skeleton.edge(id).points) box.extend(p);
-  }
-  return {box.min() - Vec3::Constant(margin), box.max() + Vec3::Constant(margin)};
-}
+constexpr int kStride = 2;  // every second frame, as of the best profile's volume
 
 double AreaOf(const SurfaceTriangles& surface, const TriangleMarks& marks) {
   double area = 0;
@@ -37,11 +30,11 @@ double AreaOf(const SurfaceTriangles& surface, const TriangleMarks& marks) {
 
 }  // namespace
 
-SolidParts FindSolidParts(const BoxVolume& volume, const SkeletonGraph& skeleton,
-                          double thickness) {
+SolidParts FindSolidParts(const TsdfVolume& volume, const Eigen::AlignedBox3d& box,
+                          const SkeletonGraph& skeleton, double thickness) {
   SolidParts parts{.skeleton = skeleton};
   const double blur = kBlurVoxels * volume.voxel_size();
-  const SurfaceTriangles surface = TrianglesWithin(volume.ExtractMesh(), volume.box());
+  const SurfaceTriangles surface = TrianglesWithin(volume.ExtractMesh(), box);
   const RoomPlanes room = FindRoomPlanes(surface, blur);
   const TriangleMesh flat_room = FlatRoom(surface.mesh, room);
   const TriangleMarks attached = FindAttachedSurface(surface, room.marks, skeleton, kReach, blur);
@@ -63,9 +56,15 @@ SolidParts FindSolidParts(const BoxVolume& volume, const SkeletonGraph& skeleton
 SolidParts FindSolidParts(const Sequence& sequence, const SkeletonGraph& skeleton,
                           const SolidPartsOptions& options, const Progress& progress) {
   if (skeleton.empty()) return {.skeleton = skeleton};
-  const Eigen::AlignedBox3d box = BoxAround(skeleton, options.margin);
-  return FindSolidParts(FuseBox(sequence, box, options.voxel_size, progress), skeleton,
-                        options.thickness);
+  Eigen::AlignedBox3d box = BoundsOf(skeleton);
+  box.min().array() -= options.margin;
+  box.max().array() += options.margin;
+  const int64_t count = (sequence.frame_count() + kStride - 1) / kStride;
+  int64_t done = 0;
+  const TsdfVolume volume = FuseVolume(
+      sequence, {.voxel_size = options.voxel_size}, kStride,
+      [&] { progress("solid parts", ++done, count); }, box);
+  return FindSolidParts(volume, box, skeleton, options.thickness);
 }
 
 }  // namespace curvefusion

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "capture/sequence.h"
-#include "fusion/solid_parts/box_volume.h"
+#include "fusion/volume/tsdf_volume.h"
 #include "graph/skeleton_graph.h"
 #include "kernel/progress.h"
 #include "kernel/triangle_mesh.h"
@@ -27,10 +27,11 @@ struct SolidParts {
 };
 
 /// The surfaces that the curves are attached to. Left out: what a tube explains (2 cm around it),
-/// planes that go on beyond the volume's box (floor, wall, table top), what is not attached, what
-/// is smaller than a disc of 4 cm. What was seen from one side gets a thickness; what is hidden
-/// within a part is filled.
-SolidParts FindSolidParts(const BoxVolume& volume, const SkeletonGraph& skeleton, double thickness);
+/// planes that go on beyond the box of the volume (floor, wall, table top), what is not attached,
+/// what is smaller than a disc of 4 cm. What was seen from one side gets a thickness; what is
+/// hidden within a part is filled.
+SolidParts FindSolidParts(const TsdfVolume& volume, const Eigen::AlignedBox3d& box,
+                          const SkeletonGraph& skeleton, double thickness);
 
 /// The same in a volume around the curves, of the frames at the poses of `sequence`, which should
 /// be the corrected ones. Throws Error(kBadInput) for an image that cannot be read.

@@ -1,5 +1,7 @@
 #include "fusion/solid_parts/surface_triangles.h"
 
+#include <algorithm>
+#include <array>
 #include <map>
 
 #include "kernel/disjoint_sets.h"
@@ -10,12 +12,9 @@ SurfaceTriangles TrianglesWithin(const TriangleMesh& mesh, const Eigen::AlignedB
   SurfaceTriangles surface;
   TriangleMarks within(mesh.triangles.size(), 0);
   for (size_t i = 0; i < mesh.triangles.size(); ++i) {
-    std::array<Vec3, 3> corner;
-    int inside = 0;
-    for (int k = 0; k < 3; ++k) {
-      corner[k] = mesh.vertices[mesh.triangles[i][k]].cast<double>();
-      inside += box.contains(corner[k]) ? 1 : 0;
-    }
+    const std::array<Vec3, 3> corner = CornersOf(mesh, i);
+    const auto inside =
+        std::count_if(corner.begin(), corner.end(), [&](const Vec3& p) { return box.contains(p); });
     const Vec3 cross = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
     const double area = cross.norm() / 2;
     if (inside == 0 || area <= 0) continue;

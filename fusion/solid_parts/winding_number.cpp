@@ -17,20 +17,14 @@ constexpr double kFar = 2.5;
 
 }  // namespace
 
-std::array<Vec3, 3> WindingNumber::CornersOf(int triangle) const {
-  const auto& [a, b, c] = mesh_.triangles[triangle];
-  return {mesh_.vertices[a].cast<double>(), mesh_.vertices[b].cast<double>(),
-          mesh_.vertices[c].cast<double>()};
-}
-
 WindingNumber::WindingNumber(const TriangleMesh& mesh, double cell_size) : mesh_(mesh) {
   std::map<VoxelKey, Group> by_cell;
   for (size_t i = 0; i < mesh_.triangles.size(); ++i) {
-    const auto [a, b, c] = CornersOf(static_cast<int>(i));
+    const auto [a, b, c] = CornersOf(mesh_, i);
     const Vec3 center = (a + b + c) / 3;
     const Vec3 area = (b - a).cross(c - a) / 2;
     Group& group = by_cell[VoxelOf(center, cell_size)];
-    group.triangles.push_back(static_cast<int>(i));
+    group.triangles.push_back(i);
     group.center += area.norm() * center;
     group.dipole += area;
     group.area += area.norm();
@@ -38,8 +32,8 @@ WindingNumber::WindingNumber(const TriangleMesh& mesh, double cell_size) : mesh_
   for (auto& [cell, group] : by_cell) {
     if (group.area <= 0) continue;
     group.center /= group.area;
-    for (const int i : group.triangles) {
-      for (const Vec3& p : CornersOf(i)) {
+    for (const size_t i : group.triangles) {
+      for (const Vec3& p : CornersOf(mesh_, i)) {
         group.radius = std::max(group.radius, (p - group.center).norm());
       }
     }
@@ -56,8 +50,8 @@ double WindingNumber::At(const Vec3& p) const {
       angle += group.dipole.dot(way) / (distance * distance * distance);
       continue;
     }
-    for (const int i : group.triangles) {
-      const auto [a, b, c] = CornersOf(i);
+    for (const size_t i : group.triangles) {
+      const auto [a, b, c] = CornersOf(mesh_, i);
       angle += SolidAngle(a - p, b - p, c - p);
     }
   }

@@ -25,9 +25,8 @@ class WindingNumber {
     Vec3 dipole = Vec3::Zero();  // sum of area times normal
     double radius = 0;
     double area = 0;
-    std::vector<int> triangles;
+    std::vector<size_t> triangles;
   };
-  std::array<Vec3, 3> CornersOf(int triangle) const;
 
   TriangleMesh mesh_;
   std::vector<Group> groups_;

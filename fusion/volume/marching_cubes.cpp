@@ -149,8 +149,7 @@ class MarchingCubesMesher {
     x += edge & 1, y += edge >> 1 & 1, z += edge >> 2 & 1;
     const int neighbour =
         grid_.UpperNeighbours(block)[x / kBlockSide + 2 * (y / kBlockSide) + 4 * (z / kBlockSide)];
-    const int voxel = x % kBlockSide + 8 * (y % kBlockSide) + 64 * (z % kBlockSide);
-    return cut_edges_[neighbour].VertexOf(3 * voxel + axis);
+    return cut_edges_[neighbour].VertexOf(3 * IndexInBlock({x, y, z}) + axis);
   }
 
   // An edge is cut without being part of the surface where none of its cells is observed.

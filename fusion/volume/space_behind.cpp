@@ -17,22 +17,17 @@ class FieldLookup {
   explicit FieldLookup(const VoxelBlockGrid& grid) : grid_(grid) {}
 
   float At(const VoxelKey& voxel) {
-    const VoxelKey key = {voxel.x >> kLogSide, voxel.y >> kLogSide, voxel.z >> kLogSide};
+    const VoxelKey key = BlockOf(voxel);
     if (!(key == key_) || !is_set_) {
       key_ = key;
       block_ = grid_.Find(key);
       is_set_ = true;
     }
     if (block_ == VoxelBlockGrid::kNone) return std::numeric_limits<float>::quiet_NaN();
-    const int x = voxel.x & kMask, y = voxel.y & kMask, z = voxel.z & kMask;
-    return grid_.block(block_).tsdf[x + kBlockSide * (y + kBlockSide * z)];
+    return grid_.block(block_).tsdf[IndexInBlock(voxel)];
   }
 
  private:
-  static constexpr int kLogSide = 3;
-  static constexpr int kMask = kBlockSide - 1;
-  static_assert(1 << kLogSide == kBlockSide);
-
   const VoxelBlockGrid& grid_;
   VoxelKey key_;
   int block_ = VoxelBlockGrid::kNone;

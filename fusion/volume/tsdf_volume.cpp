@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -73,9 +74,11 @@ void CheckPose(const RigidTransform& T_world_camera) {
 struct TsdfVolume::Impl {
   TsdfOptions options;
   TsdfScale scale;
+  std::optional<Eigen::AlignedBox3d> box;
   VoxelBlockGrid grid;
 
   void CheckReach(const PinholeCamera& camera, const RigidTransform& T_world_camera) const;
+  std::vector<VoxelKey> WithinBox(std::vector<VoxelKey> keys) const;
   void Allocate(const std::vector<VoxelKey>& keys);
   const std::vector<SurfaceBlock>& SurfaceBlocks() const;
   void ForgetSurface() { surface_.reset(); }
@@ -102,6 +105,16 @@ void TsdfVolume::Impl::CheckReach(const PinholeCamera& camera,
                           T_world_camera.translation().z(), limit));
 }
 
+std::vector<VoxelKey> TsdfVolume::Impl::WithinBox(std::vector<VoxelKey> keys) const {
+  if (!box) return keys;
+  const double side = kBlockSide * scale.voxel_size;
+  std::erase_if(keys, [&](const VoxelKey& key) {
+    const Vec3 low = side * Vec3(key.x, key.y, key.z);
+    return !box->intersects(Eigen::AlignedBox3d(low, low + Vec3::Constant(side)));
+  });
+  return keys;
+}
+
 void TsdfVolume::Impl::Allocate(const std::vector<VoxelKey>& keys) {
   const double bytes = static_cast<double>(grid.size() + keys.size()) *
                        static_cast<double>(VoxelBlockGrid::BytesPerBlock());
@@ -122,9 +135,11 @@ const std::vector<SurfaceBlock>& TsdfVolume::Impl::SurfaceBlocks() const {
   return *surface_;
 }
 
-TsdfVolume::TsdfVolume(const TsdfOptions& options) : impl_(std::make_unique<Impl>()) {
+TsdfVolume::TsdfVolume(const TsdfOptions& options, const std::optional<Eigen::AlignedBox3d>& box)
+    : impl_(std::make_unique<Impl>()) {
   impl_->options = Checked(options);
   impl_->scale = {options.voxel_size, options.truncation_voxels * options.voxel_size};
+  impl_->box = box;
 }
 
 TsdfVolume::~TsdfVolume() = default;
@@ -142,7 +157,7 @@ void TsdfVolume::Integrate(const DepthImage& depth, const PinholeCamera& camera,
   }
   impl_->CheckReach(camera, T_world_camera);
   const IntegrationFrame frame(depth, camera, T_world_camera, impl_->options.max_depth);
-  impl_->Allocate(FindMissingBlocks(frame, impl_->scale, impl_->grid));
+  impl_->Allocate(impl_->WithinBox(FindMissingBlocks(frame, impl_->scale, impl_->grid)));
   UpdateBlocks(frame, impl_->scale, impl_->options.max_weight, impl_->grid);
   impl_->ForgetSurface();
 }
@@ -169,6 +184,15 @@ DepthImage TsdfVolume::SolidityBehind(const DepthImage& rendering, const Pinhole
 
 TriangleMesh TsdfVolume::ExtractMesh() const {
   return MarchingCubes(impl_->grid, impl_->scale.voxel_size);
+}
+
+double TsdfVolume::voxel_size() const { return impl_->scale.voxel_size; }
+
+double TsdfVolume::DistanceAt(const VoxelKey& voxel) const {
+  const int block = impl_->grid.Find(BlockOf(voxel));
+  if (block == VoxelBlockGrid::kNone) return std::numeric_limits<double>::quiet_NaN();
+  return impl_->scale.truncation *
+         static_cast<double>(impl_->grid.block(block).tsdf[IndexInBlock(voxel)]);
 }
 
 size_t TsdfVolume::block_count() const { return static_cast<size_t>(impl_->grid.size()); }

@@ -2,12 +2,14 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 
 #include "kernel/camera.h"
 #include "kernel/geometry.h"
 #include "kernel/image.h"
 #include "kernel/options.h"
 #include "kernel/triangle_mesh.h"
+#include "kernel/voxel_grid.h"
 
 namespace curvefusion {
 
@@ -34,8 +36,10 @@ void VisitOptions(TsdfOptions& options, OptionVisitor& visitor);
 /// parallel and give the same bits for any number of threads.
 class TsdfVolume {
  public:
-  /// Throws Error(kUsage) for options out of their ranges.
-  explicit TsdfVolume(const TsdfOptions& options);
+  /// With a box (metres), blocks that it does not meet are not stored. Throws Error(kUsage) for
+  /// options out of their ranges.
+  explicit TsdfVolume(const TsdfOptions& options,
+                      const std::optional<Eigen::AlignedBox3d>& box = {});
   ~TsdfVolume();
   TsdfVolume(TsdfVolume&&) noexcept;
   TsdfVolume& operator=(TsdfVolume&&) noexcept;
@@ -61,6 +65,11 @@ class TsdfVolume {
   /// Marching-cubes mesh of the zero crossing where it was observed; open where unobserved,
   /// otherwise manifold, oriented towards the observed free space.
   TriangleMesh ExtractMesh() const;
+
+  double voxel_size() const;
+  /// The mean signed distance at the sample voxel * voxel_size(), metres, positive in front of
+  /// surfaces; NaN where never observed.
+  double DistanceAt(const VoxelKey& voxel) const;
 
   size_t block_count() const;
   size_t memory_bytes() const;

@@ -7,8 +7,9 @@
 namespace curvefusion {
 
 TsdfVolume FuseVolume(const Sequence& sequence, const TsdfOptions& options, int stride,
-                      const std::function<void()>& on_frame) {
-  TsdfVolume volume(options);
+                      const std::function<void()>& on_frame,
+                      const std::optional<Eigen::AlignedBox3d>& box) {
+  TsdfVolume volume(options, box);
   std::vector<int> frames;
   for (int i = 0; i < sequence.frame_count(); i += stride) frames.push_back(i);
   ForEachFrame(sequence, frames, {.depth = true, .color = false}, [&](const DecodedFrame& frame) {

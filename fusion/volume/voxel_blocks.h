@@ -13,6 +13,18 @@ namespace curvefusion {
 inline constexpr int kBlockSide = 8;
 inline constexpr int kBlockVoxels = kBlockSide * kBlockSide * kBlockSide;
 
+/// The key of the block that holds a voxel.
+constexpr VoxelKey BlockOf(const VoxelKey& voxel) {
+  static_assert(kBlockSide == 1 << 3);
+  return {voxel.x >> 3, voxel.y >> 3, voxel.z >> 3};
+}
+
+/// The index of a voxel in its block.
+constexpr int IndexInBlock(const VoxelKey& voxel) {
+  constexpr int kMask = kBlockSide - 1;
+  return (voxel.x & kMask) + kBlockSide * ((voxel.y & kMask) + kBlockSide * (voxel.z & kMask));
+}
+
 /// The signed distances of 8^3 voxels; voxel (x, y, z) of the block lies at index x + 8 y + 64 z.
 struct VoxelBlock {
   /// Mean distance in truncations, [-1, 1], positive in front of surfaces; NaN where never

@@ -52,6 +52,7 @@ TEST(EvenlyThinned, SpreadsFramesOverAll) {
   EXPECT_THAT(EvenlyThinned({1, 5, 7}, 3), ElementsAre(1, 5, 7));
   // The middles of three thirds.
   EXPECT_THAT(EvenlyThinned({0, 1, 2, 3, 4, 5, 6, 7, 8}, 3), ElementsAre(1, 4, 7));
+  EXPECT_THAT(EvenlyThinned({0, 1}, 40), ElementsAre(0, 1));
   EXPECT_THAT(EvenlyThinned({}, 3), ElementsAre());
 }
 

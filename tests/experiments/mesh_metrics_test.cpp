@@ -74,12 +74,7 @@ TEST(CompareSurface, NothingThere) {
 TEST(PartAroundTruth, LeavesTheRoomOut) {
   TriangleMesh mesh = Cylinder(kRadius, 0, kLength);
   const size_t near = mesh.triangles.size();
-  const TriangleMesh far = Cylinder(kRadius, 0, kLength, 0.06);
-  for (std::array<int, 3> triangle : far.triangles) {
-    for (int& index : triangle) index += static_cast<int>(mesh.vertices.size());
-    mesh.triangles.push_back(triangle);
-  }
-  mesh.vertices.insert(mesh.vertices.end(), far.vertices.begin(), far.vertices.end());
+  Append(Cylinder(kRadius, 0, kLength, 0.06), mesh);
   const MeshPart part = PartAroundTruth(mesh, Wire());
   EXPECT_EQ(part.mesh.triangles.size(), near);
   // A 64-gon's circumference is .04 % less than the circle's.

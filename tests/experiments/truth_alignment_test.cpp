@@ -49,7 +49,7 @@ double Explained(const SkeletonGraph& result, const SkeletonGraph& truth) {
                                              RigidTransform::Identity(), kCurveReach);
 }
 
-Eigen::AlignedBox3d BoundsOf(const SkeletonGraph& graph) {
+Eigen::AlignedBox3d BoundsOfSamples(const SkeletonGraph& graph) {
   Eigen::AlignedBox3d bounds;
   for (const Vec3& p : SampleSkeleton(graph).positions) bounds.extend(p);
   return bounds;
@@ -142,7 +142,7 @@ TEST(AlignToTruth, UndoesDriftToAFractionOfAMillimetre) {
 TEST(AlignToTruth, FalseCurvesOfNineTenthsDoNotMoveIt) {
   const SkeletonGraph truth = Object("cat");
   const double false_length = 9 * truth.TotalLength();
-  const Eigen::AlignedBox3d bounds = BoundsOf(truth);
+  const Eigen::AlignedBox3d bounds = BoundsOfSamples(truth);
   for (const uint64_t seed : {1, 2, 3}) {
     const RigidTransform drift = Motion({0.005, 0.006, -0.004}, 1 * kDegree);
     SkeletonGraph result = truth;
@@ -155,7 +155,7 @@ TEST(AlignToTruth, FalseCurvesOfNineTenthsDoNotMoveIt) {
 
 TEST(AlignToTruth, AParallelPlaneOfFalseCurvesDoesNotMoveIt) {
   const SkeletonGraph truth = Object("cat");
-  const Eigen::AlignedBox3d bounds = BoundsOf(truth);
+  const Eigen::AlignedBox3d bounds = BoundsOfSamples(truth);
   for (const double below : {0.005, 0.015, 0.05}) {
     const Vec3 margin(0.05, 0.05, below);
     SkeletonGraph result = truth;
@@ -182,7 +182,7 @@ TEST(AlignToTruth, MissingHalvesDoNotMoveIt) {
 TEST(AlignToTruth, HalfMissingAndTheRestNineTenthsFalse) {
   const SkeletonGraph truth = Object("cat");
   SkeletonGraph result = HalfOf(truth);
-  AddRandomCurves(result, BoundsOf(truth), 9 * result.TotalLength(), 5);
+  AddRandomCurves(result, BoundsOfSamples(truth), 9 * result.TotalLength(), 5);
   const RigidTransform drift = Motion({0.003, -0.002, 0.003}, 0.5 * kDegree);
   const RigidTransform T = Align(Transformed(result, drift), truth);
   EXPECT_LT(WorstOffset(truth, T * drift), 0.001);
@@ -192,7 +192,7 @@ TEST(AlignToTruth, FindsDriftBeyondTheFirstGate) {
   for (const char* name : {"cat", "cage", "wine"}) {
     const SkeletonGraph truth = Object(name);
     SkeletonGraph result = truth;
-    AddRandomCurves(result, BoundsOf(truth), truth.TotalLength(), 7);
+    AddRandomCurves(result, BoundsOfSamples(truth), truth.TotalLength(), 7);
     const RigidTransform drift = Motion({0.018, -0.015, 0.014}, 2 * kDegree);
     const RigidTransform T = Align(Transformed(result, drift), truth);
     EXPECT_LT(WorstOffset(truth, T * drift), 0.0005) << name;
@@ -235,7 +235,7 @@ TEST(AlignToTruth, AStraightWireIsNotSlidAlongItself) {
 // Whatever the result: parts of the truth, false curves, any motion.
 TEST(AlignToTruth, ExplainsNoLessThanRaw) {
   const SkeletonGraph truth = Object("cat");
-  const Eigen::AlignedBox3d bounds = BoundsOf(truth);
+  const Eigen::AlignedBox3d bounds = BoundsOfSamples(truth);
   std::mt19937_64 random(11);
   std::uniform_real_distribution<double> uniform(-1, 1);
   for (int trial = 0; trial < 8; ++trial) {

@@ -25,14 +25,6 @@ TubePath StraightTube(const Vec3& direction, double radius = kRadius) {
   return path;
 }
 
-void Append(const TriangleMesh& part, TriangleMesh& whole) {
-  const int first = static_cast<int>(whole.vertices.size());
-  whole.vertices.insert(whole.vertices.end(), part.vertices.begin(), part.vertices.end());
-  for (const auto& [a, b, c] : part.triangles) {
-    whole.triangles.push_back({first + a, first + b, first + c});
-  }
-}
-
 // Three tubes that cross at right angles, meshed as one junction of their inner segments.
 struct Cross {
   Junction junction;

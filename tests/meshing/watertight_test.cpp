@@ -30,11 +30,7 @@ TriangleMesh Cube(const Vec3f& low, float size, bool inside_out = false) {
 
 TriangleMesh Joined(const TriangleMesh& a, const TriangleMesh& b) {
   TriangleMesh joined = a;
-  const int offset = static_cast<int>(a.vertices.size());
-  joined.vertices.insert(joined.vertices.end(), b.vertices.begin(), b.vertices.end());
-  for (const auto& [p, q, r] : b.triangles) {
-    joined.triangles.push_back({p + offset, q + offset, r + offset});
-  }
+  Append(b, joined);
   return joined;
 }
 

@@ -178,12 +178,6 @@ TEST(VoxelSurface, OfOneVoxelIsAClosedOctahedronAboutItsCentre) {
   }
 }
 
-TEST(FramesOfASequence, AreTakenEvenly) {
-  EXPECT_EQ(EvenlySpacedFrames(9, 3), (std::vector<int>{1, 4, 7}));
-  EXPECT_EQ(EvenlySpacedFrames(2, 40), (std::vector<int>{0, 1}));
-  EXPECT_TRUE(EvenlySpacedFrames(0, 40).empty());
-}
-
 TEST(NormalError, IsSmallOnTubesAndLargeOnVoxels) {
   const TriangleMesh tubes = ToTriangleMesh(BuildTubes(Ring(), TubeOptions()).surface);
   const auto smooth = MeanNormalError(tubes, Ring());

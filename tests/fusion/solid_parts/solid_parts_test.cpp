@@ -23,13 +23,14 @@ SkeletonGraph UprightWire(double from, double to) {
   return graph;
 }
 
+Eigen::AlignedBox3d BoxAround(const SkeletonGraph& skeleton) {
+  const Eigen::AlignedBox3d box = BoundsOf(skeleton);
+  return {box.min() - Vec3::Constant(0.2), box.max() + Vec3::Constant(0.2)};
+}
+
 // Views half a metre away, of the eighths of a full turn that are asked for.
-BoxVolume Scanned(const DepthAlongRay& scene, const SkeletonGraph& skeleton, int views = 8) {
-  Eigen::AlignedBox3d box;
-  for (const EdgeId id : skeleton.Edges()) {
-    for (const Vec3& p : skeleton.edge(id).points) box.extend(p);
-  }
-  BoxVolume volume({box.min() - Vec3::Constant(0.2), box.max() + Vec3::Constant(0.2)}, kVoxel);
+TsdfVolume Scanned(const DepthAlongRay& scene, const SkeletonGraph& skeleton, int views = 8) {
+  TsdfVolume volume({.voxel_size = kVoxel}, BoxAround(skeleton));
   const PinholeCamera camera = KinectCamera(0.5);
   for (int i = 0; i < views; ++i) {
     const double angle = 2 * std::numbers::pi * (i + 0.3) / 8;
@@ -65,8 +66,8 @@ bool IsClosed(const TriangleMesh& mesh) {
 TEST(SolidParts, APotIsFoundAndTheTableIsNot) {
   const SkeletonGraph wire = UprightWire(0.115, 0.3);
   const DepthAlongRay pot = Box({-0.05, -0.05, -0.001}, {0.05, 0.05, 0.1});
-  const BoxVolume volume = Scanned(Union(pot, Plane(Vec3::UnitZ(), 0)), wire);
-  const SolidParts parts = FindSolidParts(volume, wire, kThickness);
+  const TsdfVolume volume = Scanned(Union(pot, Plane(Vec3::UnitZ(), 0)), wire);
+  const SolidParts parts = FindSolidParts(volume, BoxAround(wire), wire, kThickness);
   ASSERT_EQ(parts.solids.size(), 1);
   EXPECT_TRUE(IsClosed(parts.solids[0]));
   // Its inside, which no frame saw, is filled; edges are rounded by a voxel or two.
@@ -88,8 +89,8 @@ TEST(SolidParts, APotIsFoundAndTheTableIsNot) {
 TEST(SolidParts, AHalfSeenPotIsClosedFlatBehindAndBelow) {
   const SkeletonGraph wire = UprightWire(0.115, 0.3);
   const DepthAlongRay pot = Box({-0.05, -0.05, -0.001}, {0.05, 0.05, 0.1});
-  const BoxVolume volume = Scanned(Union(pot, Plane(Vec3::UnitZ(), 0)), wire, 4);
-  const SolidParts parts = FindSolidParts(volume, wire, kThickness);
+  const TsdfVolume volume = Scanned(Union(pot, Plane(Vec3::UnitZ(), 0)), wire, 4);
+  const SolidParts parts = FindSolidParts(volume, BoxAround(wire), wire, kThickness);
   ASSERT_EQ(parts.solids.size(), 1);
   EXPECT_TRUE(IsClosed(parts.solids[0]));
   // A skin of 10 mm on top and two or three sides would have half of that.
@@ -103,8 +104,8 @@ TEST(SolidParts, AHalfSeenPotIsClosedFlatBehindAndBelow) {
 TEST(SolidParts, WhatIsNotAttachedIsLeftOut) {
   const SkeletonGraph wire = UprightWire(0.15, 0.3);
   const DepthAlongRay pot = Box({-0.05, -0.05, -0.001}, {0.05, 0.05, 0.1});
-  const BoxVolume volume = Scanned(Union(pot, Plane(Vec3::UnitZ(), 0)), wire);
-  const SolidParts parts = FindSolidParts(volume, wire, kThickness);
+  const TsdfVolume volume = Scanned(Union(pot, Plane(Vec3::UnitZ(), 0)), wire);
+  const SolidParts parts = FindSolidParts(volume, BoxAround(wire), wire, kThickness);
   EXPECT_TRUE(parts.solids.empty());
   EXPECT_EQ(parts.skeleton.edge(parts.skeleton.Edges()[0]).points,
             wire.edge(wire.Edges()[0]).points);
@@ -117,7 +118,8 @@ TEST(SolidParts, ASheetSeenFromAboveGetsTheThickness) {
     const double depth = board(origin, direction);
     return depth > 0 && (origin + depth * direction).z() > -1e-6 ? depth : 0.0;
   };
-  const SolidParts parts = FindSolidParts(Scanned(seen_above, wire), wire, kThickness);
+  const SolidParts parts =
+      FindSolidParts(Scanned(seen_above, wire), BoxAround(wire), wire, kThickness);
   ASSERT_EQ(parts.solids.size(), 1);
   EXPECT_TRUE(IsClosed(parts.solids[0]));
   // The rim, of 5 mm, is rounded, and lies within a voxel.
@@ -128,15 +130,16 @@ TEST(SolidParts, ASheetSeenFromAboveGetsTheThickness) {
 TEST(SolidParts, AFattenedWireOnATableIsNone) {
   const SkeletonGraph wire = UprightWire(0.01, 0.3);
   const DepthAlongRay post = Box({-0.006, -0.006, -0.001}, {0.006, 0.006, 0.3});
-  const BoxVolume volume = Scanned(Union(post, Plane(Vec3::UnitZ(), 0)), wire);
-  EXPECT_EQ(FindSolidParts(volume, wire, kThickness).solids.size(), 0);
+  const TsdfVolume volume = Scanned(Union(post, Plane(Vec3::UnitZ(), 0)), wire);
+  EXPECT_EQ(FindSolidParts(volume, BoxAround(wire), wire, kThickness).solids.size(), 0);
   EXPECT_FALSE(volume.ExtractMesh().triangles.empty());
 }
 
 TEST(SolidParts, AnEmptyVolumeHasNone) {
   const SkeletonGraph wire = UprightWire(0, 0.3);
-  const BoxVolume volume({Vec3::Constant(-0.2), Vec3::Constant(0.2)}, kVoxel);
-  EXPECT_TRUE(FindSolidParts(volume, wire, kThickness).solids.empty());
+  const Eigen::AlignedBox3d box(Vec3::Constant(-0.2), Vec3::Constant(0.2));
+  const TsdfVolume volume({.voxel_size = kVoxel}, box);
+  EXPECT_TRUE(FindSolidParts(volume, box, wire, kThickness).solids.empty());
 }
 
 }  // namespace
