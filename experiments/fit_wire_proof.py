@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Fits the coefficients of fusion/curve_graph/wire_proof.cpp and prints how reliable they are.
 
-fit_wire_proof.py STAGES:TRUTH ... [--validation STAGES:TRUTH ...]
+fit_wire_proof.py [--keep-first-step] STAGES:TRUTH ... [--validation STAGES:TRUTH ...]
 
 STAGES is a folder of `reconstruct --save-stages` (evidence.csv in it), TRUTH the curves.json of the scan, or
-`none` where the scan shows no wire, or `all` where every curve is one. Needs numpy and scipy.
+`none` where the scan shows no wire, or `all` where every curve is one. --keep-first-step fits what colour tells only
+and takes the rest from wire_proof.cpp. Needs numpy and scipy.
 """
 import csv
 import json
@@ -18,6 +19,9 @@ NEAR = 0.008       # metres: a stretch is true where it lies so near to a true c
 UNCLEAR = (0.006, 0.012)  # metres: stretches so far away teach nothing
 NEIGHBOURHOOD = 0.25      # metres, as in wire_proof.cpp
 LEAST = 0.03
+FIRST_STEP = np.array([0.59, -1.71, 1.68, -2.44, -1.97, -2.98, 3.29, -3.0])  # as in wire_proof.cpp
+SECOND_STEP = np.array([-1.17, 0.34, 1.8])  # likewise
+WIDTHS = [2, 6]  # columns of terms()
 
 
 def true_points(path):
@@ -98,6 +102,22 @@ def terms(t):
         np.clip((t["diameter"] - 0.012) / 0.006, 0, 1.5)])
 
 
+def own_terms(t, b):
+    """The log-odds of a stretch without colours, and what they owe to its width."""
+    columns = terms(t)
+    return b[0] + columns @ b[1:], columns[:, WIDTHS] @ b[1:][WIDTHS]
+
+
+def colour_terms(t, b):
+    """As OwnTerms in wire_proof.cpp: of kLessOfTheRest (of all but the width), kToldByColour, kOpenInColour."""
+    own, width = own_terms(t, b)
+    told = t["beside_most"] ** 2 / (t["beside_most"] ** 2 + 25)
+    of_most = 0.7 + np.log((t["beside_least"] + 1) / (t["beside_most"] + 1))
+    of_surfaces = 2 * np.log((t["beside_least"] + 1) / (t["on_surfaces"] + 1))
+    is_open = np.maximum(np.minimum(of_most, of_surfaces), -1.3)
+    return told[:, None] * np.column_stack([-(own - width), np.ones(len(own)), is_open])
+
+
 TERMS = ["kSame", "kOpen", "kWide", "kPast", "kMostlyPast", "kCovered", "kThick"]
 
 
@@ -126,11 +146,15 @@ def weights(tables):
     return w * 4 * len(tables)
 
 
-def logistic(X, y, w, ridge=0.3):
-    X = np.column_stack([np.ones(len(X)), X])
-    b, penalty = np.zeros(X.shape[1]), ridge * np.r_[0, np.ones(X.shape[1] - 1)]
+def logistic(X, y, w, ridge=0.3, offset=None):
+    """With a constant first; with an offset of the log-odds instead where one is given."""
+    if offset is None:
+        X = np.column_stack([np.ones(len(X)), X])
+    penalty = ridge * np.ones(X.shape[1])
+    penalty[0] *= offset is not None
+    b = np.zeros(X.shape[1])
     for _ in range(50):
-        p = 1 / (1 + np.exp(-np.clip(X @ b, -30, 30)))
+        p = 1 / (1 + np.exp(-np.clip((0 if offset is None else offset) + X @ b, -30, 30)))
         H = (X * (w * p * (1 - p))[:, None]).T @ X + np.diag(penalty + 1e-9)
         b -= np.linalg.solve(H, X.T @ (w * (p - y)) + penalty * b)
     return b
@@ -145,29 +169,38 @@ def print_reliability(p, y, w):
                   f"  {np.average(y[of], weights=w[of]):.3f}")
 
 
-def probability(tables, b, c):
+def judged(t, b, g):
+    return own_terms(t, b)[0] + colour_terms(t, b) @ g
+
+
+def probability(tables, b, g, c):
     result = []
     for table in tables:
-        own = b[0] + terms(table) @ b[1:]
+        own = judged(table, b, g)
         result.append(c[0] + c[1] * own + c[2] * around(own, table))
     return 1 / (1 + np.exp(-np.concatenate(result)))
 
 
 def main(arguments):
+    keep_first = "--keep-first-step" in arguments
+    arguments = [a for a in arguments if a != "--keep-first-step"]
     split = arguments.index("--validation") if "--validation" in arguments else len(arguments)
     train = [t for t in map(read, arguments[:split]) if t is not None]
     held_out = [t for t in map(read, arguments[split + 1:]) if t is not None]
     w, y = weights(train), np.concatenate([t["true"] for t in train])
-    b = logistic(np.concatenate([terms(t) for t in train]), y, w)
-    own = [b[0] + terms(t) @ b[1:] for t in train]
-    c = logistic(np.column_stack([np.concatenate(own),
-                                  np.concatenate([around(o, t) for o, t in zip(own, train)])]), y, w)
+    b = FIRST_STEP if keep_first else logistic(np.concatenate([terms(t) for t in train]), y, w)
+    g = logistic(np.concatenate([colour_terms(t, b) for t in train]), y, w,
+                 offset=np.concatenate([own_terms(t, b)[0] for t in train]))
+    own = [judged(t, b, g) for t in train]
+    c = SECOND_STEP if keep_first else logistic(
+        np.column_stack([np.concatenate(own), np.concatenate([around(o, t) for o, t in zip(own, train)])]), y, w)
     print("kBias", round(b[0], 2), *(f"{n} {v:.2f}" for n, v in zip(TERMS, b[1:])))
+    print(f"kLessOfTheRest {g[0]:.2f} kToldByColour {g[1]:.2f} kOpenInColour {g[2]:.2f}")
     print(f"kAroundBias {c[0]:.2f} kOwn {c[1]:.2f} kAround {c[2]:.2f}")
     for name, tables in (("training", train), ("validation", held_out)):
         if tables:
             print(name)
-            print_reliability(probability(tables, b, c), np.concatenate([t["true"] for t in tables]), weights(tables))
+            print_reliability(probability(tables, b, g, c), np.concatenate([t["true"] for t in tables]), weights(tables))
 
 
 if __name__ == "__main__":

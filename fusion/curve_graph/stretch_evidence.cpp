@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
 
 #include "capture/frame_stream.h"
 #include "fusion/curve_graph/depth_profile.h"
@@ -23,6 +24,8 @@ constexpr double kPlaceStep = 0.004;      // metres along a stretch
 constexpr double kStrandStep = 0.0005;    // metres: below a pixel from .3 m on
 constexpr double kUnknownRadius = 0.002;  // metres
 constexpr int kDirections = 36;
+constexpr int kColourImages = 30;      // chosen: a second of the parallax of 60 adds little
+constexpr size_t kMinLines = 10;       // on surfaces, for a median
 constexpr double kMinLooked = 0.3;     // share of a stretch that an image must show
 constexpr double kEnoughImages = 3;    // from one direction: more of them tell the same
 constexpr double kAgreement = 0.25;    // strips this near to the edge's diameter count
@@ -39,6 +42,7 @@ struct Stretch {
   EdgePart part;
   double begin = 0, end = 0;  // arc lengths
   std::vector<CurvePlace> places;
+  std::optional<ColourBeside> colours;  // as soon as the places are known
   Vec3 tangent, across;  // unit
   std::array<DirectionCounts, kDirections> directions = {};
   std::vector<double> widths;
@@ -90,6 +94,7 @@ std::vector<Stretch> StretchesOf(EdgeId id, const SkeletonEdge& edge) {
     const Vec3 chord = edge.points[last] - edge.points[first];
     stretch.tangent = chord.isZero() ? stretch.places.front().tangent : chord.normalized();
     stretch.across = stretch.tangent.unitOrthogonal();
+    stretch.colours.emplace(stretch.places);
     stretches.push_back(std::move(stretch));
     first = last;
   }
@@ -177,6 +182,33 @@ StretchEvidence SummaryOf(const Stretch& stretch) {
   return evidence;
 }
 
+void LookBeside(const Sequence& sequence, std::vector<Stretch>& stretches,
+                std::vector<ColourBeside>& on_surfaces) {
+  const PinholeCamera& camera = sequence.color_camera;
+  const auto look = [&](const DecodedFrame& frame) {
+    const ColorImage smoothed = Smoothed(frame.color);
+    const RigidTransform T_color_world =
+        sequence.T_color_depth * sequence.frames[frame.index].T_world_camera.inverse();
+    constexpr int64_t kGrain = 16;
+    ParallelFor(0, static_cast<int64_t>(stretches.size()), kGrain,
+                [&](int64_t i) { stretches[i].colours->Look(smoothed, camera, T_color_world); });
+    ParallelFor(0, static_cast<int64_t>(on_surfaces.size()), kGrain,
+                [&](int64_t i) { on_surfaces[i].Look(smoothed, camera, T_color_world); });
+  };
+  ForEachFrame(sequence, EvenlyThinned(AllFrames(sequence), kColourImages),
+               {.depth = false, .color = true}, look);
+}
+
+// The median of the least change of those that are known; 0 where these are few.
+double MedianOfLeast(const std::vector<ColourBeside>& lines) {
+  std::vector<double> changes;
+  for (const ColourBeside& line : lines) {
+    const ColourChange change = line.Change();
+    if (change.most > 0) changes.push_back(change.least);
+  }
+  return changes.size() < kMinLines ? 0 : Median(changes);
+}
+
 void AddStrips(const Stretch& stretch, const EdgeRadius& edge,
                const std::vector<double>& strip_places, StretchEvidence& evidence) {
   evidence.diameter = 2 * edge.radius;
@@ -219,6 +251,12 @@ std::vector<StretchEvidence> CollectEvidence(const SkeletonGraph& skeleton,
     });
   });
 
+  std::vector<ColourBeside> on_surfaces;
+  for (const std::vector<CurvePlace>& line : LinesOnSurfaces(sequence))
+    on_surfaces.emplace_back(line);
+  LookBeside(sequence, stretches, on_surfaces);
+  const double change_on_surfaces = MedianOfLeast(on_surfaces);
+
   std::map<EdgeId, EdgeRadius> radius_of;
   for (const EdgeRadius& edge : radii.edges) radius_of[edge.edge] = edge;
   std::map<EdgeId, std::vector<double>> strips_of;
@@ -231,6 +269,8 @@ std::vector<StretchEvidence> CollectEvidence(const SkeletonGraph& skeleton,
   std::vector<StretchEvidence> all;
   for (const Stretch& stretch : stretches) {
     all.push_back(SummaryOf(stretch));
+    all.back().beside = stretch.colours->Change();
+    all.back().on_surfaces = change_on_surfaces;
     AddStrips(stretch, radius_of[stretch.edge], strips_of[stretch.edge], all.back());
   }
   return all;
@@ -240,7 +280,8 @@ std::string EvidenceCsv(const SkeletonGraph& skeleton,
                         const std::vector<StretchEvidence>& evidence) {
   std::string text =
       "x0,y0,z0,x1,y1,z1,x2,y2,z2,edge,degree0,degree1,length,images,directions,seen,past,open,"
-      "same,most_same,open_directions,width,pixel,strips,coverage,diameter\n";
+      "same,most_same,open_directions,width,pixel,strips,coverage,diameter,beside_least,"
+      "beside_most,on_surfaces\n";
   for (const StretchEvidence& e : evidence) {
     const SkeletonEdge& edge = skeleton.edge(e.edge);
     for (const Vec3& p : {edge.points[e.part.first], e.middle, edge.points[e.part.last]}) {
@@ -248,10 +289,10 @@ std::string EvidenceCsv(const SkeletonGraph& skeleton,
     }
     text += fmt::format(
         "{},{},{},{:.4f},{},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{},{:.5f},{:.6f},{},"
-        "{:.4f},{:.5f}\n",
+        "{:.4f},{:.5f},{:.2f},{:.2f},{:.2f}\n",
         e.edge, skeleton.Degree(edge.nodes[0]), skeleton.Degree(edge.nodes[1]), e.length, e.images,
         e.directions, e.seen, e.past, e.open, e.same, e.most_same, e.open_directions, e.width,
-        e.pixel, e.strips, e.coverage, e.diameter);
+        e.pixel, e.strips, e.coverage, e.diameter, e.beside.least, e.beside.most, e.on_surfaces);
   }
   return text;
 }

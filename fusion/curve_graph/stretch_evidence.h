@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "capture/sequence.h"
+#include "fusion/curve_graph/colour_beside.h"
 #include "fusion/strips/radius.h"
 #include "graph/edge_parts.h"
 #include "graph/skeleton_graph.h"
@@ -31,10 +32,13 @@ struct StretchEvidence {
   int strips = 0;    ///< in colour images, that agree with the edge's diameter
   double coverage = 0;  ///< share of the length near such strips
   double diameter = 0;  ///< of the edge by its strips, metres; 0 = not measured
+  ColourChange beside;  ///< of the colours beside it
+  double on_surfaces = 0;  ///< median of the least change beside lines on the scan's surfaces; 0 =
+                           ///< not known
 };
 
 /// Cuts every edge into stretches and looks at each in at most `max_frames` evenly spread depth
-/// images; `radii` are those of the skeleton (world frame). Stretches by edge, then along it.
+/// images and half as many colour images; `radii` are those of the skeleton (world frame). Stretches by edge, then along it.
 /// Throws Error(kBadInput) for an image that cannot be decoded. Cost: places (every 4 mm) x frames
 /// x 100 pixels.
 std::vector<StretchEvidence> CollectEvidence(const SkeletonGraph& skeleton,

@@ -22,6 +22,10 @@ constexpr double kPast = -1.97;
 constexpr double kMostlyPast = -2.98;
 constexpr double kCovered = 3.29;
 constexpr double kThick = -3.0;
+// with what colour shows beside it, as far as that tells,
+constexpr double kToldByColour = 0.18;
+constexpr double kOpenInColour = 2.53;
+constexpr double kLessOfTheRest = 0.58;  // of the terms above, thickness aside
 // then with those around it.
 constexpr double kAroundBias = -1.17;
 constexpr double kOwn = 0.34;
@@ -31,14 +35,33 @@ constexpr double kFewImages = 5;       // chosen: so many images count as much a
 constexpr double kSameFloor = 0.03;    // chosen: so much of a wire's surroundings goes on by chance
 constexpr double kWidestWire = 0.012;  // metres, CurveFusion 4
 constexpr double kNeighbourhood = 0.25;  // metres
+constexpr double kTellingChange = 5;     // grey levels; chosen: noise of smoothed pixels is 1 to 2
+constexpr double kOpenRatio = 0.7;       // chosen: log of most over least change, so much is open
+constexpr double kOverSurfaces = 2;      // chosen: weight of the change over that on surfaces
+constexpr double kLeastOpen = -1.3;      // chosen: less tells no more
 constexpr double kMaxLogOdds = 4;        // of one stretch for those around it
 constexpr double kOwnWeight = 0.04;      // metres: of the neighbours' mean, drawn to zero
 
 // The terms of a stretch's own log-odds.
 struct Terms {
   double surface = 0, thick = 0, past = 0, rest = 0;
-  double Sum() const { return surface + thick + past + rest; }
+  double told_by_colour = 0;  // 0 to 1
+  double colour = 0;
+
+  double Sum() const {
+    return thick + (1 - kLessOfTheRest * told_by_colour) * (surface + past + rest) + colour;
+  }
 };
+
+// Whether colours beside a stretch change in all directions, compared to the direction in which
+// they change most and to surfaces, which poses and exposure make change: positive where it is open
+// all around.
+double OpenInColour(const StretchEvidence& e) {
+  const double of_most = kOpenRatio + std::log((e.beside.least + 1) / (e.beside.most + 1));
+  const double of_surfaces =
+      kOverSurfaces * std::log((e.beside.least + 1) / (e.on_surfaces + 1));
+  return std::max(kLeastOpen, std::min(of_most, of_surfaces));
+}
 
 Terms OwnTerms(const StretchEvidence& e) {
   const double w = e.images / (e.images + kFewImages);
@@ -48,15 +71,19 @@ Terms OwnTerms(const StretchEvidence& e) {
   terms.surface = w * kSame * std::log((e.same + kSameFloor) / kSameFloor);
   terms.thick = w * kWide * wide + kThick * thick;
   terms.past = w * (kPast * e.past + kMostlyPast * std::clamp((e.past - 0.6) / 0.4, 0.0, 1.0));
+  const double telling = e.beside.most * e.beside.most;
+  terms.told_by_colour = telling / (telling + kTellingChange * kTellingChange);
+  terms.colour = terms.told_by_colour * (kToldByColour + kOpenInColour * OpenInColour(e));
   terms.rest = kBias + w * kOpen * e.open + kCovered * e.coverage;
   return terms;
 }
 
 Doubt LargestDoubt(const Terms& terms) {
   constexpr double kClear = -1;  // less may be a wire's
-  const double least = std::min({terms.surface, terms.thick, terms.past});
+  const double surface = terms.surface + std::min(0.0, terms.colour);
+  const double least = std::min({surface, terms.thick, terms.past});
   if (least > kClear) return Doubt::kUnproven;
-  if (least == terms.surface) return Doubt::kSurface;
+  if (least == surface) return Doubt::kSurface;
   return least == terms.thick ? Doubt::kThick : Doubt::kLookedPast;
 }
 

@@ -14,7 +14,7 @@ struct ViewEvidenceOptions {
   double tolerance = 0.02;
   /// Chosen on training scans and validation cage 201: a wire lost is worse than a false curve left
   /// (docs/proof.md#selection).
-  double min_probability = 0.12;
+  double min_probability = 0.2;
 };
 void VisitOptions(ViewEvidenceOptions& options, OptionVisitor& visitor);
 

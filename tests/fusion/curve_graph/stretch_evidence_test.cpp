@@ -23,10 +23,12 @@ class StretchEvidenceTest : public testing::Test {
       SequenceFrame frame;
       frame.T_world_camera = RigidTransform::Identity();
       frame.depth_path = folder_ / fmt::format("{}.png", i);
+      frame.color_path = folder_ / fmt::format("{}_color.png", i);
       sequence_.frames.push_back(frame);
       cv::Mat depth(240, 320, CV_16U, cv::Scalar(1000));
       depth(cv::Rect(0, 119, 320, 3)) = 598;
       cv::imwrite(frame.depth_path.string(), depth);
+      cv::imwrite(frame.color_path.string(), cv::Mat(240, 320, CV_8UC3, cv::Scalar(90, 90, 90)));
     }
     Polyline points;
     for (int i = 0; i <= 40; ++i) points.emplace_back(-0.1 + 0.005 * i, 0, kDepth);

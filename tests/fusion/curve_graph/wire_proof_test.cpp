@@ -71,6 +71,39 @@ TEST(WireProof, AWireOf12MillimetresIsNotTooThick) {
   EXPECT_DOUBLE_EQ(Alone(thick), Alone(Wire()));
 }
 
+TEST(WireProof, ColoursBesideItTellWhereTheyChange) {
+  StretchEvidence open = ShelfEdge();
+  open.beside = {20, 25};
+  open.on_surfaces = 3;
+  EXPECT_GT(Alone(open), Alone(ShelfEdge()));  // depth has filled a gap
+  StretchEvidence closed = Wire();
+  closed.beside = {3, 25};
+  closed.on_surfaces = 3;
+  EXPECT_LT(Alone(closed), Alone(Wire()));
+}
+
+TEST(WireProof, ColoursOfEvenBackgroundsOrOfPoorPosesTellLittle) {
+  StretchEvidence open = ShelfEdge();
+  open.beside = {20, 25};
+  open.on_surfaces = 3;
+  StretchEvidence even = ShelfEdge();
+  even.beside = {0.9, 1};
+  even.on_surfaces = 0.5;
+  EXPECT_NEAR(Alone(even), Alone(ShelfEdge()), 0.02);
+  StretchEvidence poor = open;
+  poor.on_surfaces = 20;  // surfaces change as much
+  EXPECT_LT(Alone(poor), Alone(open));
+}
+
+TEST(WireProof, AThickBarIsNoWireWhereColourShowsItOpen) {
+  StretchEvidence bar = Wire();
+  bar.width = 0.03;
+  bar.diameter = 0.025;
+  bar.beside = {20, 25};
+  bar.on_surfaces = 3;
+  EXPECT_LT(Alone(bar), 0.2);
+}
+
 TEST(WireProof, FewImagesWeighLittle) {
   StretchEvidence few = ShelfEdge();
   few.images = 1;

@@ -1,0 +1,191 @@
+#include "fusion/curve_graph/colour_beside.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <opencv2/imgproc.hpp>
+#include <optional>
+
+#include "capture/frame_stream.h"
+
+namespace curvefusion {
+
+namespace {
+
+constexpr size_t kPlaceStride = 2;
+// Chosen: metres beyond the curve's radius, out of its blur and mostly before the next wire.
+constexpr double kDistance[] = {0.004, 0.007, 0.010};
+constexpr double kBlurPx = 1.5;    // around a curve its own colour shows
+constexpr size_t kMinLooks = 6;    // chosen: images of a point, for a median and how far from it
+constexpr int kMinDirections = 4;  // chosen: with known points on half of them or more
+constexpr double kNearest = 0.05;  // metres before a camera
+constexpr double kAhead = 1e-3;    // metres, between which a direction is projected
+constexpr double kFromItsEnd = 1e-3;  // pixels that kAhead covers, at most
+
+constexpr int kSurfaceImages = 8;         // chosen: some hundred lines
+constexpr int kLinesAcross = 16;          // of an image
+constexpr double kHalfLine = 0.016;       // metres
+constexpr double kLineStep = 0.004;       // metres
+constexpr double kLineRadius = 0.003;     // metres, as of a wire
+constexpr double kSurfaceReach = 0.025;   // metres to all sides, beyond what is beside the line
+constexpr double kSurfaceFlatness = 0.02;  // of the distance; noise is less
+constexpr int kMinReachPx = 4;
+
+// The mean over channels of the mean distance from the median, grey levels.
+double MeanChange(const std::vector<Rgb>& colours) {
+  std::vector<int> values(colours.size());
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  int64_t sum = 0;
+  for (size_t channel = 0; channel < 3; ++channel) {
+    std::transform(colours.begin(), colours.end(), values.begin(),
+                   [&](const Rgb& color) { return color[channel]; });
+    std::nth_element(values.begin(), middle, values.end());
+    for (const int value : values) sum += std::abs(value - *middle);
+  }
+  return static_cast<double>(sum) / static_cast<double>(3 * colours.size());
+}
+
+// How a line is seen at one of its places.
+struct LineInImage {
+  Vec2 pixel;
+  Vec2 along;        // unit
+  double own_px = 0;  // to both sides its own colour shows
+
+  double DistanceTo(const Vec2& other) const {
+    const Vec2 off = other - pixel;
+    return std::abs(along.x() * off.y() - along.y() * off.x());
+  }
+};
+
+std::optional<LineInImage> SeenIn(const PinholeCamera& camera, const RigidTransform& T_camera_world,
+                                  const CurvePlace& place) {
+  const Vec3 p = T_camera_world * place.position;
+  if (p.z() < kNearest) return std::nullopt;
+  const Vec3 ahead = p + kAhead * (T_camera_world.linear() * place.tangent);
+  const Vec2 pixel = camera.Project(p);
+  const Vec2 along = camera.Project(ahead) - pixel;
+  if (along.norm() < kFromItsEnd) return std::nullopt;
+  return LineInImage{pixel, along.normalized(), place.radius * camera.fx / p.z() + kBlurPx};
+}
+
+// The points of a depth image around one on a smooth surface.
+struct SurfacePatch {
+  Vec3 middle, left, right, above, below;  // camera frame
+
+  bool IsFlat() const {
+    const double most = kSurfaceFlatness * middle.z();
+    return (left + right - 2 * middle).norm() < most && (above + below - 2 * middle).norm() < most;
+  }
+};
+
+std::optional<SurfacePatch> PatchAt(const DepthImage& depth, const PinholeCamera& camera, int u,
+                                    int v) {
+  const double z = depth(u, v);
+  if (z <= 0) return std::nullopt;
+  const int reach = std::max(kMinReachPx, static_cast<int>(kSurfaceReach * camera.fx / z));
+  const bool is_inside = u >= reach && v >= reach && u + reach < depth.width() &&
+                         v + reach < depth.height();
+  if (!is_inside) return std::nullopt;
+  const auto point = [&](int du, int dv) -> Vec3 {
+    return camera.Unproject(u + du, v + dv, depth(u + du, v + dv));
+  };
+  const SurfacePatch patch{point(0, 0), point(-reach, 0), point(reach, 0), point(0, -reach),
+                           point(0, reach)};
+  for (const Vec3& p : {patch.left, patch.right, patch.above, patch.below})
+    if (p.z() <= 0) return std::nullopt;
+  if (!patch.IsFlat()) return std::nullopt;
+  return patch;
+}
+
+std::vector<CurvePlace> LineAt(const Vec3& middle, const Vec3& tangent) {
+  std::vector<CurvePlace> places;
+  for (double at = -kHalfLine; at <= kHalfLine + kLineStep / 2; at += kLineStep)
+    places.push_back({0, at, kLineRadius, middle + at * tangent, tangent});
+  return places;
+}
+
+}  // namespace
+
+ColourBeside::ColourBeside(const std::vector<CurvePlace>& places) {
+  for (size_t i = 0; i < places.size(); i += kPlaceStride) {
+    Place& place = places_.emplace_back();
+    place.on_curve = places[i];
+    const Vec3 a = places[i].tangent.unitOrthogonal(), b = places[i].tangent.cross(a);
+    for (int k = 0; k < kDirections; ++k) {
+      const double angle = 2 * std::numbers::pi * k / kDirections;
+      const Vec3 direction = std::cos(angle) * a + std::sin(angle) * b;
+      for (int d = 0; d < kDistances; ++d)
+        place.beside[k][d].position =
+            places[i].position + (places[i].radius + kDistance[d]) * direction;
+    }
+  }
+}
+
+void ColourBeside::Look(const ColorImage& smoothed, const PinholeCamera& camera,
+                        const RigidTransform& T_camera_world) {
+  for (Place& place : places_) {
+    const auto line = SeenIn(camera, T_camera_world, place.on_curve);
+    if (!line) continue;
+    for (auto& points : place.beside) {
+      for (Point& point : points) {
+        const Vec2 pixel = camera.Project(Vec3(T_camera_world * point.position));
+        if (!camera.Contains(pixel) || line->DistanceTo(pixel) < line->own_px) continue;
+        const Eigen::Vector2i at = PinholeCamera::Rounded(pixel);
+        point.colours.push_back(smoothed(at.x(), at.y()));
+      }
+    }
+  }
+}
+
+ColourChange ColourBeside::Change() const {
+  std::vector<double> changes;
+  for (size_t k = 0; k < kDirections; ++k) {
+    double sum = 0;
+    size_t known = 0;
+    for (const Place& place : places_) {
+      for (const Point& point : place.beside[k]) {
+        if (point.colours.size() < kMinLooks) continue;
+        sum += MeanChange(point.colours);
+        ++known;
+      }
+    }
+    if (2 * known >= kDistances * places_.size()) changes.push_back(sum / known);
+  }
+  if (changes.size() < kMinDirections) return {};
+  const auto [least, most] = std::minmax_element(changes.begin(), changes.end());
+  return {*least, *most};
+}
+
+ColorImage Smoothed(const ColorImage& image) {
+  ColorImage smoothed(image.width(), image.height());
+  const cv::Mat from(image.height(), image.width(), CV_8UC3, const_cast<Rgb*>(image.data()));
+  cv::Mat to(image.height(), image.width(), CV_8UC3, smoothed.data());
+  cv::blur(from, to, cv::Size(3, 3));
+  return smoothed;
+}
+
+std::vector<std::vector<CurvePlace>> LinesOnSurfaces(const Sequence& sequence) {
+  std::vector<std::vector<CurvePlace>> lines;
+  const PinholeCamera& camera = sequence.depth_camera;
+  const int step = std::max(1, camera.width / kLinesAcross);
+  const auto add_lines = [&](const DecodedFrame& frame) {
+    const RigidTransform& T_world_camera = sequence.frames[frame.index].T_world_camera;
+    bool is_horizontal = false;
+    for (int v = step / 2; v < camera.height; v += step) {
+      for (int u = step / 2; u < camera.width; u += step) {
+        const auto patch = PatchAt(frame.depth, camera, u, v);
+        if (!patch) continue;
+        is_horizontal = !is_horizontal;
+        const Vec3 along = is_horizontal ? patch->right - patch->left : patch->below - patch->above;
+        lines.push_back(LineAt(T_world_camera * patch->middle,
+                               T_world_camera.linear() * along.normalized()));
+      }
+    }
+  };
+  ForEachFrame(sequence, EvenlyThinned(AllFrames(sequence), kSurfaceImages),
+               {.depth = true, .color = false}, add_lines);
+  return lines;
+}
+
+}  // namespace curvefusion

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "capture/sequence.h"
+#include "fusion/curve_graph/depth_profile.h"
+#include "kernel/camera.h"
+#include "kernel/geometry.h"
+#include "kernel/image.h"
+
+namespace curvefusion {
+
+/// How much the colours of points beside a curve change from image to image: mean distances from
+/// their medians, in grey levels.
+struct ColourChange {
+  double least = 0;  ///< in the direction around the curve in which they change least
+  double most = 0;   ///< in that in which they change most; 0 = not known
+};
+
+/// The colours of points beside a curve in many images. Where a surface goes on beside the curve,
+/// they are those of the surface from wherever it is seen; past a wire every image shows another
+/// part of what is behind.
+class ColourBeside {
+ public:
+  /// `places` of the curve (world frame), of which every second one is looked at.
+  explicit ColourBeside(const std::vector<CurvePlace>& places);
+
+  /// Adds an image that has at each pixel the mean of those around it.
+  void Look(const ColorImage& smoothed, const PinholeCamera& camera,
+            const RigidTransform& T_camera_world);
+
+  ColourChange Change() const;
+
+ private:
+  static constexpr int kDirections = 12;  // around the curve
+  static constexpr int kDistances = 3;
+
+  struct Point {
+    Vec3 position;
+    std::vector<Rgb> colours;  // of the images that show it
+  };
+  struct Place {
+    CurvePlace on_curve;
+    std::array<std::array<Point, kDistances>, kDirections> beside;
+  };
+
+  std::vector<Place> places_;
+};
+
+/// The mean of the 3 x 3 pixels around each.
+ColorImage Smoothed(const ColorImage& image);
+
+/// Lines of 32 mm on the surfaces that some of the depth images show, as places 4 mm apart (world
+/// frame): what colours beside them change tells how well poses and colours tell a surface.
+/// Throws Error(kBadInput) for an image that cannot be decoded.
+std::vector<std::vector<CurvePlace>> LinesOnSurfaces(const Sequence& sequence);
+
+}  // namespace curvefusion

@@ -1,0 +1,74 @@
+#include "fusion/curve_graph/colour_beside.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace curvefusion {
+namespace {
+
+const PinholeCamera kCamera = {160, 120, 150, 150, 80, 60};
+constexpr double kDistance = 0.5;  // metres, of the curve
+
+// A plane across the view that has patches of some millimetres.
+ColorImage ImageOfPlane(const Vec3& camera, double plane_z, double contrast) {
+  ColorImage image(kCamera.width, kCamera.height);
+  for (int v = 0; v < kCamera.height; ++v) {
+    for (int u = 0; u < kCamera.width; ++u) {
+      const Vec3 p = camera + kCamera.Unproject(u, v, plane_z - camera.z());
+      const double wave = std::sin(p.x() / 0.005) * std::cos(p.y() / 0.007);
+      const auto grey = static_cast<uint8_t>(128 + contrast * wave);
+      image(u, v) = {grey, grey, grey};
+    }
+  }
+  return image;
+}
+
+std::vector<CurvePlace> Line() {
+  std::vector<CurvePlace> places;
+  for (int i = 0; i < 9; ++i)
+    places.push_back({0, 0.004 * i, 0.003, {0.01, 0.004 * (i - 4), kDistance}, Vec3::UnitY()});
+  return places;
+}
+
+// Cameras on an arc of 24 cm around a line, before a plane.
+ColourChange Change(double plane_z, double contrast, int cameras = 12) {
+  ColourBeside beside(Line());
+  for (int i = 0; i < cameras; ++i) {
+    const Vec3 center(0.02 * (i - 5.5), 0.01 * (i % 3), 0);
+    RigidTransform T_camera_world = RigidTransform::Identity();
+    T_camera_world.translation() = -center;
+    beside.Look(ImageOfPlane(center, plane_z, contrast), kCamera, T_camera_world);
+  }
+  return beside.Change();
+}
+
+TEST(ColourBeside, PastAWireAllDirectionsChange) {
+  const ColourChange wire = Change(kDistance + 0.2, 60);
+  EXPECT_GT(wire.most, 20);
+  EXPECT_GT(wire.least, 0.6 * wire.most);
+}
+
+TEST(ColourBeside, OnASurfaceItsOwnColourStays) {
+  const ColourChange printed = Change(kDistance, 60);
+  EXPECT_LT(printed.least, 0.4 * Change(kDistance + 0.2, 60).least);
+  EXPECT_LT(printed.least, 0.6 * printed.most);
+}
+
+TEST(ColourBeside, AnEvenBackgroundTellsNothing) { EXPECT_LT(Change(kDistance + 0.2, 0).most, 1); }
+
+TEST(ColourBeside, IsNotKnownFromFewImages) {
+  EXPECT_EQ(Change(kDistance + 0.2, 60, 5).most, 0);
+  EXPECT_EQ(ColourBeside(Line()).Change().most, 0);
+}
+
+TEST(Smoothed, IsTheMeanOfThePixelsAround) {
+  ColorImage image(5, 5, Rgb{0, 0, 0});
+  image(2, 2) = {90, 180, 9};
+  const ColorImage smoothed = Smoothed(image);
+  EXPECT_EQ(smoothed(1, 1), (Rgb{10, 20, 1}));
+  EXPECT_EQ(smoothed(0, 0), (Rgb{0, 0, 0}));
+}
+
+}  // namespace
+}  // namespace curvefusion
