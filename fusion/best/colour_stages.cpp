@@ -102,11 +102,11 @@ double AddWiresFromColour(StripViews& views, const RidgeOptions& options,
   views.ExplainAll(result.skeleton);
   const double radius = result.radii.unmeasured_radius;
   const double followed = TrackTips(radius, views, result.skeleton);
-  const ObservedPoints candidates = FindColourCandidates(views, [&](int64_t done, int64_t total) {
-    reporter.observer.OnProgress(stage, done, total);
-  });
-  const double added =
-      followed + AddCandidateCurves(candidates, options, radius, views, result.skeleton);
+  const ObservedPoints candidates = FindColourCandidates(
+      views, CandidatePlaces::kAll,
+      [&](int64_t done, int64_t total) { reporter.observer.OnProgress(stage, done, total); });
+  const double added = followed + AddCandidateCurves(result.sequence, candidates, options, radius,
+                                                     views, result.skeleton);
   reporter.log.Count(stage, "followed, m", followed);
   reporter.log.Count(stage, "points", static_cast<double>(candidates.size()));
   reporter.log.Count(stage, "added, m", added);

@@ -110,9 +110,9 @@ void ContractPlacesThatImagesAgreeOn(const WireImages& images, const Eigen::Alig
                                      Reconstruction& colour) {
   const StageLog::Timer timer = reporter.Begin(kStage);
   const StripViews views(colour.sequence, images.frames, images.posteriors, around);
-  colour.points = FindColourCandidates(views, [&](int64_t done, int64_t total) {
-    reporter.observer.OnProgress(kStage, done, total);
-  });
+  colour.points = FindColourCandidates(
+      views, CandidatePlaces::kFree,
+      [&](int64_t done, int64_t total) { reporter.observer.OnProgress(kStage, done, total); });
   colour.skeleton = ExtractRidgeSkeleton(colour.points, options);
   reporter.log.Count(kStage, "places", static_cast<double>(colour.points.size()));
   reporter.log.Count(kStage, "length, m", colour.skeleton.TotalLength());

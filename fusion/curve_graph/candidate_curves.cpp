@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "fusion/curve_graph/candidate_proof.h"
 #include "fusion/curve_graph/refuted_parts.h"
 #include "fusion/curve_graph/tip_tracking.h"
 #include "graph/connected_parts.h"
@@ -53,18 +54,16 @@ void KeepNewWires(const std::vector<Vec3>& known, SkeletonGraph& found) {
   found.RemoveIsolatedNodes();
 }
 
-std::vector<EdgeId> AddGraph(const SkeletonGraph& more, double radius, SkeletonGraph& skeleton) {
-  std::vector<EdgeId> added;
+void AddGraph(const SkeletonGraph& more, double radius, SkeletonGraph& skeleton) {
   std::map<NodeId, NodeId> nodes;
   for (const NodeId node : more.Nodes()) nodes[node] = skeleton.AddNode(more.position(node));
   for (const EdgeId id : more.Edges()) {
     const SkeletonEdge& edge = more.edge(id);
-    added.push_back(skeleton.AddEdge({{nodes.at(edge.nodes[0]), nodes.at(edge.nodes[1])},
-                                      edge.points,
-                                      std::vector<double>(edge.points.size(), radius),
-                                      {}}));
+    skeleton.AddEdge({{nodes.at(edge.nodes[0]), nodes.at(edge.nodes[1])},
+                      edge.points,
+                      std::vector<double>(edge.points.size(), radius),
+                      {}});
   }
-  return added;
 }
 
 // Removes joins that images do not show: straight lines, as yet without points on them.
@@ -107,18 +106,17 @@ void DropDetached(const std::vector<Vec3>& curves, SkeletonGraph& skeleton) {
 
 }  // namespace
 
-double AddCandidateCurves(const ObservedPoints& candidates, const RidgeOptions& options,
-                          double radius, StripViews& views, SkeletonGraph& skeleton) {
+double AddCandidateCurves(const Sequence& sequence, const ObservedPoints& candidates,
+                          const RidgeOptions& options, double radius, StripViews& views,
+                          SkeletonGraph& skeleton) {
   const std::vector<Vec3> known = PointsOf(skeleton);
   if (candidates.empty()) return 0;
   SkeletonGraph found = ExtractRidgeSkeleton(candidates, options);
   KeepNewWires(known, found);
-  DropRefutedParts([&views](const Polyline& points) { return views.SharesAlong(points); },
-                   kMinStripShare, {}, found);
+  KeepProvenCandidates(sequence, radius, views, found);
   if (found.empty()) return 0;
   const double length = skeleton.TotalLength();
-  for (const EdgeId id : AddGraph(found, radius, skeleton))
-    views.Explain(skeleton.edge(id).points, skeleton.edge(id).radii);
+  AddGraph(found, radius, skeleton);
   TrackTips(radius, views, skeleton);
   FreeEndOptions reach = options.free_ends;
   reach.max_gap = kMaxGap;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 #include <optional>
@@ -16,40 +15,56 @@ namespace {
 constexpr size_t kPlaceStride = 2;
 // Chosen: metres beyond the curve's radius, out of its blur and mostly before the next wire.
 constexpr double kDistance[] = {0.004, 0.007, 0.010};
-constexpr double kBlurPx = 1.5;    // around a curve its own colour shows
-constexpr size_t kMinLooks = 6;    // chosen: images of a point, for a median and how far from it
-constexpr int kMinDirections = 4;  // chosen: with known points on half of them or more
-constexpr double kNearest = 0.05;  // metres before a camera
-constexpr double kAhead = 1e-3;    // metres, between which a direction is projected
-constexpr double kFromItsEnd = 1e-3;  // pixels that kAhead covers, at most
+constexpr double kBlurPx = 1.5;  // around a curve its own colour shows
+constexpr size_t kMinLooks = 6;  // chosen: images of a point, for a median and how far from it
+constexpr double kEven = 4;      // grey levels between points; chosen: noise and shading
+constexpr double kAnotherColour = 20;  // grey levels; chosen
+constexpr size_t kMinDirections = 4;   // chosen: with known points on half of them or more
+constexpr double kNearest = 0.05;      // metres before a camera
+constexpr double kAhead = 1e-3;        // metres, between which a direction is projected
+constexpr double kFromItsEnd = 1e-3;   // pixels that kAhead covers, at most
 
-constexpr int kSurfaceImages = 8;         // chosen: some hundred lines
-constexpr int kLinesAcross = 16;          // of an image
-constexpr double kHalfLine = 0.016;       // metres
-constexpr double kLineStep = 0.004;       // metres
-constexpr double kLineRadius = 0.003;     // metres, as of a wire
-constexpr double kSurfaceReach = 0.025;   // metres to all sides, beyond what is beside the line
+constexpr int kSurfaceImages = 8;          // chosen: some hundred lines
+constexpr int kLinesAcross = 16;           // of an image
+constexpr double kHalfLine = 0.016;        // metres
+constexpr double kLineStep = 0.004;        // metres
+constexpr double kLineRadius = 0.003;      // metres, as of a wire
+constexpr double kSurfaceReach = 0.025;    // metres to all sides, beyond what is beside the line
 constexpr double kSurfaceFlatness = 0.02;  // of the distance; noise is less
 constexpr int kMinReachPx = 4;
 
-// The mean over channels of the mean distance from the median, grey levels.
-double MeanChange(const std::vector<Rgb>& colours) {
-  std::vector<int> values(colours.size());
+using Colour = Eigen::Array3d;
+
+// What images show at a point.
+struct SeenColour {
+  Colour median;
+  double change = 0;  // mean distance from it, grey levels
+};
+
+double MedianOf(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  int64_t sum = 0;
-  for (size_t channel = 0; channel < 3; ++channel) {
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+template <typename Colours>  // of colours by channel
+SeenColour Summary(const Colours& colours) {
+  SeenColour seen;
+  std::vector<double> values(colours.size());
+  for (int channel = 0; channel < 3; ++channel) {
     std::transform(colours.begin(), colours.end(), values.begin(),
-                   [&](const Rgb& color) { return color[channel]; });
-    std::nth_element(values.begin(), middle, values.end());
-    for (const int value : values) sum += std::abs(value - *middle);
+                   [&](const auto& color) { return color[channel]; });
+    seen.median[channel] = MedianOf(values);
+    for (const double value : values) seen.change += std::abs(value - seen.median[channel]);
   }
-  return static_cast<double>(sum) / static_cast<double>(3 * colours.size());
+  seen.change /= static_cast<double>(3 * colours.size());
+  return seen;
 }
 
 // How a line is seen at one of its places.
 struct LineInImage {
   Vec2 pixel;
-  Vec2 along;        // unit
+  Vec2 along;         // unit
   double own_px = 0;  // to both sides its own colour shows
 
   double DistanceTo(const Vec2& other) const {
@@ -84,8 +99,8 @@ std::optional<SurfacePatch> PatchAt(const DepthImage& depth, const PinholeCamera
   const double z = depth(u, v);
   if (z <= 0) return std::nullopt;
   const int reach = std::max(kMinReachPx, static_cast<int>(kSurfaceReach * camera.fx / z));
-  const bool is_inside = u >= reach && v >= reach && u + reach < depth.width() &&
-                         v + reach < depth.height();
+  const bool is_inside =
+      u >= reach && v >= reach && u + reach < depth.width() && v + reach < depth.height();
   if (!is_inside) return std::nullopt;
   const auto point = [&](int du, int dv) -> Vec3 {
     return camera.Unproject(u + du, v + dv, depth(u + du, v + dv));
@@ -127,6 +142,10 @@ void ColourBeside::Look(const ColorImage& smoothed, const PinholeCamera& camera,
   for (Place& place : places_) {
     const auto line = SeenIn(camera, T_camera_world, place.on_curve);
     if (!line) continue;
+    if (camera.Contains(line->pixel)) {
+      const Eigen::Vector2i at = PinholeCamera::Rounded(line->pixel);
+      place.own.push_back(smoothed(at.x(), at.y()));
+    }
     for (auto& points : place.beside) {
       for (Point& point : points) {
         const Vec2 pixel = camera.Project(Vec3(T_camera_world * point.position));
@@ -138,19 +157,35 @@ void ColourBeside::Look(const ColorImage& smoothed, const PinholeCamera& camera,
   }
 }
 
+// The change in a direction; nothing where too little of it is seen, or where something even lies
+// there of another colour than the curve's own: whether it is near or far is not to be told.
+std::optional<double> ColourBeside::ChangeIn(size_t direction, const Colour& own) const {
+  std::vector<Colour> medians;
+  double sum = 0;
+  for (const Place& place : places_) {
+    for (const Point& point : place.beside[direction]) {
+      if (point.colours.size() < kMinLooks) continue;
+      const SeenColour seen = Summary(point.colours);
+      medians.push_back(seen.median);
+      sum += seen.change;
+    }
+  }
+  if (2 * medians.size() < kDistances * places_.size()) return std::nullopt;
+  const SeenColour all = Summary(medians);
+  if (all.change < kEven && (all.median - own).abs().mean() > kAnotherColour) return std::nullopt;
+  return sum / static_cast<double>(medians.size());
+}
+
 ColourChange ColourBeside::Change() const {
+  std::vector<Colour> on_curve;
+  for (const Place& place : places_) {
+    if (place.own.size() >= kMinLooks) on_curve.push_back(Summary(place.own).median);
+  }
+  if (on_curve.empty()) return {};
+  const Colour own = Summary(on_curve).median;
   std::vector<double> changes;
   for (size_t k = 0; k < kDirections; ++k) {
-    double sum = 0;
-    size_t known = 0;
-    for (const Place& place : places_) {
-      for (const Point& point : place.beside[k]) {
-        if (point.colours.size() < kMinLooks) continue;
-        sum += MeanChange(point.colours);
-        ++known;
-      }
-    }
-    if (2 * known >= kDistances * places_.size()) changes.push_back(sum / known);
+    if (const auto change = ChangeIn(k, own)) changes.push_back(*change);
   }
   if (changes.size() < kMinDirections) return {};
   const auto [least, most] = std::minmax_element(changes.begin(), changes.end());
@@ -178,8 +213,8 @@ std::vector<std::vector<CurvePlace>> LinesOnSurfaces(const Sequence& sequence) {
         if (!patch) continue;
         is_horizontal = !is_horizontal;
         const Vec3 along = is_horizontal ? patch->right - patch->left : patch->below - patch->above;
-        lines.push_back(LineAt(T_world_camera * patch->middle,
-                               T_world_camera.linear() * along.normalized()));
+        lines.push_back(
+            LineAt(T_world_camera * patch->middle, T_world_camera.linear() * along.normalized()));
       }
     }
   };

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "capture/sequence.h"
@@ -42,8 +44,11 @@ class ColourBeside {
   };
   struct Place {
     CurvePlace on_curve;
+    std::vector<Rgb> own;  // colours at the curve
     std::array<std::array<Point, kDistances>, kDirections> beside;
   };
+
+  std::optional<double> ChangeIn(size_t direction, const Eigen::Array3d& own) const;
 
   std::vector<Place> places_;
 };

@@ -23,6 +23,7 @@ constexpr double kMinBaseline = 0.02;  // metres
 constexpr double kSamePlace = 0.015;   // metres; places nearer to each other are one wire
 constexpr size_t kMaxRays = 20000;     // more tell the same again
 constexpr int kMinFirstLooks = 2;
+constexpr int kMinFullLooks = 4;  // where all of them show a strip
 constexpr int kMinLooks = 8;
 constexpr double kNearest = 0.05;  // metres before a camera
 constexpr int64_t kReports = 50;   // chosen: of progress
@@ -37,9 +38,17 @@ struct Place {
   StripAgreement agreement;
 };
 
+// Where images are full of strips that all show one says nothing for a wire, but nothing against
+// it.
+bool AgreesRoughly(const StripAgreement& look) {
+  if (look.evidence >= kCoarseEvidence) return look.looked >= kMinFirstLooks;
+  return look.looked >= kMinFullLooks && look.seen == look.looked && look.evidence >= 0;
+}
+
 class CandidateSearch {
  public:
-  explicit CandidateSearch(const StripViews& views) : views_(views) {}
+  CandidateSearch(const StripViews& views, CandidatePlaces wanted)
+      : views_(views), wanted_(wanted) {}
 
   ObservedPoints Find(const std::function<void(int64_t done, int64_t total)>& on_progress) const {
     std::vector<Ray> rays;
@@ -117,7 +126,7 @@ class CandidateSearch {
       if (views_.Hides(view, p)) break;
       const double step = Step(at, baseline, kCoarsePx);
       const StripAgreement look = views_.FirstLook(p);
-      const bool agrees = look.evidence >= kCoarseEvidence && look.looked >= kMinFirstLooks;
+      const bool agrees = AgreesRoughly(look);
       if (agrees && begin < 0) begin = at - step;
       if (!agrees && begin >= 0) {
         AddPlaces(view, ray, baseline, begin, at, places);
@@ -141,7 +150,8 @@ class CandidateSearch {
       return std::abs(place.distance - best.distance) > kSamePlace &&
              place.agreement.Sum() > best.agreement.Sum() - kAmbiguous;
     });
-    if (is_ambiguous || !views_.IsFree(best.position)) return std::nullopt;
+    if (is_ambiguous) return std::nullopt;
+    if (wanted_ == CandidatePlaces::kFree && !views_.IsFree(best.position)) return std::nullopt;
     return best;
   }
 
@@ -161,14 +171,16 @@ class CandidateSearch {
   }
 
   const StripViews& views_;
+  CandidatePlaces wanted_;
 };
 
 }  // namespace
 
 ObservedPoints FindColourCandidates(
-    const StripViews& views, const std::function<void(int64_t done, int64_t total)>& on_progress) {
+    const StripViews& views, CandidatePlaces wanted,
+    const std::function<void(int64_t done, int64_t total)>& on_progress) {
   if (views.views().empty()) return {};
-  return CandidateSearch(views).Find(on_progress);
+  return CandidateSearch(views, wanted).Find(on_progress);
 }
 
 }  // namespace curvefusion

@@ -8,14 +8,21 @@
 
 namespace curvefusion {
 
+/// Which places are wanted.
+enum class CandidatePlaces {
+  kFree,  ///< only those behind which depth shows something farther
+  kAll,
+};
+
 /// Places of wires that the colour images show and no curve explains: thin wires that depth loses.
 /// In some images, pixels in the middle of strips are followed along their lines of sight; a place
-/// counts where nearly all images that look at it show the middle of a strip there as well, and
-/// where depth shows something farther behind it. Nothing for a line of sight on which two places
-/// do so, or many in a row, as along wires that the camera moves along. Counts are those of the
-/// images that agree. Costs about 50 ns for each unexplained pixel, depth and view. `on_progress`
-/// is called by the caller's thread; its exceptions pass through.
+/// counts where nearly all images that look at it show the middle of a strip there as well. Nothing
+/// for a line of sight on which two places do so, or many in a row, as along wires that the camera
+/// moves along. Counts are those of the images that agree. Costs about 50 ns for each unexplained
+/// pixel, depth and view. `on_progress` is called by the caller's thread; its exceptions pass
+/// through.
 ObservedPoints FindColourCandidates(
-    const StripViews& views, const std::function<void(int64_t done, int64_t total)>& on_progress);
+    const StripViews& views, CandidatePlaces wanted,
+    const std::function<void(int64_t done, int64_t total)>& on_progress);
 
 }  // namespace curvefusion

@@ -43,7 +43,7 @@ struct Stretch {
   double begin = 0, end = 0;  // arc lengths
   std::vector<CurvePlace> places;
   std::optional<ColourBeside> colours;  // as soon as the places are known
-  Vec3 tangent, across;  // unit
+  Vec3 tangent, across;                 // unit
   std::array<DirectionCounts, kDirections> directions = {};
   std::vector<double> widths;
   double pixel = 0;

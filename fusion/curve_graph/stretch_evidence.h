@@ -30,17 +30,17 @@ struct StretchEvidence {
   double width = 0;  ///< metres, median of the connected depth where both sides were open; 0 = none
   double pixel = 0;  ///< metres that a pixel is wide there, mean
   int strips = 0;    ///< in colour images, that agree with the edge's diameter
-  double coverage = 0;  ///< share of the length near such strips
-  double diameter = 0;  ///< of the edge by its strips, metres; 0 = not measured
-  ColourChange beside;  ///< of the colours beside it
+  double coverage = 0;     ///< share of the length near such strips
+  double diameter = 0;     ///< of the edge by its strips, metres; 0 = not measured
+  ColourChange beside;     ///< of the colours beside it
   double on_surfaces = 0;  ///< median of the least change beside lines on the scan's surfaces; 0 =
                            ///< not known
 };
 
 /// Cuts every edge into stretches and looks at each in at most `max_frames` evenly spread depth
-/// images and half as many colour images; `radii` are those of the skeleton (world frame). Stretches by edge, then along it.
-/// Throws Error(kBadInput) for an image that cannot be decoded. Cost: places (every 4 mm) x frames
-/// x 100 pixels.
+/// images and half as many colour images; `radii` are those of the skeleton (world frame).
+/// Stretches by edge, then along it. Throws Error(kBadInput) for an image that cannot be decoded.
+/// Cost: places (every 4 mm) x frames x 100 pixels.
 std::vector<StretchEvidence> CollectEvidence(const SkeletonGraph& skeleton,
                                              const RadiusEstimate& radii, const Sequence& sequence,
                                              int max_frames);

@@ -58,9 +58,13 @@ struct Terms {
 // all around.
 double OpenInColour(const StretchEvidence& e) {
   const double of_most = kOpenRatio + std::log((e.beside.least + 1) / (e.beside.most + 1));
-  const double of_surfaces =
-      kOverSurfaces * std::log((e.beside.least + 1) / (e.on_surfaces + 1));
+  const double of_surfaces = kOverSurfaces * std::log((e.beside.least + 1) / (e.on_surfaces + 1));
   return std::max(kLeastOpen, std::min(of_most, of_surfaces));
+}
+
+double ToldByColour(const StretchEvidence& e) {
+  const double telling = e.beside.most * e.beside.most;
+  return telling / (telling + kTellingChange * kTellingChange);
 }
 
 Terms OwnTerms(const StretchEvidence& e) {
@@ -71,9 +75,8 @@ Terms OwnTerms(const StretchEvidence& e) {
   terms.surface = w * kSame * std::log((e.same + kSameFloor) / kSameFloor);
   terms.thick = w * kWide * wide + kThick * thick;
   terms.past = w * (kPast * e.past + kMostlyPast * std::clamp((e.past - 0.6) / 0.4, 0.0, 1.0));
-  const double telling = e.beside.most * e.beside.most;
-  terms.told_by_colour = telling / (telling + kTellingChange * kTellingChange);
-  terms.colour = terms.told_by_colour * (kToldByColour + kOpenInColour * OpenInColour(e));
+  terms.told_by_colour = ToldByColour(e);
+  terms.colour = ColourLogOdds(e);
   terms.rest = kBias + w * kOpen * e.open + kCovered * e.coverage;
   return terms;
 }
@@ -98,6 +101,10 @@ std::map<EdgeId, int> PartOfEdges(const SkeletonGraph& skeleton) {
 }
 
 }  // namespace
+
+double ColourLogOdds(const StretchEvidence& evidence) {
+  return ToldByColour(evidence) * (kToldByColour + kOpenInColour * OpenInColour(evidence));
+}
 
 double Probability(double log_odds) { return 1 / (1 + std::exp(-log_odds)); }
 

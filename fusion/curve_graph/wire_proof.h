@@ -24,6 +24,9 @@ struct WireProof {
 /// 1 / (1 + exp(-log_odds)).
 double Probability(double log_odds);
 
+/// What the colours beside a stretch add to its log-odds; 0 where they tell nothing.
+double ColourLogOdds(const StretchEvidence& evidence);
+
 /// Judges every stretch by its own evidence and by that of the stretches around it on the same
 /// connected part of the skeleton: few wires end within some centimetres, and what hides one
 /// stretch rarely hides those beside it. On validation scans it says too little in the middle: of

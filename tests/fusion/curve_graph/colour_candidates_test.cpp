@@ -25,8 +25,9 @@ SkeletonGraph Known() {
 
 double DistanceTo(const Polyline& curve, const Vec3& p) { return Project(curve, p).distance; }
 
-ObservedPoints FindCandidates(const StripViews& views) {
-  return FindColourCandidates(views, [](int64_t, int64_t) {});
+ObservedPoints FindCandidates(const StripViews& views,
+                              CandidatePlaces wanted = CandidatePlaces::kFree) {
+  return FindColourCandidates(views, wanted, [](int64_t, int64_t) {});
 }
 
 TEST(ColourCandidates, LieOnTheWireThatNoCurveExplains) {
@@ -52,14 +53,25 @@ TEST(ColourCandidates, NoneWhereNothingIsFarBehind) {
   EXPECT_TRUE(FindCandidates(scan.Strips(Known())).empty());
 }
 
+// Before something even, colours tell no more than depth does.
+TEST(CandidateCurves, WhatIsPaintedOnAWallIsLeftOut) {
+  const SilhouetteScan scan({kStem, kTwig}, {}, 0.605);
+  SkeletonGraph graph = Known();
+  StripViews views = scan.Strips(graph);
+  const ObservedPoints places = FindCandidates(views, CandidatePlaces::kAll);
+  EXPECT_FALSE(places.empty());
+  EXPECT_EQ(AddCandidateCurves(scan.sequence(), places, {}, kTestRadius, views, graph), 0);
+}
+
 TEST(ColourCandidates, TellHowFarTheSearchIs) {
   const SilhouetteScan scan({kStem, kTwig}, {}, kBehind);
   std::vector<int64_t> steps;
   int64_t of = 0;
-  FindColourCandidates(scan.Strips(Known()), [&](int64_t done, int64_t total) {
-    steps.push_back(done);
-    of = total;
-  });
+  FindColourCandidates(scan.Strips(Known()), CandidatePlaces::kFree,
+                       [&](int64_t done, int64_t total) {
+                         steps.push_back(done);
+                         of = total;
+                       });
   ASSERT_GT(of, 10);
   std::vector<int64_t> all(of);
   std::iota(all.begin(), all.end(), 0);
@@ -75,7 +87,8 @@ TEST(CandidateCurves, JoinWhatIsThere) {
   const SilhouetteScan scan({kStem, kTwig}, {}, kBehind);
   SkeletonGraph graph = Known();
   StripViews views = scan.Strips(graph);
-  const double added = AddCandidateCurves(FindCandidates(views), {}, kTestRadius, views, graph);
+  const double added =
+      AddCandidateCurves(scan.sequence(), FindCandidates(views), {}, kTestRadius, views, graph);
   EXPECT_NEAR(added, Length(kTwig), 0.01);
   EXPECT_EQ(graph.ComponentCount(), 1);
   EXPECT_TRUE(Faults(graph).empty());
@@ -88,14 +101,14 @@ TEST(CandidateCurves, ThatHangTogetherWithNothingAreLeftOut) {
   StripViews views = scan.Strips(graph);
   const ObservedPoints candidates = FindCandidates(views);
   EXPECT_FALSE(candidates.empty());
-  EXPECT_EQ(AddCandidateCurves(candidates, {}, kTestRadius, views, graph), 0);
+  EXPECT_EQ(AddCandidateCurves(scan.sequence(), candidates, {}, kTestRadius, views, graph), 0);
   EXPECT_EQ(graph.edge_count(), 1);
 }
 
 TEST(CandidateCurves, NothingWithoutCandidates) {
   SkeletonGraph graph = Known();
   StripViews views({}, {}, {}, Eigen::AlignedBox3d());
-  EXPECT_EQ(AddCandidateCurves({}, {}, kTestRadius, views, graph), 0);
+  EXPECT_EQ(AddCandidateCurves({}, {}, {}, kTestRadius, views, graph), 0);
 }
 
 }  // namespace
