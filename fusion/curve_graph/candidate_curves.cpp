@@ -24,7 +24,6 @@ constexpr double kJoin = 0.004;   // metres; points of curves are nearer to each
 constexpr double kStep = 0.0015;  // metres
 constexpr double kMaxGap = 0.06;  // metres
 constexpr double kMaxGapPerLength = 1.2;
-constexpr double kMinPiece = 0.012;  // metres; the shortest spur
 
 std::vector<Vec3> PointsOf(const SkeletonGraph& skeleton) {
   std::vector<Vec3> points;

@@ -20,22 +20,18 @@ constexpr double kMinColourLogOdds = 0.2;
 constexpr double kMinMiddleEvidence = 0.03;  // of an image that shows a strip
 constexpr double kMinLooks = 8;              // images that no other curve explains, in the mean
 constexpr double kMinSupport = 0.6;          // share of these that show a strip
-constexpr double kMinPiece = 0.012;          // metres; the shortest spur
 
-// What images tell of points [first, last] of a curve, sums over the points.
+// What images tell of a part of a curve, sums over its points.
 struct Support {
   double looked = 0, seen = 0, middle_evidence = 0;
 };
 
-Support SupportOf(const StripViews& views, const Polyline& points, const EdgePart& part) {
+Support SupportOf(const std::vector<StripAgreement>& along, const EdgePart& part) {
   Support support;
   for (size_t i = part.first; i <= part.last; ++i) {
-    const Vec3& before = points[i > 0 ? i - 1 : 0];
-    const Vec3& behind = points[std::min(i + 1, points.size() - 1)];
-    const StripAgreement look = views.Along(points[i], (behind - before).normalized());
-    support.looked += look.looked;
-    support.seen += look.seen;
-    support.middle_evidence += look.middle_evidence;
+    support.looked += along[i].looked;
+    support.seen += along[i].seen;
+    support.middle_evidence += along[i].middle_evidence;
   }
   return support;
 }
@@ -46,18 +42,24 @@ bool IsMostlyFree(const StripViews& views, const Polyline& points, const EdgePar
   return 2 * free > part.last - part.first + 1;
 }
 
-bool IsOpen(const StripViews& views, const StretchEvidence& stretch, const Polyline& points) {
-  if (IsMostlyFree(views, points, stretch.part)) return true;
-  if (ColourLogOdds(stretch) <= kMinColourLogOdds) return false;
-  const Support support = SupportOf(views, points, stretch.part);
-  return support.middle_evidence > kMinMiddleEvidence * support.seen;
+bool IsOpenInColour(const StretchEvidence& stretch, const std::vector<StripAgreement>& along) {
+  const Support support = SupportOf(along, stretch.part);
+  return ColourLogOdds(stretch) > kMinColourLogOdds &&
+         support.middle_evidence > kMinMiddleEvidence * support.seen;
 }
 
 void KeepOpenStretches(const Sequence& sequence, const StripViews& views, SkeletonGraph& curves) {
+  std::map<EdgeId, std::vector<StripAgreement>> along;
   std::map<EdgeId, std::vector<EdgePart>> kept;
-  for (const EdgeId id : curves.Edges()) kept[id];
+  for (const EdgeId id : curves.Edges()) {
+    along[id] = views.AgreementsAlong(curves.edge(id).points);
+    kept[id];
+  }
   for (const StretchEvidence& stretch : CollectEvidence(curves, {}, sequence, 0)) {
-    if (!IsOpen(views, stretch, curves.edge(stretch.edge).points)) continue;
+    const Polyline& points = curves.edge(stretch.edge).points;
+    const bool stays = IsMostlyFree(views, points, stretch.part) ||
+                       IsOpenInColour(stretch, along.at(stretch.edge));
+    if (!stays) continue;
     std::vector<EdgePart>& parts = kept[stretch.edge];
     if (!parts.empty() && parts.back().last == stretch.part.first) {
       parts.back().last = stretch.part.last;
@@ -72,7 +74,7 @@ void KeepOpenStretches(const Sequence& sequence, const StripViews& views, Skelet
 void ExplainAway(double radius, StripViews& views, SkeletonGraph& curves) {
   const auto support_of = [&](EdgeId id) {
     const Polyline& points = curves.edge(id).points;
-    return SupportOf(views, points, {0, points.size() - 1});
+    return SupportOf(views.AgreementsAlong(points), {0, points.size() - 1});
   };
   std::vector<std::pair<double, EdgeId>> by_evidence;
   for (const EdgeId id : curves.Edges())

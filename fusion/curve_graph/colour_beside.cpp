@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "capture/frame_stream.h"
+#include "kernel/quantile.h"
 
 namespace curvefusion {
 
@@ -17,8 +18,9 @@ constexpr size_t kPlaceStride = 2;
 constexpr double kDistance[] = {0.004, 0.007, 0.010};
 constexpr double kBlurPx = 1.5;  // around a curve its own colour shows
 constexpr size_t kMinLooks = 6;  // chosen: images of a point, for a median and how far from it
-constexpr double kEven = 4;      // grey levels between points; chosen: noise and shading
-constexpr double kAnotherColour = 20;  // grey levels; chosen
+// Chosen, for the wall behind the real cable: grey levels between points, for noise and shading,
+constexpr double kEven = 4;
+constexpr double kAnotherColour = 20;  // and from the curve's own colour.
 constexpr size_t kMinDirections = 4;   // chosen: with known points on half of them or more
 constexpr double kNearest = 0.05;      // metres before a camera
 constexpr double kAhead = 1e-3;        // metres, between which a direction is projected
@@ -41,12 +43,6 @@ struct SeenColour {
   double change = 0;  // mean distance from it, grey levels
 };
 
-double MedianOf(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 template <typename Colours>  // of colours by channel
 SeenColour Summary(const Colours& colours) {
   SeenColour seen;
@@ -54,7 +50,7 @@ SeenColour Summary(const Colours& colours) {
   for (int channel = 0; channel < 3; ++channel) {
     std::transform(colours.begin(), colours.end(), values.begin(),
                    [&](const auto& color) { return color[channel]; });
-    seen.median[channel] = MedianOf(values);
+    seen.median[channel] = Median(values);
     for (const double value : values) seen.change += std::abs(value - seen.median[channel]);
   }
   seen.change /= static_cast<double>(3 * colours.size());

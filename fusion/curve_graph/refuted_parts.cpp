@@ -13,7 +13,6 @@ constexpr double kMinRefuted = 0.002;  // metres; shorter runs are corners of cu
 constexpr double kLongRun = 0.008;     // metres; wires are no farther beside their place
 constexpr double kClearlyFalse = 0.7;  // of the least share of images
 constexpr double kOverlooked = 0.36;   // likewise; so few may show a wire before its own colour
-constexpr double kMinPiece = 0.012;    // metres; the shortest spur
 
 // Whether the edge goes on at both ends of a run for longer than the run is.
 bool IsBetweenLonger(const Polyline& points, const EdgePart& run) {

@@ -318,15 +318,20 @@ StripAgreement StripViews::AgreementAt(const Vec3& p, int look, int stride,
   return agreement;
 }
 
+std::vector<StripAgreement> StripViews::AgreementsAlong(const Polyline& points) const {
+  const std::vector<Vec3> tangents = Tangents(points);
+  std::vector<StripAgreement> agreements(points.size());
+  ParallelFor(0, static_cast<int64_t>(points.size()), 8,
+              [&](int64_t i) { agreements[i] = Along(points[i], tangents[i]); });
+  return agreements;
+}
+
 std::vector<double> StripViews::SharesAlong(const Polyline& points) const {
-  std::vector<double> shares(points.size(), 1);
-  ParallelFor(0, static_cast<int64_t>(points.size()), 8, [&](int64_t i) {
-    const size_t before = i > 0 ? i - 1 : 0;
-    const size_t behind = std::min<size_t>(i + 1, points.size() - 1);
-    const Vec3 direction = (points[behind] - points[before]).normalized();
-    const StripAgreement look = Along(points[i], direction);
-    if (look.looked >= kMinLooks) shares[i] = static_cast<double>(look.seen) / look.looked;
-  });
+  std::vector<double> shares;
+  for (const StripAgreement& look : AgreementsAlong(points)) {
+    const bool is_told = look.looked >= kMinLooks;
+    shares.push_back(is_told ? static_cast<double>(look.seen) / look.looked : 1);
+  }
   return shares;
 }
 

@@ -79,6 +79,9 @@ class StripViews {
     return AgreementAt(p, 1, 1, &direction);
   }
 
+  /// Along at each place of a curve.
+  std::vector<StripAgreement> AgreementsAlong(const Polyline& points) const;
+
   /// The share of the images of Along that show a strip at each place of a curve; 1 where too few
   /// look.
   std::vector<double> SharesAlong(const Polyline& points) const;

@@ -30,7 +30,7 @@ double ColourLogOdds(const StretchEvidence& evidence);
 /// Judges every stretch by its own evidence and by that of the stretches around it on the same
 /// connected part of the skeleton: few wires end within some centimetres, and what hides one
 /// stretch rarely hides those beside it. On validation scans it says too little in the middle: of
-/// what it holds 90 % likely all is true, of 44 % too (docs/proof.md). `evidence` is
+/// what it holds 90 % likely all is true, of 58 % .98 (docs/proof.md). `evidence` is
 /// CollectEvidence of the skeleton. Cost: n log n.
 std::vector<WireProof> ProveWires(const SkeletonGraph& skeleton,
                                   const std::vector<StretchEvidence>& evidence);

@@ -57,6 +57,23 @@ TEST(ColourBeside, OnASurfaceItsOwnColourStays) {
 
 TEST(ColourBeside, AnEvenBackgroundTellsNothing) { EXPECT_LT(Change(kDistance + 0.2, 0).most, 1); }
 
+// A dark wire before a wall whose brightness drifts: near or far, it would look the same.
+TEST(ColourBeside, WhatIsEvenAndOfAnotherColourIsLeftOut) {
+  const auto change_before_wall = [](uint8_t wire) {
+    ColourBeside beside(Line());
+    for (int i = 0; i < 12; ++i) {
+      const auto wall = static_cast<uint8_t>(200 + 4 * (i % 3));
+      ColorImage image(kCamera.width, kCamera.height, Rgb{wall, wall, wall});
+      for (int v = 0; v < image.height(); ++v)
+        for (int u = 82; u <= 84; ++u) image(u, v) = {wire, wire, wire};
+      beside.Look(image, kCamera, RigidTransform::Identity());
+    }
+    return beside.Change();
+  };
+  EXPECT_EQ(change_before_wall(20).most, 0);
+  EXPECT_GT(change_before_wall(200).most, 1);  // of the wall's own colour: may be printed on it
+}
+
 TEST(ColourBeside, IsNotKnownFromFewImages) {
   EXPECT_EQ(Change(kDistance + 0.2, 60, 5).most, 0);
   EXPECT_EQ(ColourBeside(Line()).Change().most, 0);

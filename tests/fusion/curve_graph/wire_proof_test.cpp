@@ -40,6 +40,13 @@ StretchEvidence ShelfEdge() {
   return edge;
 }
 
+// All around it the background changes from image to image.
+StretchEvidence OpenInColour(StretchEvidence evidence) {
+  evidence.beside = {20, 25};
+  evidence.on_surfaces = 3;
+  return evidence;
+}
+
 double Alone(const StretchEvidence& evidence) {
   Stretches one;
   one.Add(Vec3::Zero(), evidence);
@@ -72,10 +79,7 @@ TEST(WireProof, AWireOf12MillimetresIsNotTooThick) {
 }
 
 TEST(WireProof, ColoursBesideItTellWhereTheyChange) {
-  StretchEvidence open = ShelfEdge();
-  open.beside = {20, 25};
-  open.on_surfaces = 3;
-  EXPECT_GT(Alone(open), Alone(ShelfEdge()));  // depth has filled a gap
+  EXPECT_GT(Alone(OpenInColour(ShelfEdge())), Alone(ShelfEdge()));  // depth has filled a gap
   StretchEvidence closed = Wire();
   closed.beside = {3, 25};
   closed.on_surfaces = 3;
@@ -83,24 +87,19 @@ TEST(WireProof, ColoursBesideItTellWhereTheyChange) {
 }
 
 TEST(WireProof, ColoursOfEvenBackgroundsOrOfPoorPosesTellLittle) {
-  StretchEvidence open = ShelfEdge();
-  open.beside = {20, 25};
-  open.on_surfaces = 3;
   StretchEvidence even = ShelfEdge();
   even.beside = {0.9, 1};
   even.on_surfaces = 0.5;
   EXPECT_NEAR(Alone(even), Alone(ShelfEdge()), 0.02);
-  StretchEvidence poor = open;
+  StretchEvidence poor = OpenInColour(ShelfEdge());
   poor.on_surfaces = 20;  // surfaces change as much
-  EXPECT_LT(Alone(poor), Alone(open));
+  EXPECT_LT(Alone(poor), Alone(OpenInColour(ShelfEdge())));
 }
 
 TEST(WireProof, AThickBarIsNoWireWhereColourShowsItOpen) {
-  StretchEvidence bar = Wire();
+  StretchEvidence bar = OpenInColour(Wire());
   bar.width = 0.03;
   bar.diameter = 0.025;
-  bar.beside = {20, 25};
-  bar.on_surfaces = 3;
   EXPECT_LT(Alone(bar), 0.2);
 }
 
