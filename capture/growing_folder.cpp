@@ -1,7 +1,9 @@
 #include "capture/growing_folder.h"
 
 #include <array>
+#include <chrono>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -11,6 +13,7 @@
 #include "capture/readers/frame_assembly.h"
 #include "capture/trajectory.h"
 #include "kernel/error.h"
+#include "kernel/text_input.h"
 
 namespace curvefusion {
 
@@ -20,6 +23,8 @@ namespace fs = std::filesystem;
 using namespace std::string_view_literals;
 
 constexpr double kMillimetreUnits = 1000;
+// Whoever writes a file of a few lines takes no longer for it.
+constexpr std::chrono::seconds kWritten{2};
 constexpr std::array<std::string_view, 2> kImageEnds = {
     "IEND\xAE\x42\x60\x82"sv,  // of a PNG
     "\xFF\xD9"sv,              // of a JPEG
@@ -49,6 +54,14 @@ std::optional<RigidTransform> CompletePose(const fs::path& path) {
   return ReadPoseMatrix(path, [](const CheckFinding&) {});
 }
 
+// A file that is no JSON yet, and was touched just now.
+bool IsBeingWritten(const fs::path& json) {
+  std::error_code unknown;
+  const fs::file_time_type touched = fs::last_write_time(json, unknown);
+  return !unknown && fs::file_time_type::clock::now() - touched < kWritten &&
+         !nlohmann::json::accept(ReadFile(json));
+}
+
 // A folder may disappear between two looks at it.
 NumberedImages ImagesIn(const fs::path& folder) {
   return IsThere(folder) ? ImagesByFrameNumber(folder) : NumberedImages();
@@ -61,7 +74,8 @@ GrowingFolder::GrowingFolder(fs::path folder, bool use_poses)
 
 std::optional<Sequence> GrowingFolder::Cameras() const {
   const fs::path intrinsics = folder_ / "intrinsics.json";
-  if (!IsThere(intrinsics) || !IsThere(folder_ / "depth") || !IsThere(ColorFolder(folder_))) {
+  if (!IsThere(intrinsics) || !IsThere(folder_ / "depth") || !IsThere(ColorFolder(folder_)) ||
+      IsBeingWritten(intrinsics)) {
     return std::nullopt;
   }
   Sequence cameras;

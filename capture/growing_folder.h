@@ -17,8 +17,9 @@ class GrowingFolder {
  public:
   GrowingFolder(std::filesystem::path folder, bool use_poses);
 
-  /// The cameras, without frames; nothing before intrinsics.json and both folders are there. Throws
-  /// Error(kBadInput) for cameras that cannot be.
+  /// The cameras, without frames; nothing before intrinsics.json is complete and both folders are
+  /// there. Throws Error(kBadInput) for cameras that cannot be, and for text that is no JSON once
+  /// nobody has written to it for 2 s.
   std::optional<Sequence> Cameras() const;
 
   /// The frames that have become complete since the last call, in ascending order, none earlier

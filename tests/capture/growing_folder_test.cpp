@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <string>
 
 #include "kernel/error.h"
@@ -54,6 +55,20 @@ TEST_F(GrowingFolderTest, CamerasAreKnownOnceTheirFileIsThere) {
   EXPECT_TRUE(cameras->has_poses);
   WriteText(folder() / "intrinsics.json", R"({"width":32})");
   EXPECT_THROW(growing.Cameras(), Error);
+}
+
+TEST_F(GrowingFolderTest, CamerasThatAreBeingWrittenAreWaitedFor) {
+  const GrowingFolder growing(folder(), true);
+  const fs::path intrinsics = folder() / "intrinsics.json";
+  for (const double share : {0.0, 0.5}) {
+    Write("intrinsics.json");
+    Truncate(intrinsics, share);
+    EXPECT_FALSE(growing.Cameras()) << share;
+  }
+  fs::last_write_time(intrinsics, fs::file_time_type::clock::now() - std::chrono::seconds(3));
+  EXPECT_THROW(growing.Cameras(), Error);
+  Write("intrinsics.json");
+  EXPECT_TRUE(growing.Cameras());
 }
 
 TEST_F(GrowingFolderTest, FramesComeOnceAndInOrder) {
