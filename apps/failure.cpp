@@ -23,9 +23,9 @@ namespace {
 constexpr int kInternalError = 1;
 constexpr int kBrokenPipe = 128 + SIGPIPE;  // as a shell shows it
 
-// fmt would throw where the error stream cannot be written.
-int Tell(ErrorKind kind, const std::string& message) {
-  std::fprintf(stderr, "curvefusion: %s\n", message.c_str());
+// fmt would throw where the error stream cannot be written. Takes no memory: there may be none.
+int Tell(ErrorKind kind, std::string_view message) {
+  std::fprintf(stderr, "curvefusion: %.*s\n", static_cast<int>(message.size()), message.data());
   return ExitCode(kind);
 }
 
@@ -79,14 +79,8 @@ int TellOther(const std::exception& error) {
   return TellInternal(error.what());
 }
 
-}  // namespace
-
-void IgnoreWriteSignals() {
-  std::signal(SIGXFSZ, SIG_IGN);
-  std::signal(SIGPIPE, SIG_IGN);
-}
-
-int ReportFailure() {
+// Of what is being thrown.
+int TellWhatWasThrown() {
   try {
     throw;
   } catch (const Error& error) {
@@ -105,6 +99,21 @@ int ReportFailure() {
     return TellOther(error);
   } catch (...) {
     return TellInternal("an exception of unknown kind");
+  }
+}
+
+}  // namespace
+
+void IgnoreWriteSignals() {
+  std::signal(SIGXFSZ, SIG_IGN);
+  std::signal(SIGPIPE, SIG_IGN);
+}
+
+int ReportFailure() {
+  try {
+    return TellWhatWasThrown();
+  } catch (const std::bad_alloc&) {  // in the making of the message
+    return TellOutOfMemory();
   }
 }
 

@@ -54,14 +54,6 @@ int Parse(std::vector<std::string> arguments) {
   return exit_code;
 }
 
-int Run(int argc, char** argv) {
-  try {
-    return FlushedOutput(Parse(Arguments(argc, argv)));
-  } catch (...) {
-    return ReportFailure();
-  }
-}
-
 // What a step frees the next one asks for again: memory that is kept need not be cleared anew by
 // the system, page by page.
 void KeepFreedMemory() {
@@ -71,14 +63,20 @@ void KeepFreedMemory() {
 #endif
 }
 
+int Run(int argc, char** argv) {
+  try {
+    SetMemoryAside();
+    CatchInterrupts();
+    IgnoreWriteSignals();
+    KeepFreedMemory();
+    return FlushedOutput(Parse(Arguments(argc, argv)));
+  } catch (...) {
+    return ReportFailure();
+  }
+}
+
 }  // namespace
 
 }  // namespace curvefusion
 
-int main(int argc, char** argv) {
-  curvefusion::CatchInterrupts();
-  curvefusion::IgnoreWriteSignals();
-  curvefusion::KeepFreedMemory();
-  curvefusion::SetMemoryAside();
-  return curvefusion::Run(argc, argv);
-}
+int main(int argc, char** argv) { return curvefusion::Run(argc, argv); }

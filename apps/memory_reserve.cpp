@@ -31,6 +31,7 @@ void UseReserve() {
 void SetMemoryAside() {
   bridge = std::malloc(kHalfBytes);
   rest = std::malloc(kHalfBytes);
+  if (bridge == nullptr || rest == nullptr) throw std::bad_alloc();
   std::set_new_handler(UseReserve);
 }
 

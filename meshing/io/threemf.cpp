@@ -1,8 +1,10 @@
 #include <Model/COM/NMR_DLLInterfaces.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <new>
 #include <vector>
 
 #include "kernel/error.h"
@@ -40,6 +42,12 @@ class Handle {
   const std::string& file_;
   PLib3MFBase* object_ = nullptr;
 };
+
+// What lib3MF takes at once to read a file, at least.
+constexpr size_t kReaderBytes = 64 * 1024;
+
+// lib3MF calls a file damaged for which it has found no memory.
+void RequireMemory(size_t bytes) { ::operator delete(::operator new(bytes)); }
 
 AffineTransform TransformOf(const Handle& item) {
   AffineTransform T = AffineTransform::Identity();
@@ -120,8 +128,10 @@ TriangleMesh Read3mf(std::istream& stream, const std::string& name) {
   Handle model(name), reader(name), items(name);
   model.Require(NMR::lib3mf_createmodel(model.out()));
   model.Require(NMR::lib3mf_model_queryreader(model.get(), "3mf", reader.out()));
-  reader.Require(NMR::lib3mf_reader_readfrombuffer(
-      reader.get(), reinterpret_cast<BYTE*>(bytes.data()), bytes.size()));
+  const LIB3MFRESULT result = NMR::lib3mf_reader_readfrombuffer(
+      reader.get(), reinterpret_cast<BYTE*>(bytes.data()), bytes.size());
+  if (result != 0) RequireMemory(std::max(bytes.size(), kReaderBytes));
+  reader.Require(result);
   model.Require(NMR::lib3mf_model_getbuilditems(model.get(), items.out()));
   TriangleMesh mesh;
   while (true) {

@@ -217,6 +217,15 @@ void* mmap64(void* address, size_t length, int protection, int flags, int file, 
   return mmap(address, length, protection, flags, file, offset);
 }
 
+// TBB calls this once, when it is asked for the first thread; glibc's dlopen goes on without the memory
+// for its own messages, through a null pointer.
+void* dlopen(const char* file, int mode) {
+  is_left_out = true;
+  void* const library = REAL(dlopen)(file, mode);
+  is_left_out = false;
+  return library;
+}
+
 // OpenCV calls this once, when it is asked for the first image; GDAL, which this project does not
 // use, ends the program where there is no memory for the names of its formats.
 void GDALAllRegister() {
