@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "capture/detect_format.h"
@@ -50,15 +51,18 @@ Sequence OpenSequence(const std::filesystem::path& folder, PoseUse use) {
   return sequence;
 }
 
-bool IsVideo(const Sequence& sequence) {
+double StepBetweenFrames(const Sequence& sequence, double share) {
   std::vector<double> steps;
   for (size_t i = 1; i < sequence.frames.size(); ++i) {
     steps.push_back((sequence.frames[i].T_world_camera.translation() -
                      sequence.frames[i - 1].T_world_camera.translation())
                         .norm());
   }
-  return !steps.empty() && Quantile(std::move(steps), 0.75) < kVideoStep;
+  return steps.empty() ? std::numeric_limits<double>::infinity()
+                       : Quantile(std::move(steps), share);
 }
+
+bool IsVideo(const Sequence& sequence) { return StepBetweenFrames(sequence, 0.75) < kVideoStep; }
 
 DepthImage LoadDepth(const Sequence& sequence, int frame) {
   const SequenceFrame& entry = sequence.frames.at(static_cast<size_t>(frame));

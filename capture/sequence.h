@@ -60,6 +60,10 @@ enum class PoseUse {
 /// would spoil a reconstruction; capture/check.h finds all of them. Well under a second.
 Sequence OpenSequence(const std::filesystem::path& folder, PoseUse use = PoseUse::kNeeded);
 
+/// How far, in metres, the camera moves at most from frame to frame in this share of the steps;
+/// infinity where there is only one frame.
+double StepBetweenFrames(const Sequence& sequence, double share);
+
 /// Whether three quarters of the frames are as near to the next as those of a camera in a moving
 /// hand; otherwise they are views each of its own.
 bool IsVideo(const Sequence& sequence);

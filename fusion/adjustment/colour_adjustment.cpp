@@ -43,6 +43,9 @@ constexpr double kMaxVertices = 5500;  // of all curves, roughly
 constexpr size_t kFirstFrames = 40;
 constexpr int kOtherFrames = 80;
 constexpr int kMinStrips = 300;
+// Chosen: so far a camera in a hand moves in three of 30 frames a second; frames nearer to one another
+// tell little more (docs/colour_adjustment.md).
+constexpr double kUsedStep = 15 * kMillimetre;
 // Chosen: a spring whose turns hide one another (training spring 3) has .085 and comes from .64 to
 // .17 px; adjustments that do not fit have .04 and less (training rack 1 and spring 4).
 constexpr double kMinAcceptedShare = 0.05;
@@ -302,8 +305,9 @@ void VisitOptions(ColourAdjustmentOptions& options, OptionVisitor& visitor) {
       options.vertex_step);
   visitor.Visit(
       {"frame_stride", "frames", 1, 30,
-       "Deviation: only every so many-th frame of a video is used, of other views all, and at most "
-       "120; poses between are interpolated."},
+       "Deviation: of a video every so many-th frame is used where its camera moves less than 15 mm "
+       "in them, more frames where it moves faster, of other views all, and at most 120; poses "
+       "between are interpolated."},
       options.frame_stride);
   visitor.Visit({"depth_before_axis", "radii", 0, 1.5,
                  "Deviation: depth is measured so far before the axis, on the near side. Prototype "
@@ -313,6 +317,12 @@ void VisitOptions(ColourAdjustmentOptions& options, OptionVisitor& visitor) {
                  "Deviation: strips that other wires touch on one side are found by their edge on "
                  "the other: a bar with a row of wires shows no strip of its own."},
                 options.edges);
+}
+
+int UsedFrameStride(const Sequence& sequence, const ColourAdjustmentOptions& options) {
+  if (!IsVideo(sequence)) return 1;
+  const double stride = std::round(kUsedStep / std::max(StepBetweenFrames(sequence, 0.5), 1e-9));
+  return static_cast<int>(std::clamp<double>(stride, 1, options.frame_stride));
 }
 
 bool CameNearer(const ColourAdjustment& adjusted) {
@@ -336,10 +346,9 @@ ColourAdjustment AdjustToColours(const SkeletonGraph& skeleton, const Sequence& 
     result.skipped = "there are no curves of known radius";
     return result;
   }
-  const bool is_video = IsVideo(sequence);
   ColourFrames frames = LoadColourFrames(
-      sequence, ChooseFrames(sequence.frame_count(), is_video ? options.frame_stride : 1));
-  const bool drifts = is_video && pose_errors == PoseErrors::kDrift;
+      sequence, ChooseFrames(sequence.frame_count(), UsedFrameStride(sequence, options)));
+  const bool drifts = IsVideo(sequence) && pose_errors == PoseErrors::kDrift;
   CurvePoseProblem problem = MakeProblem(sequence, curves, frames.indices, T_world_given, drifts);
   problem.pose_errors = pose_errors;
   CurvePoseState state = problem.start;

@@ -22,6 +22,10 @@ struct ColourAdjustmentOptions {
 };
 void VisitOptions(ColourAdjustmentOptions& options, OptionVisitor& visitor);
 
+/// Every so many-th frame is used: 1 for views each of its own, and for frames so far apart that those
+/// between tell more.
+int UsedFrameStride(const Sequence& sequence, const ColourAdjustmentOptions& options);
+
 /// Whether depth images show wires where they are. Where they do not, colour images alone count.
 enum class WireDepth { kShown, kNotShown };
 

@@ -49,7 +49,7 @@ Amounts AmountsOf(const Sequence& sequence, const BestOptions& options, const Ru
   constexpr double kMaxAdjusted = 120;
   const double frames = sequence.frame_count();
   const double points = size.points > 0 ? size.points : kPointsPerFrame * frames;
-  const int stride = IsVideo(sequence) ? options.colour_adjustment.frame_stride : 1;
+  const int stride = UsedFrameStride(sequence, options.colour_adjustment);
   const double adjusted = std::min(frames / stride, kMaxAdjusted);
   return {.size = SizeOf(sequence.depth_camera),
           .looked_size = SizeOf(StripViews::CameraLookedThrough(sequence.color_camera)),
