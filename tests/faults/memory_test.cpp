@@ -71,8 +71,9 @@ TEST(MemoryTest, DoesNotGrowWithTheNumberOfFrames) {
   if (!CanInjectFaults()) GTEST_SKIP() << "a sanitizer takes memory of its own";
   const TrialFolder folder;
   if (!TriesEverything()) {
-    // Takes 170 MB. Were the images kept, of 1.2 (depth) and 0.9 MB (colour), it were 490 MB.
-    EXPECT_LT(PeakMegabytes(folder, folder.inputs() / "scan", 150, 300), 300);
+    // Takes 380 MB, more than half of it for the 120 images that curves are adjusted to. Were all
+    // kept, of 1.2 (depth) and 0.9 MB (colour), it were 700 MB.
+    EXPECT_LT(PeakMegabytes(folder, folder.inputs() / "scan", 150, 300), 500);
     return;
   }
   const ProgramRun run = RunProgram(folder.inputs(), {"simulate", "cubeframe", "-o", "long",
