@@ -121,14 +121,16 @@ void Fill(FILE* stream) {
   syscall(SYS_close, full);
 }
 
-class Inside {
+// Sets a flag of this thread to the end of a scope.
+class Raised {
  public:
-  Inside() : before_(is_inside) { is_inside = true; }
-  ~Inside() { is_inside = before_; }
-  Inside(const Inside&) = delete;
-  Inside& operator=(const Inside&) = delete;
+  explicit Raised(bool& flag) : flag_(flag), before_(flag) { flag = true; }
+  ~Raised() { flag_ = before_; }
+  Raised(const Raised&) = delete;
+  Raised& operator=(const Raised&) = delete;
 
  private:
+  bool& flag_;
   bool before_;
 };
 
@@ -217,23 +219,20 @@ void* mmap64(void* address, size_t length, int protection, int flags, int file, 
   return mmap(address, length, protection, flags, file, offset);
 }
 
-// TBB calls this once, when it is asked for the first thread; glibc's dlopen goes on without the memory
+// TBB calls this when it is asked for the first thread; glibc's dlopen goes on without the memory
 // for its own messages, through a null pointer.
 void* dlopen(const char* file, int mode) {
-  is_left_out = true;
-  void* const library = REAL(dlopen)(file, mode);
-  is_left_out = false;
-  return library;
+  const Raised left_out(is_left_out);
+  return REAL(dlopen)(file, mode);
 }
 
 // OpenCV calls this once, when it is asked for the first image; GDAL, which this project does not
 // use, ends the program where there is no memory for the names of its formats.
 void GDALAllRegister() {
-  is_left_out = true;
+  const Raised left_out(is_left_out);
   using Register = void();
   const auto real = reinterpret_cast<Register*>(dlsym(RTLD_NEXT, "GDALAllRegister"));
   if (real != nullptr) real();
-  is_left_out = false;
 }
 
 // Opening files to write them.
@@ -337,19 +336,19 @@ int close(int file) {
 
 size_t fwrite(const void* data, size_t size, size_t count, FILE* stream) {
   if (Fails(Kind::kWrite, "fwrite")) Fill(stream);
-  const Inside inside;
+  const Raised inside(is_inside);
   return REAL(fwrite)(data, size, count, stream);
 }
 
 int fputs(const char* text, FILE* stream) {
   if (Fails(Kind::kWrite, "fputs")) Fill(stream);
-  const Inside inside;
+  const Raised inside(is_inside);
   return REAL(fputs)(text, stream);
 }
 
 int fputc(int character, FILE* stream) {
   if (Fails(Kind::kWrite, "fputc")) Fill(stream);
-  const Inside inside;
+  const Raised inside(is_inside);
   return REAL(fputc)(character, stream);
 }
 
@@ -358,14 +357,14 @@ int putc(int character, FILE* stream) { return fputc(character, stream); }
 int fflush(FILE* stream) {
   const bool is_written = stream != nullptr && IsForWriting(stream);
   if (is_written && Fails(Kind::kWrite, "fflush")) Fill(stream);
-  const Inside inside;
+  const Raised inside(is_inside);
   return REAL(fflush)(stream);
 }
 
 int fclose(FILE* stream) {
   const bool fails = IsForWriting(stream) && Fails(Kind::kWrite, "fclose");
   if (fails) Fill(stream);
-  const Inside inside;
+  const Raised inside(is_inside);
   const int closed = REAL(fclose)(stream);
   if (!fails) return closed;
   errno = plan.error;
