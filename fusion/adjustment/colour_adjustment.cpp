@@ -39,13 +39,7 @@ constexpr std::array<AdjustmentRound, 6> kRounds = {{{14, 4, true, true},
                                                      {4, 0.4, false, false}}};
 constexpr double kCornerAngle = 1.0;   // the same as for smoothing
 constexpr double kMaxVertices = 5500;  // of all curves, roughly
-// Images take some .9 MB each.
-constexpr size_t kFirstFrames = 40;
-constexpr int kOtherFrames = 80;
 constexpr int kMinStrips = 300;
-// Chosen: so far a camera in a hand moves in three of 30 frames a second; frames nearer to one another
-// tell little more (docs/colour_adjustment.md).
-constexpr double kUsedStep = 15 * kMillimetre;
 // Chosen: a spring whose turns hide one another (training spring 3) has .085 and comes from .64 to
 // .17 px; adjustments that do not fit have .04 and less (training rack 1 and spring 4).
 constexpr double kMinAcceptedShare = 0.05;
@@ -70,18 +64,6 @@ constexpr double kShiftSigmaPx = 0.15;  // of a colour image's shift, however ma
 // tell the same of: each is read along several millimetres.
 double VertexStep(const SkeletonGraph& skeleton, double step) {
   return std::max(step, skeleton.TotalLength() / kMaxVertices);
-}
-
-// Of a long sequence the first frames, which tell where the world lies, and of the others so many
-// that memory and time do not grow with it.
-std::vector<int> ChooseFrames(int frame_count, int stride) {
-  std::vector<int> first, others;
-  for (int i = 0; i < frame_count; i += stride) {
-    (first.size() < kFirstFrames ? first : others).push_back(i);
-  }
-  const std::vector<int> thinned = EvenlyThinned(others, kOtherFrames);
-  first.insert(first.end(), thinned.begin(), thinned.end());
-  return first;
 }
 
 CurvePoseProblem MakeProblem(const Sequence& sequence, const CurveVertices& curves,
@@ -305,9 +287,9 @@ void VisitOptions(ColourAdjustmentOptions& options, OptionVisitor& visitor) {
       options.vertex_step);
   visitor.Visit(
       {"frame_stride", "frames", 1, 30,
-       "Deviation: of a video every so many-th frame is used where its camera moves less than 15 mm "
-       "in them, more frames where it moves faster, of other views all, and at most 120; poses "
-       "between are interpolated."},
+       "Deviation: of a video only every so many-th frame is used, more of them where the camera "
+       "moves 15 mm in fewer frames, of other views all, and at most 120; poses between are "
+       "interpolated."},
       options.frame_stride);
   visitor.Visit({"depth_before_axis", "radii", 0, 1.5,
                  "Deviation: depth is measured so far before the axis, on the near side. Prototype "
@@ -317,12 +299,6 @@ void VisitOptions(ColourAdjustmentOptions& options, OptionVisitor& visitor) {
                  "Deviation: strips that other wires touch on one side are found by their edge on "
                  "the other: a bar with a row of wires shows no strip of its own."},
                 options.edges);
-}
-
-int UsedFrameStride(const Sequence& sequence, const ColourAdjustmentOptions& options) {
-  if (!IsVideo(sequence)) return 1;
-  const double stride = std::round(kUsedStep / std::max(StepBetweenFrames(sequence, 0.5), 1e-9));
-  return static_cast<int>(std::clamp<double>(stride, 1, options.frame_stride));
 }
 
 bool CameNearer(const ColourAdjustment& adjusted) {
@@ -346,8 +322,8 @@ ColourAdjustment AdjustToColours(const SkeletonGraph& skeleton, const Sequence& 
     result.skipped = "there are no curves of known radius";
     return result;
   }
-  ColourFrames frames = LoadColourFrames(
-      sequence, ChooseFrames(sequence.frame_count(), UsedFrameStride(sequence, options)));
+  ColourFrames frames =
+      LoadColourFrames(sequence, ChooseColourFrames(sequence, options.frame_stride));
   const bool drifts = IsVideo(sequence) && pose_errors == PoseErrors::kDrift;
   CurvePoseProblem problem = MakeProblem(sequence, curves, frames.indices, T_world_given, drifts);
   problem.pose_errors = pose_errors;

@@ -22,10 +22,6 @@ struct ColourAdjustmentOptions {
 };
 void VisitOptions(ColourAdjustmentOptions& options, OptionVisitor& visitor);
 
-/// Every so many-th frame is used: 1 for views each of its own, and for frames so far apart that those
-/// between tell more.
-int UsedFrameStride(const Sequence& sequence, const ColourAdjustmentOptions& options);
-
 /// Whether depth images show wires where they are. Where they do not, colour images alone count.
 enum class WireDepth { kShown, kNotShown };
 
@@ -52,13 +48,13 @@ struct ColourAdjustment {
 bool CameNearer(const ColourAdjustment& adjusted);
 
 /// Bundle adjustment of curves and camera poses: vertices every few millimetres along the edges,
-/// strips of wire colour found across them in every third colour image, of long sequences in 120
-/// (of vertices with few strips also single edges), and Gauss-Newton over all vertices and poses,
-/// six rounds with a shrinking search. `sequence` holds the poses that `skeleton` (with radii) was
-/// made with, `T_world_given` those of the tracker, which err as `pose_errors` says. Deviation:
-/// CurveFusion uses colour for ghosts and radii only; depth errs by several millimetres where
-/// colour edges are seen to a tenth of a pixel. Throws Error(kBadInput) for images that cannot be
-/// decoded. Cost: .1 s a frame used for 3 m of wire.
+/// strips of wire colour found across them in the images of ChooseColourFrames (of vertices with
+/// few strips also single edges), and Gauss-Newton over all vertices and poses, six rounds with a
+/// shrinking search. `sequence` holds the poses that `skeleton` (with radii) was made with,
+/// `T_world_given` those of the tracker, which err as `pose_errors` says. Deviation: CurveFusion
+/// uses colour for ghosts and radii only; depth errs by several millimetres where colour edges are
+/// seen to a tenth of a pixel. Throws Error(kBadInput) for images that cannot be decoded. Cost: .1
+/// s a frame used for 3 m of wire.
 ColourAdjustment AdjustToColours(const SkeletonGraph& skeleton, const Sequence& sequence,
                                  const std::vector<RigidTransform>& T_world_given,
                                  const ColourAdjustmentOptions& options,

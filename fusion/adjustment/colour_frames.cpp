@@ -28,6 +28,14 @@ constexpr double kShowingShare = 0.05;
 constexpr int kFewStrips = 8;        // of a vertex
 constexpr double kEdgeSearchPx = 5;  // at most
 
+// Chosen: so far a camera in a hand moves in three of 30 frames a second; frames nearer to one
+// another tell little more (docs/colour_adjustment.md).
+constexpr double kUsedStep = 15 * kMillimetre;
+// Images take some .9 MB each. The first ones tell where the world lies; of the others so many that
+// memory and time do not grow with a sequence.
+constexpr size_t kFirstFrames = 40;
+constexpr int kOtherFrames = 80;
+
 // The vertices along all edges as curve samples; nodes once for every edge that ends there.
 struct VertexSamples {
   std::vector<CurveSample> samples;
@@ -139,6 +147,21 @@ std::vector<char> AcceptedInShare(double share, const std::vector<FrameStrips>& 
 }
 
 }  // namespace
+
+std::vector<int> ChooseColourFrames(const Sequence& sequence, int max_stride) {
+  int stride = 1;
+  if (IsVideo(sequence)) {
+    const double frames_per_step = std::round(kUsedStep / StepBetweenFrames(sequence, 0.5));
+    stride = static_cast<int>(std::clamp<double>(frames_per_step, 1, max_stride));
+  }
+  std::vector<int> first, others;
+  for (int i = 0; i < sequence.frame_count(); i += stride) {
+    (first.size() < kFirstFrames ? first : others).push_back(i);
+  }
+  const std::vector<int> thinned = EvenlyThinned(others, kOtherFrames);
+  first.insert(first.end(), thinned.begin(), thinned.end());
+  return first;
+}
 
 ColourFrames LoadColourFrames(const Sequence& sequence, const std::vector<int>& indices) {
   ColourFrames frames;

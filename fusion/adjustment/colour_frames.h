@@ -19,6 +19,11 @@ struct ColourFrames {
   size_t size() const { return indices.size(); }
 };
 
+/// The frames that curves are adjusted to: of views each of its own all, of a video every one that
+/// is 15 mm from the last, or of a slow camera every max_stride-th; of more than 120 the first 40
+/// and 80 of the others. Ascending.
+std::vector<int> ChooseColourFrames(const Sequence& sequence, int max_stride);
+
 /// Decodes the colour images of `indices`. Throws Error(kBadInput) where one cannot be read.
 ColourFrames LoadColourFrames(const Sequence& sequence, const std::vector<int>& indices);
 

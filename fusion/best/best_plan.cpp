@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "fusion/adjustment/colour_frames.h"
 #include "fusion/curve_graph/strip_views.h"
 #include "graph/graph_figures.h"
 
@@ -45,12 +46,10 @@ double SizeOf(const PinholeCamera& camera) {
 }
 
 Amounts AmountsOf(const Sequence& sequence, const BestOptions& options, const RunSize& size) {
-  // Of the colour adjustment: the rest is thinned.
-  constexpr double kMaxAdjusted = 120;
   const double frames = sequence.frame_count();
   const double points = size.points > 0 ? size.points : kPointsPerFrame * frames;
-  const int stride = UsedFrameStride(sequence, options.colour_adjustment);
-  const double adjusted = std::min(frames / stride, kMaxAdjusted);
+  const auto adjusted = static_cast<double>(
+      ChooseColourFrames(sequence, options.colour_adjustment.frame_stride).size());
   return {.size = SizeOf(sequence.depth_camera),
           .looked_size = SizeOf(StripViews::CameraLookedThrough(sequence.color_camera)),
           .integrated = frames / options.volume_stride,
