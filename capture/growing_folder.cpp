@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 using namespace std::string_view_literals;
 
 constexpr double kMillimetreUnits = 1000;
-// Whoever writes a file of a few lines takes no longer for it.
+// Chosen: whoever writes a file of a few lines takes no longer from one write to the next.
 constexpr std::chrono::seconds kWritten{2};
 constexpr std::array<std::string_view, 2> kImageEnds = {
     "IEND\xAE\x42\x60\x82"sv,  // of a PNG

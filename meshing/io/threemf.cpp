@@ -46,7 +46,8 @@ class Handle {
 // What lib3MF takes at once to read a file, at least.
 constexpr size_t kReaderBytes = 64 * 1024;
 
-// lib3MF calls a file damaged for which it has found no memory.
+// lib3MF calls a file damaged for which it has found no memory. Compilers may leave out a new
+// expression that nothing uses, but no call of the operator.
 void RequireMemory(size_t bytes) { ::operator delete(::operator new(bytes)); }
 
 AffineTransform TransformOf(const Handle& item) {
