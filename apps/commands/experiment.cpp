@@ -247,6 +247,14 @@ void AddExperimentCommand(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(1, 64));
   command->add_flag("--remeasure", arguments->runner.remeasure,
                     "Measure again what another revision of this program has measured");
+  command
+      ->add_option(
+          "--cache", arguments->runner.caches,
+          "Folder of a sweep, or another that may have finished cells and scans; new ones go "
+          "to the first that can be written; may be given several times")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->check(CLI::ExistingDirectory);
   command->add_option("--baseline", arguments->baseline,
                       "Folder of an earlier call: compares the same runs and exits with 1 where a "
                       "figure is worse by more than the tolerance");

@@ -121,7 +121,7 @@ RunOutcome Run(const RunInput& input) {
   const fs::path& recording = input.study_case.recording;
   const fs::path& scan = recording.empty() ? input.scan : recording;
   RunOutcome outcome =
-      ReconstructAndEvaluate({input.study_case, scan, input.folder, input.progress});
+      ReconstructAndEvaluate({input.study_case, scan, input.folder, input.progress, input.caches});
   const std::optional<fs::path> truth = TruthOf(scan);
   if (!truth) return outcome;
   AddPooledFigures(outcome.figures);

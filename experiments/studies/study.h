@@ -83,6 +83,8 @@ struct RunInput {
   std::filesystem::path scan;    ///< the simulated scan, with truth/; empty where it has none
   std::filesystem::path folder;  ///< for files to keep; it gets its final name only afterwards
   const Progress& progress;      ///< to be called now and then: throws once the user interrupts
+  /// The study's folder, then folders of sweeps, where cells are kept; empty: nowhere.
+  std::vector<std::filesystem::path> caches = {};
 };
 
 struct RunOutcome {

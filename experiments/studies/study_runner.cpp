@@ -15,6 +15,7 @@
 #include "experiments/studies/reconstruction_run.h"
 #include "experiments/studies/run_files.h"
 #include "experiments/studies/scan_cache.h"
+#include "experiments/sweeps/sweep_plan.h"
 #include "kernel/error.h"
 #include "kernel/free_space.h"
 #include "kernel/partial_folder.h"
@@ -90,8 +91,11 @@ class StepCounter {
 class StudyRunner {
  public:
   StudyRunner(const Study& study, const StudyRequest& request, const fs::path& folder,
-              const std::vector<StudyCase>& cases)
-      : study_(study), request_(request), folder_(folder), cases_(cases), runs_(cases.size()) {}
+              const std::vector<fs::path>& caches, const std::vector<StudyCase>& cases)
+      : study_(study), request_(request), folder_(folder), cases_(cases), runs_(cases.size()) {
+    places_.folder = folder;
+    places_.caches = caches;
+  }
 
   // Takes over what is finished; returns the rest, grouped by scans.
   std::vector<ScanGroup> Pending(bool remeasure);
@@ -101,6 +105,7 @@ class StudyRunner {
   std::vector<StudyRun> TakeRuns() { return std::move(runs_); }
 
  private:
+  fs::path FinishedScanOf(const ScanGroup& group) const;
   bool IsSimulated(const ScanGroup& group) const;
   std::uintmax_t BytesOf(const std::vector<ScanGroup>& groups) const;
   void MeasureGroup(const ScanGroup& group, StepCounter& steps);
@@ -112,6 +117,7 @@ class StudyRunner {
   const StudyRequest& request_;
   const fs::path& folder_;
   const std::vector<StudyCase>& cases_;
+  SweepPlan places_;  // where scans and cells are looked for
   const std::string revision_ = ThisProgram().revision;
   std::vector<StudyRun> runs_;
 };
@@ -168,9 +174,13 @@ void StudyRunner::Measure(const std::vector<ScanGroup>& groups, int jobs,
   if (failure) std::rethrow_exception(failure);
 }
 
+fs::path StudyRunner::FinishedScanOf(const ScanGroup& group) const {
+  return FinishedScan(places_, ScanFolder({}, *group.scan).string());
+}
+
 // Whether the group needs no scan any more.
 bool StudyRunner::IsSimulated(const ScanGroup& group) const {
-  return group.scan == nullptr || fs::exists(ScanFolder(folder_ / "scans", *group.scan));
+  return group.scan == nullptr || !FinishedScanOf(group).empty();
 }
 
 // What the scans and runs will take on the disk at most.
@@ -190,7 +200,8 @@ void StudyRunner::MeasureGroup(const ScanGroup& group, StepCounter& steps) {
   const bool is_simulated = IsSimulated(group);
   if (group.scan != nullptr) {
     try {
-      scan = CachedScan(folder_ / "scans", *group.scan, steps.Within());
+      scan = is_simulated ? FinishedScanOf(group)
+                          : CachedScan(StoreOf(places_) / "scans", *group.scan, steps.Within());
     } catch (const Error& error) {
       if (error.kind() == ErrorKind::kInterrupted) throw;
       for (const size_t i : group.cases) RecordFailure(i, error.what());
@@ -211,7 +222,12 @@ void StudyRunner::MeasureCase(size_t index, const fs::path& scan, StepCounter& s
   try {
     PartialFolder partial(run_folder);
     const Progress within = steps.Within();
-    const RunOutcome outcome = RunCase({study_case, scan, partial.path(), within});
+    std::vector<fs::path> caches;
+    if (!places_.caches.empty()) {
+      caches = places_.caches;
+      caches.insert(caches.begin(), places_.folder);
+    }
+    const RunOutcome outcome = RunCase({study_case, scan, partial.path(), within, caches});
     runs_[index] = {study_case.labels, study_case.seed, outcome.found ? kDone : kNothing, "",
                     revision_,         run_folder,      FiniteOnly(outcome.figures)};
     WriteRunFile(partial.path(), {runs_[index], CaseSettings(study_case)});
@@ -274,7 +290,7 @@ StudyResults RunStudy(const Study& study, const StudyRequest& request, const fs:
                       const RunnerOptions& options, const Progress& progress) {
   const StudyPlan plan = PlanStudy(study, request, folder);
   if (study.report) RequireGnuplot();
-  StudyRunner runner(study, request, folder, plan.cases);
+  StudyRunner runner(study, request, folder, options.caches, plan.cases);
   runner.Measure(runner.Pending(options.remeasure), options.jobs, progress);
   StudyResults results{folder, StudyStem(study, request), runner.TakeRuns()};
   WriteRunsCsv(folder / (results.stem + ".csv"), results.runs);

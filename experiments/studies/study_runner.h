@@ -12,6 +12,8 @@ namespace curvefusion {
 struct RunnerOptions {
   int jobs = 1;            ///< scans that are worked on at the same time, each with all its cases
   bool remeasure = false;  ///< measure again what another revision of the program has measured
+  /// Folders of sweeps, whose scans and cells are taken over and added to, as `sweep` does.
+  std::vector<std::filesystem::path> caches = {};
 };
 
 /// What is to do before any of it is done.

@@ -7,6 +7,8 @@
 #include "experiments/studies/provenance.h"
 #include "experiments/studies/reconstruction_run.h"
 #include "experiments/studies/run_files.h"
+#include "experiments/sweeps/sweep_plan.h"
+#include "kernel/atomic_file.h"
 #include "kernel/error.h"
 #include "kernel/free_space.h"
 #include "kernel/partial_folder.h"
@@ -72,6 +74,33 @@ CellOutcome MeasureCell(const SweepCell& cell, const fs::path& scan, const fs::p
   WriteRunFile(partial.path(), {run, CellSettings(cell)});
   if (!ReadRunFile(result)) partial.Finish();
   return {run.outcome, run.message};
+}
+
+RunOutcome RunAsCell(const RunInput& input) {
+  const SweepCell cell = CellOfCase(input.study_case);
+  SweepPlan places;
+  places.folder = input.caches.front();
+  places.caches.assign(input.caches.begin() + 1, input.caches.end());
+  fs::path result = FinishedResult(places, cell);
+  if (result.empty()) {
+    result = ResultFolder(StoreOf(places), cell);
+    fs::create_directories(result.parent_path());
+    WriteStreamAtomically(result.parent_path() / "params.toml",
+                          [&](std::ostream& stream) { stream << ParamsToml(cell); });
+    MeasureCell(cell, input.scan, result, input.progress);
+  }
+  const auto file = ReadRunFile(result);
+  if (!file) {
+    throw Error(ErrorKind::kBadInput, (result / "run.json").string() +
+                                          ": cannot be read; remove its folder, and the cell is "
+                                          "measured again");
+  }
+  if (file->run.outcome == "failed") throw Error(ErrorKind::kBadInput, file->run.message);
+  for (const fs::directory_entry& entry : fs::directory_iterator(result)) {
+    if (entry.path().filename() == "run.json") continue;
+    fs::copy_file(entry.path(), input.folder / entry.path().filename());
+  }
+  return {file->run.outcome == "done", file->run.figures};
 }
 
 void MakeSweepScan(const fs::path& settings, const fs::path& folder, const Progress& progress) {

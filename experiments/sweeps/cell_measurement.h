@@ -22,6 +22,12 @@ struct CellOutcome {
 CellOutcome MeasureCell(const SweepCell& cell, const std::filesystem::path& scan,
                         const std::filesystem::path& result, const Progress& progress);
 
+/// A case of a study whose scan is simulated, as the cell of a sweep that it is: taken from the
+/// first of input.caches that has it, otherwise measured into the first that can be written, and
+/// copied into input.folder. Throws as MeasureCell, and Error(kBadInput) with the message of a cell
+/// that has failed.
+RunOutcome RunAsCell(const RunInput& input);
+
 /// Simulates the scan that a settings file tells of, unless it is there. Where another process
 /// makes the same scan meanwhile, that one stays.
 void MakeSweepScan(const std::filesystem::path& settings, const std::filesystem::path& folder,

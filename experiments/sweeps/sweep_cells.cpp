@@ -60,9 +60,9 @@ std::vector<StudyScan> ScansOf(const SweepRequest& request) {
 }
 
 // The settings as the config file writes them, without those that change nothing.
-std::vector<std::string> NormalSettings(Profile profile, const SettingPoint& point) {
+std::vector<std::string> NormalSettings(const Config& config) {
   std::vector<std::string> settings;
-  for (const OptionValue& option : ChangedOptions(ReadConfig({profile, {}, point}))) {
+  for (const OptionValue& option : ChangedOptions(config)) {
     settings.push_back(option.name + "=" + option.value);
   }
   return settings;
@@ -120,13 +120,20 @@ std::string CellSettings(const SweepCell& cell) {
       .dump();
 }
 
+SweepCell CellOfCase(const StudyCase& study_case) {
+  const std::string family = LabelOf(study_case.labels, "family");
+  const SimulationOptions& scan = study_case.scan.value();
+  return CellOf({family.empty() ? scan.object : family, study_case.seed, scan},
+                study_case.config.profile, NormalSettings(study_case.config));
+}
+
 std::string CellKey(const SweepCell& cell) { return SettingsKey(CellSettings(cell)); }
 
 SweepCells CellsOf(const SweepRequest& request) {
   std::vector<std::pair<Profile, std::vector<std::string>>> choices;
   for (const Profile profile : request.profiles) {
     for (const SettingPoint& point : request.points) {
-      choices.emplace_back(profile, NormalSettings(profile, point));
+      choices.emplace_back(profile, NormalSettings(ReadConfig({profile, {}, point})));
     }
   }
   SweepCells result;

@@ -29,6 +29,9 @@ std::string SettingName(const SweepCell& cell);
 /// The cell with the key of this program (MethodVersion) and this simulator.
 std::string CellKey(const SweepCell& cell);
 
+/// The cell that measures the same as a case of a study whose scan is simulated.
+SweepCell CellOfCase(const StudyCase& study_case);
+
 /// All that CellKey is a hash of, as JSON.
 std::string CellSettings(const SweepCell& cell);
 
