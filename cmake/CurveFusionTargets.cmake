@@ -32,5 +32,7 @@ function(curvefusion_add_test name)
   target_link_libraries(${name} PRIVATE ${arg_LIBRARIES} curvefusion_warnings
                                         curvefusion_source_folder GTest::gtest_main GTest::gmock)
   target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}")
+  target_link_libraries(${name} PRIVATE curvefusion_test_flags)
+  target_precompile_headers(${name} REUSE_FROM curvefusion_source_folder)
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
 endfunction()
