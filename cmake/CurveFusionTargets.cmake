@@ -29,10 +29,9 @@ endfunction()
 function(curvefusion_add_test name)
   cmake_parse_arguments(arg "" "" "SOURCES;LIBRARIES" ${ARGN})
   add_executable(${name} ${arg_SOURCES})
-  target_link_libraries(${name} PRIVATE ${arg_LIBRARIES} curvefusion_warnings
-                                        curvefusion_source_folder GTest::gtest_main GTest::gmock)
+  target_link_libraries(${name} PRIVATE ${arg_LIBRARIES} curvefusion_warnings curvefusion_test_flags
+                                        curvefusion_source_folder GTest::gtest_main)
   target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}")
-  target_link_libraries(${name} PRIVATE curvefusion_test_flags)
   target_precompile_headers(${name} REUSE_FROM curvefusion_source_folder)
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
 endfunction()

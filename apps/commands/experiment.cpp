@@ -15,6 +15,7 @@
 #include "experiments/studies/regression_check.h"
 #include "experiments/studies/studies.h"
 #include "experiments/studies/study_runner.h"
+#include "experiments/sweeps/cell_measurement.h"
 #include "kernel/error.h"
 #include "kernel/run_lock.h"
 
@@ -79,11 +80,19 @@ int PrintComparison(const std::vector<StudyRun>& before, const StudyResults& res
   return check.fell ? kFellBehindBaseline : 0;
 }
 
+// Cells of sweeps are taken and left where the user has named folders of these.
+RunnerOptions WithCells(RunnerOptions runner, const std::filesystem::path& folder) {
+  if (runner.caches.empty()) return runner;
+  runner.reconstruct = MeasurementByCells({folder, runner.caches});
+  return runner;
+}
+
 // What an interrupted study leaves is worth more than other commands' nothing.
 StudyResults RunOrTellHowToGoOn(const Study& study, const StudyRequest& request,
                                 const ExperimentArguments& arguments, const Progress& progress) {
   try {
-    return RunStudy(study, request, arguments.output, arguments.runner, progress);
+    return RunStudy(study, request, arguments.output, WithCells(arguments.runner, arguments.output),
+                    progress);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::kInterrupted) throw;
     throw Error(ErrorKind::kInterrupted,

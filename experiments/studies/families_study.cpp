@@ -120,8 +120,7 @@ void AddPooledFigures(Figures& figures) {
 RunOutcome Run(const RunInput& input) {
   const fs::path& recording = input.study_case.recording;
   const fs::path& scan = recording.empty() ? input.scan : recording;
-  RunOutcome outcome =
-      ReconstructAndEvaluate({input.study_case, scan, input.folder, input.progress, input.caches});
+  RunOutcome outcome = input.reconstruct({input.study_case, scan, input.folder, input.progress});
   const std::optional<fs::path> truth = TruthOf(scan);
   if (!truth) return outcome;
   AddPooledFigures(outcome.figures);

@@ -85,7 +85,7 @@ std::vector<StudyCase> Cases(const StudyRequest& request) {
 }
 
 RunOutcome Run(const RunInput& input) {
-  RunOutcome outcome = ReconstructAndEvaluate(input);
+  RunOutcome outcome = input.reconstruct(input);
   const SkeletonGraph truth = ReadTruth(input.scan / "truth");
   const SkeletonGraph result = ReadSkeleton(input.folder / "skeleton.json");
   const SkeletonGraph aligned =
@@ -175,9 +175,7 @@ void Report(const StudyResults& results) {
 Study LimitationsStudy() {
   return {"limitations",
           "Thin wires, wire near a table, junctions of valence 3 to 8, mixed and varying diameters",
-          Cases,
-          Run,
-          Report};
+          Cases, Run, Report};
 }
 
 }  // namespace curvefusion

@@ -8,7 +8,6 @@
 #include "capture/sequence.h"
 #include "experiments/metrics/evaluation_files.h"
 #include "experiments/metrics/truth.h"
-#include "experiments/sweeps/cell_measurement.h"
 #include "graph/io/graph_io.h"
 #include "kernel/atomic_file.h"
 #include "kernel/peak_memory.h"
@@ -85,7 +84,6 @@ void AddContractionCost(const std::vector<StageReport>& stages, const Cost& cost
 }
 
 RunOutcome ReconstructAndEvaluate(const RunInput& input) {
-  if (!input.caches.empty() && input.study_case.scan) return RunAsCell(input);
   Sequence sequence = OpenSequence(input.scan);
   UseFittedColourCamera(sequence);  // as the command does
   InterruptibleObserver observer(input.progress);

@@ -47,8 +47,7 @@ std::optional<std::filesystem::path> TruthOf(const std::filesystem::path& scan);
 /// without a mesh; of a scan without truth its length alone.
 RunOutcome EvaluateAndKeep(const SkeletonGraph& skeleton, const RunInput& input);
 
-/// The whole method on the case's scan: EvaluateAndKeep and what it cost. With caches, of a scan
-/// that was simulated, as a cell of a sweep (RunAsCell).
+/// The whole method on the case's scan: EvaluateAndKeep and what it cost.
 RunOutcome ReconstructAndEvaluate(const RunInput& input);
 
 }  // namespace curvefusion

@@ -77,19 +77,25 @@ std::string CaseName(const StudyCase& study_case);
 /// study's own. What has no value is left out.
 using Figures = std::map<std::string, double>;
 
+struct RunOutcome {
+  bool found = true;  ///< false: nothing thin was found, an expected outcome
+  Figures figures;
+};
+
+struct RunInput;
+
+/// Measures one case.
+using CaseMeasurement = std::function<RunOutcome(const RunInput&)>;
+
 /// What a measurement is given.
 struct RunInput {
   const StudyCase& study_case;
   std::filesystem::path scan;    ///< the simulated scan, with truth/; empty where it has none
   std::filesystem::path folder;  ///< for files to keep; it gets its final name only afterwards
   const Progress& progress;      ///< to be called now and then: throws once the user interrupts
-  /// The study's folder, then folders of sweeps, where cells are kept; empty: nowhere.
-  std::vector<std::filesystem::path> caches = {};
-};
-
-struct RunOutcome {
-  bool found = true;  ///< false: nothing thin was found, an expected outcome
-  Figures figures;
+  /// The whole method on the case's scan, for measurements that begin with it
+  /// (RunnerOptions::reconstruct).
+  CaseMeasurement reconstruct = {};
 };
 
 /// A run that has been measured, or has failed.
@@ -116,9 +122,9 @@ struct Study {
   std::string name;
   std::string summary;  ///< one sentence for --help
   std::function<std::vector<StudyCase>(const StudyRequest&)> cases;
-  /// Measures one case; ReconstructAndEvaluate where it is empty. Called from several threads at
+  /// Measures one case; RunInput::reconstruct where it is empty. Called from several threads at
   /// once where there is more than one job.
-  std::function<RunOutcome(const RunInput&)> run;
+  CaseMeasurement run;
   /// Writes tables and figures (result_table.h, gnuplot.h), also where runs have failed.
   std::function<void(const StudyResults&)> report;
 };

@@ -15,7 +15,6 @@
 #include "experiments/studies/reconstruction_run.h"
 #include "experiments/studies/run_files.h"
 #include "experiments/studies/scan_cache.h"
-#include "experiments/sweeps/sweep_plan.h"
 #include "kernel/error.h"
 #include "kernel/free_space.h"
 #include "kernel/partial_folder.h"
@@ -91,43 +90,45 @@ class StepCounter {
 class StudyRunner {
  public:
   StudyRunner(const Study& study, const StudyRequest& request, const fs::path& folder,
-              const std::vector<fs::path>& caches, const std::vector<StudyCase>& cases)
-      : study_(study), request_(request), folder_(folder), cases_(cases), runs_(cases.size()) {
-    places_.folder = folder;
-    places_.caches = caches;
-  }
+              const RunnerOptions& options, const std::vector<StudyCase>& cases)
+      : study_(study),
+        request_(request),
+        folder_(folder),
+        options_(options),
+        cases_(cases),
+        scans_{folder, options.caches},
+        runs_(cases.size()) {}
 
   // Takes over what is finished; returns the rest, grouped by scans.
-  std::vector<ScanGroup> Pending(bool remeasure);
+  std::vector<ScanGroup> Pending();
 
-  void Measure(const std::vector<ScanGroup>& groups, int jobs, const Progress& progress);
+  void Measure(const std::vector<ScanGroup>& groups, const Progress& progress);
 
   std::vector<StudyRun> TakeRuns() { return std::move(runs_); }
 
  private:
-  fs::path FinishedScanOf(const ScanGroup& group) const;
   bool IsSimulated(const ScanGroup& group) const;
   std::uintmax_t BytesOf(const std::vector<ScanGroup>& groups) const;
   void MeasureGroup(const ScanGroup& group, StepCounter& steps);
   void MeasureCase(size_t index, const fs::path& scan, StepCounter& steps);
-  RunOutcome RunCase(const RunInput& input) const;
   void RecordFailure(size_t index, const std::string& message);
 
   const Study& study_;
   const StudyRequest& request_;
   const fs::path& folder_;
+  const RunnerOptions& options_;
   const std::vector<StudyCase>& cases_;
-  SweepPlan places_;  // where scans and cells are looked for
+  const CacheFolders scans_;
   const std::string revision_ = ThisProgram().revision;
   std::vector<StudyRun> runs_;
 };
 
-std::vector<ScanGroup> StudyRunner::Pending(bool remeasure) {
+std::vector<ScanGroup> StudyRunner::Pending() {
   std::vector<ScanGroup> groups;
   std::map<std::string, size_t> group_of_scan;
   for (size_t i = 0; i < cases_.size(); ++i) {
     const auto file = FinishedRun(study_, request_, folder_, cases_[i]);
-    if (file && !(remeasure && file->run.revision != revision_)) {
+    if (file && !(options_.remeasure && file->run.revision != revision_)) {
       runs_[i] = file->run;
       continue;
     }
@@ -140,8 +141,7 @@ std::vector<ScanGroup> StudyRunner::Pending(bool remeasure) {
   return groups;
 }
 
-void StudyRunner::Measure(const std::vector<ScanGroup>& groups, int jobs,
-                          const Progress& progress) {
+void StudyRunner::Measure(const std::vector<ScanGroup>& groups, const Progress& progress) {
   int64_t total = 0;
   for (const ScanGroup& group : groups) {
     total += static_cast<int64_t>(group.cases.size()) + (IsSimulated(group) ? 0 : 1);
@@ -168,19 +168,16 @@ void StudyRunner::Measure(const std::vector<ScanGroup>& groups, int jobs,
     }
   };
   std::vector<std::thread> threads;
-  for (int i = 1; i < jobs; ++i) threads.emplace_back(work);
+  for (int i = 1; i < options_.jobs; ++i) threads.emplace_back(work);
   work();
   for (std::thread& thread : threads) thread.join();
   if (failure) std::rethrow_exception(failure);
 }
 
-fs::path StudyRunner::FinishedScanOf(const ScanGroup& group) const {
-  return FinishedScan(places_, ScanFolder({}, *group.scan).string());
-}
-
 // Whether the group needs no scan any more.
 bool StudyRunner::IsSimulated(const ScanGroup& group) const {
-  return group.scan == nullptr || !FinishedScanOf(group).empty();
+  return group.scan == nullptr ||
+         !FinishedScan(scans_, ScanFolder({}, *group.scan).string()).empty();
 }
 
 // What the scans and runs will take on the disk at most.
@@ -200,8 +197,7 @@ void StudyRunner::MeasureGroup(const ScanGroup& group, StepCounter& steps) {
   const bool is_simulated = IsSimulated(group);
   if (group.scan != nullptr) {
     try {
-      scan = is_simulated ? FinishedScanOf(group)
-                          : CachedScan(StoreOf(places_) / "scans", *group.scan, steps.Within());
+      scan = CachedScan(scans_, *group.scan, steps.Within());
     } catch (const Error& error) {
       if (error.kind() == ErrorKind::kInterrupted) throw;
       for (const size_t i : group.cases) RecordFailure(i, error.what());
@@ -212,22 +208,15 @@ void StudyRunner::MeasureGroup(const ScanGroup& group, StepCounter& steps) {
   for (const size_t i : group.cases) MeasureCase(i, scan, steps);
 }
 
-RunOutcome StudyRunner::RunCase(const RunInput& input) const {
-  return study_.run ? study_.run(input) : ReconstructAndEvaluate(input);
-}
-
 void StudyRunner::MeasureCase(size_t index, const fs::path& scan, StepCounter& steps) {
   const StudyCase& study_case = cases_[index];
   const fs::path run_folder = RunFolder(study_, request_, folder_, study_case);
   try {
     PartialFolder partial(run_folder);
     const Progress within = steps.Within();
-    std::vector<fs::path> caches;
-    if (!places_.caches.empty()) {
-      caches = places_.caches;
-      caches.insert(caches.begin(), places_.folder);
-    }
-    const RunOutcome outcome = RunCase({study_case, scan, partial.path(), within, caches});
+    const CaseMeasurement& measure = study_.run ? study_.run : options_.reconstruct;
+    const RunOutcome outcome =
+        measure({study_case, scan, partial.path(), within, options_.reconstruct});
     runs_[index] = {study_case.labels, study_case.seed, outcome.found ? kDone : kNothing, "",
                     revision_,         run_folder,      FiniteOnly(outcome.figures)};
     WriteRunFile(partial.path(), {runs_[index], CaseSettings(study_case)});
@@ -290,8 +279,8 @@ StudyResults RunStudy(const Study& study, const StudyRequest& request, const fs:
                       const RunnerOptions& options, const Progress& progress) {
   const StudyPlan plan = PlanStudy(study, request, folder);
   if (study.report) RequireGnuplot();
-  StudyRunner runner(study, request, folder, options.caches, plan.cases);
-  runner.Measure(runner.Pending(options.remeasure), options.jobs, progress);
+  StudyRunner runner(study, request, folder, options, plan.cases);
+  runner.Measure(runner.Pending(), progress);
   StudyResults results{folder, StudyStem(study, request), runner.TakeRuns()};
   WriteRunsCsv(folder / (results.stem + ".csv"), results.runs);
   WriteRunsJson(folder / (results.stem + ".json"), results.runs);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/studies/reconstruction_run.h"
 #include "experiments/studies/study.h"
 
 namespace curvefusion {
@@ -12,8 +13,10 @@ namespace curvefusion {
 struct RunnerOptions {
   int jobs = 1;            ///< scans that are worked on at the same time, each with all its cases
   bool remeasure = false;  ///< measure again what another revision of the program has measured
-  /// Folders of sweeps, whose scans and cells are taken over and added to, as `sweep` does.
+  /// Folders of sweeps and other studies, whose scans are taken over and added to.
   std::vector<std::filesystem::path> caches = {};
+  /// RunInput::reconstruct; MeasurementByCells takes and leaves the cells of such folders.
+  CaseMeasurement reconstruct = ReconstructAndEvaluate;
 };
 
 /// What is to do before any of it is done.

@@ -84,7 +84,7 @@ void AddRecallOfWires(const SkeletonGraph& result, const SkeletonGraph& truth, F
 }
 
 RunOutcome Run(const RunInput& input) {
-  RunOutcome outcome = ReconstructAndEvaluate(input);
+  RunOutcome outcome = input.reconstruct(input);
   AddRecallOfWires(ReadSkeleton(input.folder / "skeleton.json"), ReadTruth(input.scan / "truth"),
                    outcome.figures);
   return outcome;

@@ -8,7 +8,6 @@
 #include "experiments/studies/reconstruction_run.h"
 #include "experiments/studies/run_files.h"
 #include "experiments/sweeps/sweep_plan.h"
-#include "kernel/atomic_file.h"
 #include "kernel/error.h"
 #include "kernel/free_space.h"
 #include "kernel/partial_folder.h"
@@ -57,6 +56,29 @@ StudyRun Measured(const StudyCase& study_case, const fs::path& scan, const fs::p
   return run;
 }
 
+RunOutcome RunAsCell(const RunInput& input, const CacheFolders& folders) {
+  if (!input.study_case.scan) return ReconstructAndEvaluate(input);
+  const SweepCell cell = CellOfCase(input.study_case);
+  fs::path result = FinishedResult(folders, cell);
+  if (result.empty()) {
+    WriteCell(StoreOf(folders), cell);
+    result = ResultFolder(StoreOf(folders), cell);
+    MeasureCell(cell, input.scan, result, input.progress);
+  }
+  const auto file = ReadRunFile(result);
+  if (!file) {
+    throw Error(ErrorKind::kBadInput, (result / "run.json").string() +
+                                          ": cannot be read; remove its folder, and the cell is "
+                                          "measured again");
+  }
+  if (file->run.outcome == "failed") throw Error(ErrorKind::kBadInput, file->run.message);
+  for (const fs::directory_entry& entry : fs::directory_iterator(result)) {
+    if (entry.path().filename() == "run.json") continue;
+    fs::copy_file(entry.path(), input.folder / entry.path().filename());
+  }
+  return {file->run.outcome == "done", file->run.figures};
+}
+
 }  // namespace
 
 CellOutcome MeasureCell(const SweepCell& cell, const fs::path& scan, const fs::path& result,
@@ -76,31 +98,8 @@ CellOutcome MeasureCell(const SweepCell& cell, const fs::path& scan, const fs::p
   return {run.outcome, run.message};
 }
 
-RunOutcome RunAsCell(const RunInput& input) {
-  const SweepCell cell = CellOfCase(input.study_case);
-  SweepPlan places;
-  places.folder = input.caches.front();
-  places.caches.assign(input.caches.begin() + 1, input.caches.end());
-  fs::path result = FinishedResult(places, cell);
-  if (result.empty()) {
-    result = ResultFolder(StoreOf(places), cell);
-    fs::create_directories(result.parent_path());
-    WriteStreamAtomically(result.parent_path() / "params.toml",
-                          [&](std::ostream& stream) { stream << ParamsToml(cell); });
-    MeasureCell(cell, input.scan, result, input.progress);
-  }
-  const auto file = ReadRunFile(result);
-  if (!file) {
-    throw Error(ErrorKind::kBadInput, (result / "run.json").string() +
-                                          ": cannot be read; remove its folder, and the cell is "
-                                          "measured again");
-  }
-  if (file->run.outcome == "failed") throw Error(ErrorKind::kBadInput, file->run.message);
-  for (const fs::directory_entry& entry : fs::directory_iterator(result)) {
-    if (entry.path().filename() == "run.json") continue;
-    fs::copy_file(entry.path(), input.folder / entry.path().filename());
-  }
-  return {file->run.outcome == "done", file->run.figures};
+CaseMeasurement MeasurementByCells(const CacheFolders& folders) {
+  return [folders](const RunInput& input) { return RunAsCell(input, folders); };
 }
 
 void MakeSweepScan(const fs::path& settings, const fs::path& folder, const Progress& progress) {

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "experiments/studies/scan_cache.h"
 #include "experiments/sweeps/sweep_cells.h"
 #include "kernel/progress.h"
 
@@ -22,11 +23,11 @@ struct CellOutcome {
 CellOutcome MeasureCell(const SweepCell& cell, const std::filesystem::path& scan,
                         const std::filesystem::path& result, const Progress& progress);
 
-/// A case of a study whose scan is simulated, as the cell of a sweep that it is: taken from the
-/// first of input.caches that has it, otherwise measured into the first that can be written, and
-/// copied into input.folder. Throws as MeasureCell, and Error(kBadInput) with the message of a cell
-/// that has failed.
-RunOutcome RunAsCell(const RunInput& input);
+/// Measures cases of studies as the cells of sweeps that they are: a cell is taken from the first
+/// folder that has it, otherwise measured into StoreOf(folders), and copied into RunInput::folder.
+/// A recording is no cell: ReconstructAndEvaluate. Throws as MeasureCell, and Error(kBadInput) with
+/// the message of a cell that has failed.
+CaseMeasurement MeasurementByCells(const CacheFolders& folders);
 
 /// Simulates the scan that a settings file tells of, unless it is there. Where another process
 /// makes the same scan meanwhile, that one stays.

@@ -1,7 +1,5 @@
 #include "experiments/sweeps/sweep_plan.h"
 
-#include <unistd.h>
-
 #include <nlohmann/json.hpp>
 
 #include "experiments/simulation/scan_settings.h"
@@ -77,16 +75,6 @@ SweepPlan ParsedPlan(const Json& json, const fs::path& folder) {
   return plan;
 }
 
-// The first of the sweep's folder and its caches that holds `path`; empty where none does.
-fs::path FirstWith(const SweepPlan& plan, const fs::path& folder, const char* proof) {
-  std::error_code failure;
-  if (fs::exists(plan.folder / folder / proof, failure)) return plan.folder / folder;
-  for (const fs::path& cache : plan.caches) {
-    if (fs::exists(cache / folder / proof, failure)) return cache / folder;
-  }
-  return {};
-}
-
 }  // namespace
 
 SweepPlan WriteSweepPlan(const fs::path& study, const fs::path& folder,
@@ -94,12 +82,9 @@ SweepPlan WriteSweepPlan(const fs::path& study, const fs::path& folder,
   const SweepRequest request = ReadSweepRequest(study);
   const std::string study_text = ReadFile(study);
   const SweepCells cells = CellsOf(request);
-  SweepPlan plan{folder, MethodVersion(), request.threads, request.memory_mb, cells.cells, {}};
+  SweepPlan plan{{folder, {}}, MethodVersion(), request.threads, request.memory_mb, cells.cells};
   for (const fs::path& cache : caches) plan.caches.push_back(fs::absolute(cache));
-  for (const SweepCell& cell : plan.cells) {
-    fs::create_directories(folder / "cells" / cell.key);
-    WriteText(folder / "cells" / cell.key / "params.toml", ParamsToml(cell));
-  }
+  for (const SweepCell& cell : plan.cells) WriteCell(folder, cell);
   fs::create_directories(folder / "scans");
   for (const SimulationOptions& scan : cells.scans) {
     WriteText(ScanFolder(folder / "scans", scan).string() + ".json", ScanSettings(scan));
@@ -128,23 +113,18 @@ SweepPlan ReadSweepPlan(const fs::path& folder) {
   }
 }
 
-fs::path StoreOf(const SweepPlan& plan) {
-  for (const fs::path& cache : plan.caches) {
-    if (::access(cache.c_str(), W_OK) == 0) return cache;
-  }
-  return plan.folder;
+void WriteCell(const fs::path& root, const SweepCell& cell) {
+  const fs::path folder = ResultFolder(root, cell).parent_path();
+  fs::create_directories(folder);
+  WriteText(folder / "params.toml", ParamsToml(cell));
 }
 
 fs::path ResultFolder(const fs::path& root, const SweepCell& cell) {
   return root / "cells" / cell.key / "result";
 }
 
-fs::path FinishedResult(const SweepPlan& plan, const SweepCell& cell) {
-  return FirstWith(plan, ResultFolder({}, cell), "run.json");
-}
-
-fs::path FinishedScan(const SweepPlan& plan, const std::string& scan) {
-  return FirstWith(plan, fs::path("scans") / scan, "truth/settings.json");
+fs::path FinishedResult(const CacheFolders& folders, const SweepCell& cell) {
+  return FinishedIn(folders, ResultFolder({}, cell), "run.json");
 }
 
 }  // namespace curvefusion

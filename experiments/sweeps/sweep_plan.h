@@ -4,19 +4,17 @@
 #include <string>
 #include <vector>
 
+#include "experiments/studies/scan_cache.h"
 #include "experiments/sweeps/sweep_cells.h"
 
 namespace curvefusion {
 
-/// A sweep as its folder tells it.
-struct SweepPlan {
-  std::filesystem::path folder;
+/// A sweep as its folder tells it; its caches are what other sweeps and studies have left.
+struct SweepPlan : CacheFolders {
   std::string method;  ///< the version that its keys are true for
   int threads = 1;     ///< of a cell
   int memory_mb = 0;   ///< of a cell at most
   std::vector<SweepCell> cells;
-  /// Folders that may have finished cells and scans, besides `folder`: what other sweeps left.
-  std::vector<std::filesystem::path> caches;
 };
 
 /// Writes a sweep into `folder`: cells/KEY/params.toml for each cell, scans/NAME.json for each
@@ -30,17 +28,14 @@ SweepPlan WriteSweepPlan(const std::filesystem::path& study, const std::filesyst
 /// Throws Error(kBadInput) for a folder without a plan that can be read.
 SweepPlan ReadSweepPlan(const std::filesystem::path& folder);
 
-/// Where new results and scans go: the first cache that can be written, otherwise the folder.
-std::filesystem::path StoreOf(const SweepPlan& plan);
+/// Writes root/cells/KEY/params.toml, from which the cell can be measured (ReadParams).
+void WriteCell(const std::filesystem::path& root, const SweepCell& cell);
 
 /// Where the result of a cell lies inside a folder or a cache.
 std::filesystem::path ResultFolder(const std::filesystem::path& root, const SweepCell& cell);
 
-/// Where a cell's result lies, complete, in the sweep's folder or the first cache that has it.
-/// Empty where none has.
-std::filesystem::path FinishedResult(const SweepPlan& plan, const SweepCell& cell);
-
-/// The same for a scan.
-std::filesystem::path FinishedScan(const SweepPlan& plan, const std::string& scan);
+/// Where a cell's result lies, complete, in the folder or the first cache that has it. Empty where
+/// none has.
+std::filesystem::path FinishedResult(const CacheFolders& folders, const SweepCell& cell);
 
 }  // namespace curvefusion

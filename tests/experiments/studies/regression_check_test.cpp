@@ -6,6 +6,7 @@
 #include "experiments/studies/studies.h"
 #include "experiments/studies/study_runner.h"
 #include "kernel/error.h"
+#include "tests/experiments/studies/tiny_objects.h"
 #include "tests/temporary_path.h"
 
 namespace curvefusion {
@@ -13,23 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::ElementsAre;
-
-// The study of objects on a scan that takes seconds: six frames without noise, and no figures.
-Study TinyObjects() {
-  Study study = ObjectsStudy();
-  const auto cases = study.cases;
-  study.cases = [cases](const StudyRequest& request) {
-    std::vector<StudyCase> tiny = cases(request);
-    for (StudyCase& study_case : tiny) {
-      study_case.scan->sensor = "ideal";
-      study_case.scan->pose_source = "true";
-      study_case.scan->frames = 6;
-    }
-    return tiny;
-  };
-  study.report = {};
-  return study;
-}
 
 TEST(Baseline, HoldsTheSameRunsOnTheSameScans) {
   const fs::path folder = TemporaryPath("baseline");

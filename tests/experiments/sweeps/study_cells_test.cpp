@@ -3,10 +3,10 @@
 #include <fstream>
 
 #include "experiments/studies/run_files.h"
-#include "experiments/studies/studies.h"
 #include "experiments/studies/study_runner.h"
 #include "experiments/sweeps/cell_measurement.h"
 #include "experiments/sweeps/sweep_plan.h"
+#include "tests/experiments/studies/tiny_objects.h"
 #include "tests/temporary_path.h"
 
 namespace curvefusion {
@@ -30,21 +30,11 @@ class StudyCells : public testing::Test {
   }
 
   StudyRun RunOnly(const char* name, const std::vector<fs::path>& caches) {
-    Study study = ObjectsStudy();
-    study.cases = [cases = study.cases](const StudyRequest& request) {
-      std::vector<StudyCase> tiny = cases(request);
-      for (StudyCase& study_case : tiny) {
-        study_case.scan->sensor = "ideal";
-        study_case.scan->pose_source = "true";
-        study_case.scan->frames = 6;
-      }
-      return tiny;
-    };
-    study.report = {};
     const StudyRequest request{.profiles = {Profile::kBest}, .seeds = 1, .objects = {"valence6"}};
     RunnerOptions options;
     options.caches = caches;
-    return RunStudy(study, request, folder_ / name, options, NoProgress).runs.at(0);
+    if (!caches.empty()) options.reconstruct = MeasurementByCells({folder_ / name, caches});
+    return RunStudy(TinyObjects(), request, folder_ / name, options, NoProgress).runs.at(0);
   }
 
   const fs::path folder_ = TemporaryPath("study_cells");
