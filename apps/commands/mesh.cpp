@@ -37,10 +37,42 @@ struct MeshArguments {
   RunOptions run;
 };
 
+Vec3 SizeOf(const TriangleMesh& mesh) {
+  Eigen::AlignedBox3f box;
+  for (const Vec3f& vertex : mesh.vertices) box.extend(vertex);
+  return box.isEmpty() ? Vec3(Vec3::Zero()) : Vec3(box.sizes().cast<double>());
+}
+
+// The unit of the file to write, or of one just written.
 MeshUnit UnitOf(const MeshArguments& arguments, const std::filesystem::path& path) {
   if (arguments.purpose == "print") return MeshUnit::kMillimetres;
   if (arguments.unit.empty()) return DefaultUnit(path);
   return arguments.unit == "mm" ? MeshUnit::kMillimetres : MeshUnit::kMetres;
+}
+
+bool TellsItsUnit(const std::filesystem::path& path) {
+  return path.extension() == ".glb" || path.extension() == ".3mf";
+}
+
+// Of a mesh from elsewhere. Nothing that is scanned by hand is 20 metres large, nor as small as 20
+// millimetres (chosen).
+MeshUnit LikelyUnit(const MeshArguments& arguments, const Vec3& size) {
+  const bool is_known = !arguments.unit.empty() || TellsItsUnit(arguments.input);
+  return !is_known && size.maxCoeff() > 20 ? MeshUnit::kMillimetres
+                                           : UnitOf(arguments, arguments.input);
+}
+
+// What a size says of the unit that it is in.
+const char* UnitRemark(const MeshArguments& arguments, MeshUnit unit) {
+  if (!arguments.unit.empty() || TellsItsUnit(arguments.input)) return "";
+  return unit == MeshUnit::kMetres
+             ? " (coordinates taken as metres; --unit mm if they are not)"
+             : " (coordinates taken as millimetres; --unit m if they are not)";
+}
+
+void PrintSize(const Vec3& size, MeshUnit unit, const char* remark) {
+  const Vec3 mm = size * (unit == MeshUnit::kMetres ? 1 / kMillimetre : 1);
+  fmt::print("  size {:.1f} x {:.1f} x {:.1f} mm{}\n", mm.x(), mm.y(), mm.z(), remark);
 }
 
 void PrintReport(const WatertightReport& report, MeshUnit unit) {
@@ -52,18 +84,31 @@ void PrintReport(const WatertightReport& report, MeshUnit unit) {
              report.min_angle * 180 / std::numbers::pi);
 }
 
-// Examines a file as another program would find it.
-int CheckFile(const MeshArguments& arguments, const std::filesystem::path& path) {
-  const WatertightReport report = ExamineMesh(ReadMesh(path));
-  if (!arguments.run.quiet) {
-    PrintReport(report, UnitOf(arguments, path));
-    const std::string defects = report.faces > 0 ? report.Defects() : "no faces";
-    fmt::print("  {}\n", report.IsWatertight() ? "watertight" : defects);
-    if (report.defect_place) {
-      const Vec3& p = *report.defect_place;
-      fmt::print("  the first near ({:g}, {:g}, {:g})\n", p.x(), p.y(), p.z());
-    }
+void PrintCheck(const MeshArguments& arguments, const WatertightReport& report, MeshUnit unit) {
+  if (arguments.run.quiet) return;
+  PrintReport(report, unit);
+  const std::string defects = report.faces > 0 ? report.Defects() : "no faces";
+  fmt::print("  {}\n", report.IsWatertight() ? "watertight" : defects);
+  if (report.defect_place) {
+    const Vec3& p = *report.defect_place;
+    fmt::print("  the first near ({:g}, {:g}, {:g})\n", p.x(), p.y(), p.z());
   }
+}
+
+// Examines the file that was written as another program would find it.
+int CheckOutput(const MeshArguments& arguments) {
+  const WatertightReport report = ExamineMesh(ReadMesh(arguments.output));
+  PrintCheck(arguments, report, UnitOf(arguments, arguments.output));
+  return report.IsWatertight() ? 0 : kDefectFound;
+}
+
+int CheckInput(const MeshArguments& arguments) {
+  const TriangleMesh mesh = ReadMesh(arguments.input);
+  const WatertightReport report = ExamineMesh(mesh);
+  const Vec3 size = SizeOf(mesh);
+  const MeshUnit unit = LikelyUnit(arguments, size);
+  if (!arguments.run.quiet) PrintSize(size, unit, UnitRemark(arguments, unit));
+  PrintCheck(arguments, report, unit);
   return report.IsWatertight() ? 0 : kDefectFound;
 }
 
@@ -106,14 +151,6 @@ void RequirePrintable(const MeshArguments& arguments, const SkeletonGraph& skele
                           arguments.min_diameter_mm, arguments.min_diameter_mm / 2));
 }
 
-void PrintSize(const MeshArguments& arguments, const TriangleMesh& mesh) {
-  if (arguments.purpose.empty()) return;
-  Eigen::AlignedBox3f box;
-  for (const Vec3f& vertex : mesh.vertices) box.extend(vertex);
-  const Vec3 size = box.sizes().cast<double>() / kMillimetre;
-  fmt::print("  size {:.1f} x {:.1f} x {:.1f} mm, at full scale\n", size.x(), size.y(), size.z());
-}
-
 int MeshSkeleton(const MeshArguments& arguments) {
   CheckPrintFormat(arguments);
   const MeshUnit unit = UnitOf(arguments, arguments.output);
@@ -131,19 +168,21 @@ int MeshSkeleton(const MeshArguments& arguments) {
   if (!arguments.run.quiet) {
     fmt::print("Wrote {} ({})\n", arguments.output.string(),
                unit == MeshUnit::kMetres ? "m" : "mm");
-    PrintSize(arguments, mesh);
+    if (!arguments.purpose.empty()) {
+      PrintSize(SizeOf(mesh), MeshUnit::kMetres, ", at full scale");
+    }
     if (!arguments.check) PrintReport(tubes.report, MeshUnit::kMetres);
     for (const std::string& warning : TubeWarnings(skeleton, tubes, arguments.tubes)) {
       fmt::print("  warning: {}\n", warning);
     }
   }
-  return arguments.check ? CheckFile(arguments, arguments.output) : 0;
+  return arguments.check ? CheckOutput(arguments) : 0;
 }
 
 int RunMesh(const MeshArguments& arguments) {
   LimitThreads(arguments.run);
   if (!arguments.output.empty()) return MeshSkeleton(arguments);
-  if (arguments.check) return CheckFile(arguments, arguments.input);
+  if (arguments.check) return CheckInput(arguments);
   throw Error(ErrorKind::kUsage,
               fmt::format("{}: name the file to write with -o, or check a mesh with --check",
                           arguments.input.string()));

@@ -105,6 +105,10 @@ TEST_F(CommandLine, MeshCheckTellsDefectsByExitCodeOne) {
   EXPECT_EQ(defect.exit_code, 1) << defect.output;
   EXPECT_THAT(defect.output, HasSubstr("3 boundary edges"));
   EXPECT_EQ(Run("mesh closed.obj").exit_code, 2);
+  // A file that does not tell its unit: what size it would have is said.
+  EXPECT_THAT(sound.output, HasSubstr("size 1000.0 x 1000.0 x 1000.0 mm (coordinates taken as me"));
+  EXPECT_THAT(Run("mesh --check closed.obj --unit mm").output,
+              HasSubstr("size 1.0 x 1.0 x 1.0 mm\n"));
   EXPECT_EQ(Run("mesh --check none.obj").exit_code, 3);
 }
 
@@ -143,6 +147,7 @@ TEST_F(CommandLine, MeshWritesEveryFormatWithAnyRadii) {
     EXPECT_THAT(print.output, HasSubstr("size 108."));
     EXPECT_THAT(print.output, HasSubstr(" mm, at full scale"));
     EXPECT_THAT(print.output, HasSubstr("(mm)"));
+    EXPECT_THAT(Run(std::string("mesh --check ") + name).output, HasSubstr("size 108."));
   }
   const Outcome thin = Run("mesh skeleton.json --for print --min-diameter 5 -o thin.stl");
   EXPECT_EQ(thin.exit_code, 3);
