@@ -12,7 +12,7 @@ struct PointFunnel {
   int64_t frames = 0;          ///< segmented
   int64_t depth_pixels = 0;    ///< with a depth
   int64_t thin_pixels = 0;     ///< of these not explained by large surfaces: in front of them
-  int64_t gated_pixels = 0;    ///< of these kept by colours in rows of wires
+  int64_t gated_pixels = 0;    ///< of these kept by colours in wire arrays
   int64_t merged_points = 0;   ///< voxels of bundles with such pixels
   int64_t too_few_frames = 0;  ///< points dropped: seen in too few frames of their bundle
   int64_t small_clusters = 0;  ///< points dropped as ghosts: noise and small clusters

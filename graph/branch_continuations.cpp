@@ -17,7 +17,7 @@ namespace curvefusion {
 namespace {
 
 constexpr double kStep = 0.0015;
-// Curves that run along the way do not cross it.
+// Curves that run along the path do not cross it.
 constexpr double kParallelCosine = 0.8;
 constexpr double kFacingCosine = 0.85;
 constexpr double kLeastBranch = 0.012;
@@ -46,7 +46,7 @@ class ContinuationSearch {
 
   const std::vector<OpenEnd>& open() const { return open_; }
 
-  // The nearer of what faces the end and what crosses its way.
+  // The nearer of what faces the end and what crosses its path.
   std::optional<BranchContinuation> Find(const OpenEnd& end) const {
     const int crossing = FirstAhead(end);
     const OpenEnd* facing = NearestFacing(end);
@@ -78,7 +78,7 @@ class ContinuationSearch {
     return Length(edge.points) - place.arc_length <= options_.snap_distance ? edge.nodes[1] : -1;
   }
 
-  // The point next to the way ahead of those it comes to first; -1 where there are none.
+  // The point next to the path ahead of those it comes to first; -1 where there are none.
   int FirstAhead(const OpenEnd& end) const {
     for (double at = options_.min_gap; at <= options_.max_gap; at += kStep) {
       const Vec3 p = end.position + at * end.outward;
@@ -114,12 +114,12 @@ class ContinuationSearch {
     const OpenEnd* nearest = nullptr;
     double least = options_.max_gap;
     for (const OpenEnd& other : open_) {
-      const Vec3 way = other.position - end.position;
-      const double distance = way.norm();
+      const Vec3 offset = other.position - end.position;
+      const double distance = offset.norm();
       if (other.node == end.node || distance < options_.min_gap || distance >= least) continue;
       const double cosine =
-          std::min({-other.outward.dot(end.outward), end.outward.dot(way) / distance,
-                    -other.outward.dot(way) / distance});
+          std::min({-other.outward.dot(end.outward), end.outward.dot(offset) / distance,
+                    -other.outward.dot(offset) / distance});
       if (cosine < kFacingCosine) continue;
       nearest = &other;
       least = distance;
@@ -148,7 +148,7 @@ void VisitOptions(ContinuationOptions& options, OptionVisitor& visitor) {
       {"min_gap", "m", 0.001, 0.5, "Deviation: shorter gaps are left to the closing of free ends."},
       options.min_gap);
   visitor.Visit({"base_miss", "m", 0, 0.1,
-                 "Deviation: the way ahead meets a curve that passes it at this distance."},
+                 "Deviation: the path ahead meets a curve that passes it at this distance."},
                 options.base_miss);
   visitor.Visit({"miss_per_gap", "", 0, 1,
                  "Deviation: by how much farther for each metre: directions are not exact."},
@@ -178,8 +178,8 @@ std::vector<BranchContinuation> FindContinuations(const SkeletonGraph& graph,
 
 std::vector<BranchContinuation> WithShifts(const SkeletonGraph& graph,
                                            const BranchContinuation& continuation) {
-  std::vector<BranchContinuation> ways{continuation};
-  if (continuation.to >= 0) return ways;
+  std::vector<BranchContinuation> paths{continuation};
+  if (continuation.to >= 0) return paths;
   const Polyline& points = graph.edge(continuation.target.edge).points;
   const std::vector<double> arc_lengths = CumulativeLength(points);
   for (const double shift : kShifts) {
@@ -188,9 +188,9 @@ std::vector<BranchContinuation> WithShifts(const SkeletonGraph& graph,
     if (shifted.target.arc_length < 0 || shifted.target.arc_length > arc_lengths.back()) continue;
     const Vec3 end = PointAt(points, arc_lengths, shifted.target.arc_length);
     shifted.curve = Resample({continuation.curve.front(), end}, kStep);
-    ways.push_back(std::move(shifted));
+    paths.push_back(std::move(shifted));
   }
-  return ways;
+  return paths;
 }
 
 void AddContinuations(SkeletonGraph& graph, const std::vector<BranchContinuation>& continuations,

@@ -29,10 +29,11 @@ struct BranchContinuation {
 };
 
 /// Where wires may go on that end at a junction on one side of it, or freely: for each such branch
-/// the straight way ahead to the first curve that comes near it, or, where that runs on in the same
-/// direction from an open end of its own, the smooth curve between both ends. Nothing for branches
-/// that reach no curve within `max_gap`. Whether a wire is there has to be looked up elsewhere. Of
-/// two ends that face each other one continuation is returned. Costs O(n log n) for n points.
+/// the straight path ahead to the first curve that comes near it, or, where that runs on in the
+/// same direction from an open end of its own, the smooth curve between both ends. Nothing for
+/// branches that reach no curve within `max_gap`. Whether a wire is there has to be looked up
+/// elsewhere. Of two ends that face each other one continuation is returned. Costs O(n log n) for n
+/// points.
 std::vector<BranchContinuation> FindContinuations(const SkeletonGraph& graph,
                                                   const ContinuationOptions& options);
 

@@ -134,8 +134,8 @@ Stretch StretchOf(const SegmentTable& table, const SegmentPair& pair, double thr
   const Segment s = table.At(pair.s);
   const Segment t = table.At(pair.t);
   const double reach = kConnectedReach * threshold;
-  const std::vector<LinearGap> ways = ShortWays(table, pair, reach);
-  const ClosestParameters at = ClosestPointsBeyond(s, t, ways, reach);
+  const std::vector<LinearGap> paths = ShortPaths(table, pair, reach);
+  const ClosestParameters at = ClosestPointsBeyond(s, t, paths, reach);
   const auto arc_s = [&](double x) {
     return table.points[pair.s].arc_length +
            x * (table.points[pair.s + 1].arc_length - table.points[pair.s].arc_length);

@@ -15,7 +15,7 @@ struct Contact {
   LocationPair closest;    ///< where they are nearest
   double distance = 0;     ///< there, metres
   double closest_gap = 0;  ///< arc length between the two places over a shared node or along the
-                           ///< common edge; infinite where there is no such way
+                           ///< common edge; infinite where there is no such path
   LocationPair first;      ///< the ends of the stretch, ordered along the first edge
   LocationPair last;
   double first_gap = 0;  ///< as closest_gap

@@ -14,27 +14,27 @@ namespace {
 // leave this margin.
 constexpr double kMargin = 1e-9;
 
-double LeastOf(const LinearGap& way) {
-  return std::min(way.s_at_a, way.s_at_b) + std::min(way.t_at_a, way.t_at_b);
+double LeastOf(const LinearGap& path) {
+  return std::min(path.s_at_a, path.s_at_b) + std::min(path.t_at_a, path.t_at_b);
 }
 
-double GreatestOf(const LinearGap& way) {
-  return std::max(way.s_at_a, way.s_at_b) + std::max(way.t_at_a, way.t_at_b);
+double GreatestOf(const LinearGap& path) {
+  return std::max(path.s_at_a, path.s_at_b) + std::max(path.t_at_a, path.t_at_b);
 }
 
-double SizeOf(const LinearGap& way) {
-  return std::max(std::abs(way.s_at_a), std::abs(way.s_at_b)) +
-         std::max(std::abs(way.t_at_a), std::abs(way.t_at_b));
+double SizeOf(const LinearGap& path) {
+  return std::max(std::abs(path.s_at_a), std::abs(path.s_at_b)) +
+         std::max(std::abs(path.t_at_a), std::abs(path.t_at_b));
 }
 
 // One along a common curve and one for each pair of ends that may be one node.
-using Ways = boost::container::static_vector<LinearGap, 5>;
+using Paths = boost::container::static_vector<LinearGap, 5>;
 
-void AddIfShort(const LinearGap& way, double reach, Ways& ways) {
-  if (LeastOf(way) <= reach + kMargin * (reach + SizeOf(way))) ways.push_back(way);
+void AddIfShort(const LinearGap& path, double reach, Paths& paths) {
+  if (LeastOf(path) <= reach + kMargin * (reach + SizeOf(path))) paths.push_back(path);
 }
 
-// Whether there is a way at all between the curves of two segments, as there is between few.
+// Whether there is a path at all between the curves of two segments, as there is between few.
 bool HangTogether(const SegmentTable& table, const SegmentPair& pair) {
   const int curve_s = table.curve_of[pair.s];
   const int curve_t = table.curve_of[pair.t];
@@ -44,15 +44,15 @@ bool HangTogether(const SegmentTable& table, const SegmentPair& pair) {
   return a == c || a == d || b == c || b == d;
 }
 
-// Whether a segment is so near to an end of its curve that a way over the node there may be short.
+// Whether a segment is so near to an end of its curve that a path over the node there may be short.
 bool MayReachNode(const SegmentTable& table, int k, double reach) {
   const double length = table.Length(table.curve_of[k]);
   const double limit = reach + kMargin * (reach + length);
   return table.points[k].arc_length <= limit || length - table.points[k + 1].arc_length <= limit;
 }
 
-void AddWaysOverNodes(const SegmentTable& table, const SegmentPair& pair, double reach,
-                      Ways& ways) {
+void AddPathsOverNodes(const SegmentTable& table, const SegmentPair& pair, double reach,
+                       Paths& paths) {
   const int curve_s = table.curve_of[pair.s];
   const int curve_t = table.curve_of[pair.t];
   for (int i = 0; i < 2; ++i) {
@@ -61,7 +61,7 @@ void AddWaysOverNodes(const SegmentTable& table, const SegmentPair& pair, double
       if (table.curves[curve_s].nodes[i] != table.curves[curve_t].nodes[j]) continue;
       AddIfShort({table.FromEnd(pair.s, i), table.FromEnd(pair.s + 1, i), table.FromEnd(pair.t, j),
                   table.FromEnd(pair.t + 1, j)},
-                 reach, ways);
+                 reach, paths);
     }
   }
 }
@@ -95,21 +95,21 @@ bool Meet(const SegmentTable& table, const SegmentPair& pair) {
                  table.points[pair.t + 1 - shared.side_t].position);
 }
 
-Ways FindShortWays(const SegmentTable& table, const SegmentPair& pair, double reach) {
-  Ways ways;
+Paths FindShortPaths(const SegmentTable& table, const SegmentPair& pair, double reach) {
+  Paths paths;
   const auto [s, t] = pair;
   if (table.curve_of[s] == table.curve_of[t])
     AddIfShort({-table.points[s].arc_length, -table.points[s + 1].arc_length,
                 table.points[t].arc_length, table.points[t + 1].arc_length},
-               reach, ways);
+               reach, paths);
   if (MayReachNode(table, s, reach) && MayReachNode(table, t, reach))
-    AddWaysOverNodes(table, pair, reach, ways);
-  return ways;
+    AddPathsOverNodes(table, pair, reach, paths);
+  return paths;
 }
 
-bool AreOnOneShortWay(const Ways& ways, double reach) {
-  return std::any_of(ways.begin(), ways.end(), [reach](const LinearGap& way) {
-    return GreatestOf(way) < reach - kMargin * (reach + SizeOf(way));
+bool AreOnOneShortPath(const Paths& paths, double reach) {
+  return std::any_of(paths.begin(), paths.end(), [reach](const LinearGap& path) {
+    return GreatestOf(path) < reach - kMargin * (reach + SizeOf(path));
   });
 }
 
@@ -195,20 +195,21 @@ std::vector<SegmentPair> PairsInTree(const BoxTree& tree, const std::vector<int>
 
 }  // namespace
 
-std::vector<LinearGap> ShortWays(const SegmentTable& table, const SegmentPair& pair, double reach) {
-  const Ways ways = FindShortWays(table, pair, reach);
-  return {ways.begin(), ways.end()};
+std::vector<LinearGap> ShortPaths(const SegmentTable& table, const SegmentPair& pair,
+                                  double reach) {
+  const Paths paths = FindShortPaths(table, pair, reach);
+  return {paths.begin(), paths.end()};
 }
 
 bool AreInContact(const SegmentTable& table, const SegmentPair& pair, double threshold) {
   const double reach = kConnectedReach * threshold;
-  Ways ways;
-  if (HangTogether(table, pair)) ways = FindShortWays(table, pair, reach);
-  if (ways.empty()) return AreWithin(table.At(pair.s), table.At(pair.t), threshold);
+  Paths paths;
+  if (HangTogether(table, pair)) paths = FindShortPaths(table, pair, reach);
+  if (paths.empty()) return AreWithin(table.At(pair.s), table.At(pair.t), threshold);
   if (Meet(table, pair)) return true;
-  if (threshold <= 0 || AreOnOneShortWay(ways, reach)) return false;
-  return AreWithinBeyond(table.At(pair.s), table.At(pair.t), threshold, {ways.begin(), ways.end()},
-                         reach);
+  if (threshold <= 0 || AreOnOneShortPath(paths, reach)) return false;
+  return AreWithinBeyond(table.At(pair.s), table.At(pair.t), threshold,
+                         {paths.begin(), paths.end()}, reach);
 }
 
 std::vector<SegmentPair> SegmentPairsInContact(const SegmentTable& table, double threshold) {

@@ -18,13 +18,13 @@ struct SegmentPair {
   auto operator<=>(const SegmentPair&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
-/// The ways along the graph between two segments, along their common curve or over one common node,
-/// on which some of their points are nearer to each other than `reach`.
-std::vector<LinearGap> ShortWays(const SegmentTable& table, const SegmentPair& pair, double reach);
+/// The paths along the graph between two segments, along their common curve or over one common
+/// node, on which some of their points are nearer to each other than `reach`.
+std::vector<LinearGap> ShortPaths(const SegmentTable& table, const SegmentPair& pair, double reach);
 
 /// All pairs of segments in contact, ascending. Two segments are in contact where
 /// - they have a point in common other than a node or a vertex they share, or
-/// - they have points within the threshold (limit included) of each other between which every way,
+/// - they have points within the threshold (limit included) of each other between which every path,
 ///   along the common curve or over one common node, is at least kConnectedReach thresholds long;
 ///   this applies to thresholds above zero.
 /// Decided exactly on the stored coordinates and on arc lengths as the table has them. No segment

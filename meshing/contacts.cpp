@@ -211,10 +211,10 @@ bool Grazes(const TubeSegment& s, const TubeSegment& t, const Vec3& along_s, con
   for (const double at : {0.0, nearest, 1.0}) {
     const Vec3 p = s.line.a + at * (s.line.b - s.line.a);
     const double on_t = ClosestParameter(t.line.a, t.line.b, p);
-    const Vec3 way = t.line.a + on_t * (t.line.b - t.line.a) - p;
-    const double distance = way.norm();
+    const Vec3 offset = t.line.a + on_t * (t.line.b - t.line.a) - p;
+    const double distance = offset.norm();
     if (distance < kLeastGrazing * touch || distance > kGreatestGrazing * touch) continue;
-    const double slant = std::max(std::abs(way.dot(along_s)), std::abs(way.dot(along_t)));
+    const double slant = std::max(std::abs(offset.dot(along_s)), std::abs(offset.dot(along_t)));
     if (slant < kGreatestSlant * distance) return true;
   }
   return false;

@@ -37,8 +37,8 @@ struct Stretch {
 
   // Whether a point of a curve lies on the line through the segment, with its radius.
   bool Holds(const Vec3& p, double radius_there) const {
-    const Vec3 way = (b - a).normalized();
-    const Vec3 offset = p - a - way.dot(p - a) * way;
+    const Vec3 direction = (b - a).normalized();
+    const Vec3 offset = p - a - direction.dot(p - a) * direction;
     const double change =
         std::max(std::abs(radius_there - radius_a), std::abs(radius_there - radius_b));
     return std::max(offset.norm(), change) <= kStraight * radius();

@@ -150,12 +150,12 @@ class CrossingFinder {
                                                       static_cast<int>(crossing_.nodes.size()));
     if (is_new) {
       const Vec3& from = both_.vertices[low];
-      const Vec3 way = both_.vertices[high] - from;
+      const Vec3 span = both_.vertices[high] - from;
       const auto& [a, b, c] = both_.triangles[face];
       const Vec3& origin = both_.vertices[a];
       const Vec3 normal = (both_.vertices[b] - origin).cross(both_.vertices[c] - origin);
-      const double along = std::clamp(normal.dot(origin - from) / normal.dot(way), 0.0, 1.0);
-      crossing_.nodes.push_back({low, high, along, from + along * way});
+      const double along = std::clamp(normal.dot(origin - from) / normal.dot(span), 0.0, 1.0);
+      crossing_.nodes.push_back({low, high, along, from + along * span});
     }
     return entry->second;
   }

@@ -52,13 +52,13 @@ std::vector<Segment> SegmentsOf(const std::vector<TubePath>& paths) {
 // Where on a segment, 0 at a and 1 at b, the plane lies that holds a point, or beyond it; planes
 // turn from that of one ring to that of the other.
 double PlaneThrough(const Segment& s, const Vec3& p) {
-  const Vec3 way = s.b - s.a;
-  double t = (p - s.a).dot(way) / way.squaredNorm();
+  const Vec3 axis = s.b - s.a;
+  double t = (p - s.a).dot(axis) / axis.squaredNorm();
   for (int round = 0; round < 3; ++round) {
     const Vec3 normal = (1 - t) * s.plane_a + t * s.plane_b;
-    const double slope = normal.dot(way);
+    const double slope = normal.dot(axis);
     if (slope <= 0) break;
-    t += normal.dot(p - s.a - t * way) / slope;
+    t += normal.dot(p - s.a - t * axis) / slope;
     t = std::clamp(t, -1.0, 2.0);
   }
   return t;
@@ -74,15 +74,15 @@ struct TubeNormal {
 TubeNormal NormalAt(const Segment& s, const Vec3& p) {
   const double plane = PlaneThrough(s, p);
   const double t = std::clamp(plane, 0.0, 1.0);
-  const Vec3 way = s.b - s.a;
-  const double length = way.norm();
+  const Vec3 axis = s.b - s.a;
+  const double length = axis.norm();
   const double radius = s.radius_a + t * (s.radius_b - s.radius_a);
-  const Vec3 out = p - s.a - t * way;
+  const Vec3 out = p - s.a - t * axis;
   const double distance = out.norm();
   if (distance == 0) return {Vec3::UnitZ(), 1};
   const bool on_dome = (t == 0 && s.starts) || (t == 1 && s.finishes);
   const Vec3 lean =
-      on_dome ? Vec3(Vec3::Zero()) : Vec3((s.radius_b - s.radius_a) / (length * length) * way);
+      on_dome ? Vec3(Vec3::Zero()) : Vec3((s.radius_b - s.radius_a) / (length * length) * axis);
   const double beyond = on_dome ? 0 : std::abs(plane - t) * length / radius;
   return {(out / distance - lean).normalized(), std::abs(distance / radius - 1) + beyond};
 }

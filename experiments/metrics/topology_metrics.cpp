@@ -15,7 +15,7 @@ namespace curvefusion {
 namespace {
 
 constexpr double kMaxControlPoints = 4000;  // those of 200 m at 50 mm; takes some 3 s
-constexpr double kNoWay = std::numeric_limits<double>::infinity();
+constexpr double kNoPath = std::numeric_limits<double>::infinity();
 
 // A place on a curve.
 struct Place {
@@ -23,11 +23,11 @@ struct Place {
   double arc_length = 0;
 };
 
-// The lengths of ways between places on the curves of a graph. Its vertices are the places, by
+// The lengths of paths between places on the curves of a graph. Its vertices are the places, by
 // their index, and after them the nodes.
-class WayFinder {
+class PathLengths {
  public:
-  WayFinder(const SkeletonGraph& graph, const std::vector<Place>& places) : places_(places) {
+  PathLengths(const SkeletonGraph& graph, const std::vector<Place>& places) : places_(places) {
     std::vector<std::vector<int>> places_of_edge;
     for (size_t i = 0; i < places.size(); ++i) {
       places_of_edge.resize(std::max<size_t>(places_of_edge.size(), places[i].edge + 1));
@@ -43,7 +43,7 @@ class WayFinder {
 
   // From a place to all places, by Dijkstra's method.
   std::vector<double> LengthsFrom(int start) const {
-    std::vector<double> lengths(neighbours_.size(), kNoWay);
+    std::vector<double> lengths(neighbours_.size(), kNoPath);
     using Entry = std::pair<double, int>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
     queue.emplace(lengths[start] = 0, start);
@@ -132,15 +132,15 @@ struct PathCost {
 };
 
 // The cost of all pairs (start, j) with j > start.
-PathCost CostFrom(int start, const WayFinder& from_ways, const WayFinder& to_ways,
+PathCost CostFrom(int start, const PathLengths& from_paths, const PathLengths& to_paths,
                   const std::vector<bool>& is_near) {
-  const std::vector<double> wanted = from_ways.LengthsFrom(start);
-  const std::vector<double> existing = to_ways.LengthsFrom(start);
+  const std::vector<double> wanted = from_paths.LengthsFrom(start);
+  const std::vector<double> existing = to_paths.LengthsFrom(start);
   PathCost cost;
   for (size_t j = start + 1; j < wanted.size(); ++j) {
-    if (wanted[j] == kNoWay || wanted[j] <= 0) continue;
+    if (wanted[j] == kNoPath || wanted[j] <= 0) continue;
     ++cost.pairs;
-    const bool exists = is_near[start] && is_near[j] && existing[j] != kNoWay;
+    const bool exists = is_near[start] && is_near[j] && existing[j] != kNoPath;
     cost.sum += exists ? std::min(1.0, std::abs(wanted[j] - existing[j]) / wanted[j]) : 1;
   }
   return cost;
@@ -158,11 +158,11 @@ std::optional<double> PathSimilarity(const SkeletonGraph& from, const SkeletonGr
   if (to.empty()) return 0;
   const std::vector<Place> places = ControlPlaces(from, options.control_spacing);
   const SnappedPlaces snapped = Snap(from, places, to, options.snap_distance);
-  const WayFinder from_ways(from, places);
-  const WayFinder to_ways(to, snapped.places);
+  const PathLengths from_paths(from, places);
+  const PathLengths to_paths(to, snapped.places);
   std::vector<PathCost> costs(places.size());
   ParallelFor(0, static_cast<int64_t>(places.size()), 1, [&](int64_t i) {
-    costs[i] = CostFrom(static_cast<int>(i), from_ways, to_ways, snapped.is_near);
+    costs[i] = CostFrom(static_cast<int>(i), from_paths, to_paths, snapped.is_near);
   });
   PathCost total;
   for (const PathCost& cost : costs) {

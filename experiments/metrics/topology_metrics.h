@@ -23,13 +23,13 @@ struct PathOptions {
   double snap_distance = 10 * kMillimetre;    ///< how far the other graph may be from one
 };
 
-/// How well ways along the curves of one graph exist in another: control points are put on the
+/// How well paths along the curves of one graph exist in another: control points are put on the
 /// nodes of `from` and every 50 mm between them and snapped to the nearest curve of `to`; for every
-/// pair with a way between them in `from`, of length a, the way between their partners in `to`, of
-/// length b, costs min(1, |a - b| / a), and 1 where a partner or a way is missing. The result is 1
-/// minus the mean cost: 1 where all ways agree. No value where `from` has no way at all. Average
-/// path length similarity (van Etten et al., SpaceNet, 2018). O(c (n + c) log n) for n nodes and c
-/// control points.
+/// pair with a path between them in `from`, of length a, the path between their partners in `to`,
+/// of length b, costs min(1, |a - b| / a), and 1 where a partner or a path is missing. The result
+/// is 1 minus the mean cost: 1 where all paths agree. No value where `from` has no path at all.
+/// Average path length similarity (van Etten et al., SpaceNet, 2018). O(c (n + c) log n) for n
+/// nodes and c control points.
 std::optional<double> PathSimilarity(const SkeletonGraph& from, const SkeletonGraph& to,
                                      const PathOptions& options = {});
 

@@ -22,9 +22,9 @@ struct ColorShift {
 
 /// Estimates them from edges of `frame_count` frames: beyond_px = fattening - normal . (shift +
 /// shift of the frame), with one unknown fattening for all. Least squares, four times without what
-/// is off by more than 2 px (4 px the first time), drawn to zero as if shifts were 2 px (of frames
-/// .5 px) and edges off by 2 px, of which .2 px are the same for all: in a direction in which few
-/// edges look they stay near zero.
+/// is off by more than 2 px (4 px the first time), shrunk towards zero as if shifts were 2 px (of
+/// frames .5 px) and edges off by 2 px, of which .2 px are the same for all: in a direction in
+/// which few edges look they stay near zero.
 ColorShift EstimateColorShift(const std::vector<StripEdge>& edges, int frame_count);
 
 }  // namespace curvefusion

@@ -189,7 +189,7 @@ ColorShift RunRounds(const Sequence& sequence, const CurveVertices& curves, Colo
   return color_shift;
 }
 
-// The adjustment fits all frames to one another; where the world lies, the first of a video say.
+// The adjustment fits all frames to one another; the first of a video anchor the world.
 RigidTransform Anchor(const std::vector<RigidTransform>& T_world_given,
                       const std::vector<int>& indices, const std::vector<RigidTransform>& poses,
                       const PinholeCamera& color_camera, const std::vector<Vec2>& shift_sigmas_px) {
@@ -297,7 +297,7 @@ void VisitOptions(ColourAdjustmentOptions& options, OptionVisitor& visitor) {
                 options.axis_depth);
   visitor.Visit({"edges", "", 0, 1,
                  "Deviation: strips that other wires touch on one side are found by their edge on "
-                 "the other: a bar with a row of wires shows no strip of its own."},
+                 "the other: a bar with a wire array shows no strip of its own."},
                 options.edges);
 }
 

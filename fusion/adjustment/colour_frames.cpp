@@ -31,7 +31,7 @@ constexpr double kEdgeSearchPx = 5;  // at most
 // Chosen: so far a camera in a hand moves in three of 30 frames a second; frames nearer to one
 // another tell little more (docs/colour_adjustment.md).
 constexpr double kUsedStep = 15 * kMillimetre;
-// Images take some .9 MB each. The first ones tell where the world lies; of the others so many that
+// Images take some .9 MB each. The first ones anchor the world; of the others so many that
 // memory and time do not grow with a sequence.
 constexpr size_t kFirstFrames = 40;
 constexpr int kOtherFrames = 80;

@@ -48,7 +48,7 @@ std::vector<FrameStrips> TrackCurves(const CurveVertices& curves, const CurvePos
                                      double search_px);
 
 /// Finds strips of vertices that have fewer than 8 accepted strips in all frames (`strips`, as
-/// TrackCurves gives them) by those edges that other strands do not touch. All have `accepted`.
+/// TrackCurves gives them) by those edges that other curves do not touch. All have `accepted`.
 /// Parallel over frames.
 std::vector<FrameStrips> TrackEdges(const CurveVertices& curves, const CurvePoseProblem& problem,
                                     const CurvePoseState& state, const ColourFrames& frames,

@@ -10,7 +10,7 @@ BestOptions DefaultBestOptions() {
   options.segmentation.opening.solid_depth = 0.03;
   options.segmentation.openness.stride = 5;
   options.segmentation.gate.frames = 10;
-  options.segmentation.max_row_spacing = 0.013;
+  options.segmentation.max_array_spacing = 0.013;
   options.segmentation.max_frame_points = 19000;
   // CurveFusion 3, assumption (i): thin structures lie 2 cm or more before other surfaces. Depth
   // with no rendering behind it is no wire in four of five pixels, on simulated scans.
@@ -63,7 +63,7 @@ void VisitOptions(BestOptions& options, OptionVisitor& visitor) {
       options.min_linearity);
   visitor.Visit(
       {"resolved_spacing", "m", 0, 0.1,
-       "Deviation: where rows of wires are closer than this, points are magnified so much "
+       "Deviation: where the wires of an array are closer than this, points are magnified so much "
        "before contraction that they are as far apart; 0 = never."},
       options.resolved_spacing);
   VisitOptions(options.ridge, visitor);

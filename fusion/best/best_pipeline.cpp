@@ -76,7 +76,8 @@ SegmentationModel LearnSegmentationOfRun(const Sequence& sequence, const TsdfVol
   const StageLog::Timer timer(reporter.log, "segmentation");
   reporter.observer.OnProgress("surfaces and colours", 0, 1);
   SegmentationModel model = LearnSegmentation(sequence, volume, options);
-  reporter.log.Count("segmentation", "row spacing, mm", model.row_spacing / kMillimetre);
+  reporter.log.Count("segmentation", "spacing in wire arrays, mm",
+                     model.array_spacing / kMillimetre);
   reporter.log.Count("segmentation", "frame stride", model.frame_stride);
   return model;
 }
@@ -145,7 +146,7 @@ struct RegisteredBundles {
 };
 
 // Registers every bundle to the curves of those before it.
-RegisteredBundles RegisterBundles(const SegmentedScan& scan, double row_spacing,
+RegisteredBundles RegisterBundles(const SegmentedScan& scan, double array_spacing,
                                   const RidgeProjectionOptions& ridges, const BestOptions& options,
                                   const StageReporter& reporter) {
   const StageLog::Timer timer(reporter.log, "registration");
@@ -161,7 +162,8 @@ RegisteredBundles RegisterBundles(const SegmentedScan& scan, double row_spacing,
   for (size_t i = 0; i < scan.bundles.size(); ++i) {
     T_registered_bundle.push_back(carried
                                       .AddBundle(scan.bundles[i], ridge_of_bundle[i],
-                                                 ridges.spacing, options.registration, row_spacing)
+                                                 ridges.spacing, options.registration,
+                                                 array_spacing)
                                       .T_target_source);
     progress.Advance();
   }
@@ -224,19 +226,19 @@ ObservedPoints LargestBundle(const SegmentedScan& scan) {
 void ContractCarriedPoints(SegmentedScan scan, const SegmentationModel& model,
                            const BestOptions& options, const StageReporter& reporter,
                            Reconstruction& result) {
-  const ContractionSpace space = {Magnification(model.row_spacing, options.resolved_spacing),
+  const ContractionSpace space = {Magnification(model.array_spacing, options.resolved_spacing),
                                   RayNoiseRatio(LargestBundle(scan), options.min_linearity)};
   const RidgeProjectionOptions ridges =
       ForCloseWires(options.ridge.projection, space.magnification);
   const RegisteredBundles bundles =
-      RegisterBundles(scan, model.row_spacing, ridges, options, reporter);
+      RegisterBundles(scan, model.array_spacing, ridges, options, reporter);
   scan.bundles.clear();
   SkeletonGraph first =
       Contract(bundles.points, bundles.ridge, "registered_bundles", space, options.ridge, reporter);
   RunSize size = {.points = scan.points};
   size.SetCurves(first);
   reporter.observer.OnPlan(PlanBest(result.sequence, options, size));
-  AssignRadii(MeasureRadii(first, result.sequence, model.row_diameter, options.radius, reporter),
+  AssignRadii(MeasureRadii(first, result.sequence, model.array_diameter, options.radius, reporter),
               first);
   if (space.ray_noise_ratio > 1) {
     CorrectPoses(bundles.T_registered_frame, result.sequence);

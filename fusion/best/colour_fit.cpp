@@ -26,21 +26,21 @@ void ReportAdjustment(const ColourAdjustment& adjusted, StageLog& log) {
 }  // namespace
 
 RadiusEstimate MeasureRadii(const SkeletonGraph& skeleton, const Sequence& sequence,
-                            double row_diameter, const RadiusOptions& options,
+                            double array_diameter, const RadiusOptions& options,
                             const StageReporter& reporter) {
   const StageLog::Timer timer = reporter.Begin("radius");
   RadiusEstimate estimate = EstimateRadius(skeleton, sequence, AllFrames(sequence), options);
   // Strips of wires so close that none stands alone are not measured one by one.
   if (estimate.global_radius == 0) {
-    estimate.global_radius = estimate.unmeasured_radius = 0.5 * row_diameter;
+    estimate.global_radius = estimate.unmeasured_radius = 0.5 * array_diameter;
   }
   reporter.log.Count("radius", "strips", static_cast<double>(estimate.strips.size()));
   return estimate;
 }
 
-void AssignMeasuredRadii(double row_diameter, const RadiusOptions& options,
+void AssignMeasuredRadii(double array_diameter, const RadiusOptions& options,
                          const StageReporter& reporter, Reconstruction& result) {
-  result.radii = MeasureRadii(result.skeleton, result.sequence, row_diameter, options, reporter);
+  result.radii = MeasureRadii(result.skeleton, result.sequence, array_diameter, options, reporter);
   AssignRadii(result.radii, result.skeleton);
 }
 

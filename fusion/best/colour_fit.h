@@ -12,14 +12,14 @@
 namespace curvefusion {
 
 /// The wires' radii in all colour images (CurveFusion 3.3, "Wire radius estimation"); those of
-/// close rows (`row_diameter`, metres) where no strip can be measured for itself. Throws
+/// close wires (`array_diameter`, metres) where no strip can be measured for itself. Throws
 /// Error(kBadInput) for an image that cannot be read.
 RadiusEstimate MeasureRadii(const SkeletonGraph& skeleton, const Sequence& sequence,
-                            double row_diameter, const RadiusOptions& options,
+                            double array_diameter, const RadiusOptions& options,
                             const StageReporter& reporter);
 
 /// Measures the radii of the result's curves and sets them. Throws like MeasureRadii.
-void AssignMeasuredRadii(double row_diameter, const RadiusOptions& options,
+void AssignMeasuredRadii(double array_diameter, const RadiusOptions& options,
                          const StageReporter& reporter, Reconstruction& result);
 
 /// Deviation: curves of known radius and poses of the result as exact as the colour images show

@@ -70,8 +70,8 @@ void CorrectBySilhouettes(const ColourAdjustment& adjusted, const StripViews& st
     reporter.log.Remark(stage, kImagesDoNotTell);
     return;
   }
-  // Strands of noise that the adjustment has led into one wire: axes of two wires are never so
-  // near.
+  // Parallel curves of noise that the adjustment has led into one wire: axes of two wires are never
+  // so near.
   ResolveIntersections(result.skeleton, result.radii.global_radius);
   std::vector<Vec3> shown_by_depth;
   if (depth == WireDepth::kShown) {
@@ -119,7 +119,7 @@ double AddWiresFromColour(StripViews& views, const RidgeOptions& options,
   return added;
 }
 
-// Deviation: rows of close wires have no strips to be adjusted to; what the images look past
+// Deviation: arrays of close wires have no strips to be adjusted to; what the images look past
 // between them is dropped by the colours first learned.
 void PruneUnadjusted(const WireColours& colours, const SilhouetteOptions& options,
                      const StageReporter& reporter, Reconstruction& result) {
@@ -158,9 +158,9 @@ void TellPlan(RunSize& size, const BestOptions& options, const StageReporter& re
 // until little is added: a new curve lies where places were found, some millimetres beside its
 // strips, and explains strips for which lines of sight had several places. Depth looks past most of
 // these wires: they have their proof from the images that show them.
-void CompleteByColour(const Sequence& given, std::optional<StripViews> strips, double row_diameter,
-                      RunSize size, const BestOptions& options, const StageReporter& reporter,
-                      Reconstruction& result) {
+void CompleteByColour(const Sequence& given, std::optional<StripViews> strips,
+                      double array_diameter, RunSize size, const BestOptions& options,
+                      const StageReporter& reporter, Reconstruction& result) {
   for (int round = 0; round < kColourRounds; ++round) {
     TellPlan(size, options, reporter, result);
     const double added = AddWiresFromColour(*strips, options.ridge, reporter, result);
@@ -168,7 +168,7 @@ void CompleteByColour(const Sequence& given, std::optional<StripViews> strips, d
     size.has_last_round = added <= 0 || added < kLittle * result.skeleton.TotalLength();
     if (!size.has_last_round) ++size.rounds;
     TellPlan(size, options, reporter, result);
-    if (added != 0) AssignMeasuredRadii(row_diameter, options.radius, reporter, result);
+    if (added != 0) AssignMeasuredRadii(array_diameter, options.radius, reporter, result);
     if (size.has_last_round) break;
     const auto before = result.trust;
     const std::optional<ColourAdjustment> adjusted = AdjustCurvesAndPoses(
@@ -180,7 +180,7 @@ void CompleteByColour(const Sequence& given, std::optional<StripViews> strips, d
     result.trust.residual_before_px = before.residual_before_px;
     strips = LookForStrips(*adjusted, reporter, result);
     CorrectBySilhouettes(*adjusted, *strips, WireDepth::kShown, options, reporter, result);
-    AssignMeasuredRadii(row_diameter, options.radius, reporter, result);
+    AssignMeasuredRadii(array_diameter, options.radius, reporter, result);
   }
   result.trust.wire_length = std::min(result.trust.wire_length, result.skeleton.TotalLength());
 }
@@ -200,7 +200,7 @@ void RefineByColour(const Sequence& given, const SegmentationModel& model, RunSi
                     const BestOptions& options, const StageReporter& reporter,
                     Reconstruction& result) {
   const auto measure_radii = [&] {
-    AssignMeasuredRadii(model.row_diameter, options.radius, reporter, result);
+    AssignMeasuredRadii(model.array_diameter, options.radius, reporter, result);
   };
   WireDepth depth = WireDepth::kShown;
   const auto keep_proven = [&](const std::string& name, double share) {
@@ -233,7 +233,7 @@ void RefineByColour(const Sequence& given, const SegmentationModel& model, RunSi
   if (adjusted) {
     strips = LookForStrips(*adjusted, reporter, result);
     CorrectBySilhouettes(*adjusted, *strips, depth, options, reporter, result);
-  } else if (model.row_spacing > 0) {
+  } else if (model.array_spacing > 0) {
     PruneUnadjusted(model.colours, options.silhouettes, reporter, result);
   }
   measure_radii();
@@ -241,7 +241,8 @@ void RefineByColour(const Sequence& given, const SegmentationModel& model, RunSi
   // Curves that came from colour alone are all that it shows.
   if (adjusted && depth == WireDepth::kShown) {
     adjusted.reset();  // its images are not needed any more
-    CompleteByColour(given, std::move(strips), model.row_diameter, size, options, reporter, result);
+    CompleteByColour(given, std::move(strips), model.array_diameter, size, options, reporter,
+                     result);
     strips.reset();
   }
   if (!Violations(result.skeleton, kProximity).empty()) {

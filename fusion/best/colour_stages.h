@@ -14,7 +14,7 @@ namespace curvefusion {
 /// What colour images tell of contracted curves: radii, wires that depth has missed, exact curves
 /// and poses, which curves are false or missing, and where they were seen. `given` are the poses of
 /// the input, which the adjustment's drift is counted from; `model` what the segmentation learned
-/// of close rows and of colours; `size` what the run has found, for its plan. Throws like
+/// of close wires and of colours; `size` what the run has found, for its plan. Throws like
 /// MeasureRadii.
 void RefineByColour(const Sequence& given, const SegmentationModel& model, RunSize size,
                     const BestOptions& options, const StageReporter& reporter,

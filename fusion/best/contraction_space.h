@@ -9,10 +9,10 @@
 
 namespace curvefusion {
 
-/// The space in which points are contracted: the world's, or one in which rows of close wires are
+/// The space in which points are contracted: the world's, or one in which arrays of close wires are
 /// magnified or noise along the viewing rays is compressed.
 struct ContractionSpace {
-  double magnification = 1;    ///< of rows of close wires
+  double magnification = 1;    ///< of arrays of close wires
   double ray_noise_ratio = 1;  ///< of noise along the viewing rays to that across them
 
   bool IsWorld() const { return ray_noise_ratio <= 1 && magnification <= 1; }

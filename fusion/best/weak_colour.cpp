@@ -10,7 +10,7 @@ constexpr int kSurveyFrames = 8;  // chosen: one dark frame among them must not 
 
 void SwitchOffColour(BestOptions& options) {
   options.segmentation.gate.frames = 0;
-  options.segmentation.max_row_spacing = 0;
+  options.segmentation.max_array_spacing = 0;
   options.segmentation.ghosts.verified_share = 0;
   options.segmentation.ghosts.verified_outline = 0;
   options.colour_adjustment.enabled = false;

@@ -24,7 +24,7 @@ constexpr double kStepFar = 0.005;  // 1/m
 constexpr double kSteep = 2;
 constexpr double kReach = 0.03;  // metres to a side: the widest wires, 12 mm, and their fattening
 constexpr int kMaxGapPx = 4;     // without a measurement; the shadow beside a wire may be wider
-constexpr double kStrandStep = 3;
+constexpr double kMapStep = 3;
 
 double DepthTolerance(double z) { return kToleranceNear + kToleranceFar * z * z; }
 double DepthStep(double z) { return kStepNear + kStepFar * z * z; }
@@ -89,7 +89,7 @@ struct SideOf {
 
 // Follows connected depth from the curve to one side.
 SideOf FollowSide(const Line& line, int from, int direction, double metres_per_px,
-                  const CurvePlace& place, const StrandMap& strands) {
+                  const CurvePlace& place, const CurveMap& curves) {
   const double start = line.Depth(from);
   double previous = start;
   SideOf side{Beside::kUnknown, from};
@@ -107,7 +107,7 @@ SideOf FollowSide(const Line& line, int from, int direction, double metres_per_p
     if (measured > previous + step || is_steep) return {Beside::kOpen, side.last};
     if (measured < previous - step) return side;
     const Eigen::Vector2i pixel = line.At(k);
-    if (strands.IsOther(pixel.x(), pixel.y(), place, distance)) return side;
+    if (curves.IsOther(pixel.x(), pixel.y(), place, distance)) return side;
     previous = measured;
     side.last = k;
     gap = 0;
@@ -116,8 +116,8 @@ SideOf FollowSide(const Line& line, int from, int direction, double metres_per_p
 
 }  // namespace
 
-StrandMap::StrandMap(const std::vector<CurvePlace>& places, const PinholeCamera& camera,
-                     const RigidTransform& T_camera_world)
+CurveMap::CurveMap(const std::vector<CurvePlace>& places, const PinholeCamera& camera,
+                   const RigidTransform& T_camera_world)
     : places_(places), nearest_(camera.width, camera.height, -1) {
   for (size_t i = 0; i < places.size(); ++i) {
     const Vec3 p_camera = T_camera_world * places[i].position;
@@ -129,7 +129,7 @@ StrandMap::StrandMap(const std::vector<CurvePlace>& places, const PinholeCamera&
   }
 }
 
-bool StrandMap::IsOther(int u, int v, const CurvePlace& place, double distance) const {
+bool CurveMap::IsOther(int u, int v, const CurvePlace& place, double distance) const {
   const int index = nearest_(u, v);
   if (index < 0) return false;
   const CurvePlace& other = places_[index];
@@ -137,12 +137,12 @@ bool StrandMap::IsOther(int u, int v, const CurvePlace& place, double distance) 
   constexpr double kSameWire = 0.004;
   if (distance < kSameWire) return false;
   if (other.edge != place.edge) return true;
-  return std::abs(other.arc_length - place.arc_length) > kStrandStep * distance;
+  return std::abs(other.arc_length - place.arc_length) > kMapStep * distance;
 }
 
 DepthProfile LookAcross(const DepthImage& depth, const PinholeCamera& camera,
                         const RigidTransform& T_camera_world, const CurvePlace& place,
-                        const StrandMap& strands) {
+                        const CurveMap& curves) {
   const Vec3 p_camera = T_camera_world * place.position;
   const std::optional<Line> line =
       LineAcross(depth, camera, p_camera, T_camera_world.linear() * place.tangent);
@@ -154,8 +154,8 @@ DepthProfile LookAcross(const DepthImage& depth, const PinholeCamera& camera,
   DepthProfile profile;
   profile.sight = hit.sight;
   if (hit.sight != Sight::kSeen) return profile;
-  const SideOf left = FollowSide(*line, hit.k, -1, metres_per_px, place, strands);
-  const SideOf right = FollowSide(*line, hit.k, 1, metres_per_px, place, strands);
+  const SideOf left = FollowSide(*line, hit.k, -1, metres_per_px, place, curves);
+  const SideOf right = FollowSide(*line, hit.k, 1, metres_per_px, place, curves);
   profile.sides = {left.beside, right.beside};
   profile.width = (right.last - left.last + 1) * metres_per_px;
   return profile;

@@ -43,13 +43,13 @@ struct CurvePlace {
 
 /// Where the curves of a skeleton lie in one image, so that none is taken for the surface beside
 /// another.
-class StrandMap {
+class CurveMap {
  public:
   /// `places` (world frame) are so dense that they leave few pixels of a curve out.
-  StrandMap(const std::vector<CurvePlace>& places, const PinholeCamera& camera,
-            const RigidTransform& T_camera_world);
+  CurveMap(const std::vector<CurvePlace>& places, const PinholeCamera& camera,
+           const RigidTransform& T_camera_world);
 
-  /// Whether a strand other than that of `place` runs through a pixel of the image; `distance`
+  /// Whether a curve other than that of `place` runs through a pixel of the image; `distance`
   /// (metres) is how far from the place the pixel lies across the curve.
   bool IsOther(int u, int v, const CurvePlace& place, double distance) const;
 
@@ -62,6 +62,6 @@ class StrandMap {
 /// err. Cost: some 100 pixels.
 DepthProfile LookAcross(const DepthImage& depth, const PinholeCamera& camera,
                         const RigidTransform& T_camera_world, const CurvePlace& place,
-                        const StrandMap& strands);
+                        const CurveMap& curves);
 
 }  // namespace curvefusion

@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kStretch = 0.04;         // metres; chosen: some diameters of wires, and their blur
 constexpr double kPlaceStep = 0.004;      // metres along a stretch
-constexpr double kStrandStep = 0.0005;    // metres: below a pixel from .3 m on
+constexpr double kMapStep = 0.0005;       // metres: below a pixel from .3 m on
 constexpr double kUnknownRadius = 0.002;  // metres
 constexpr int kDirections = 36;
 constexpr int kColourImages = 30;      // chosen: a second of the parallax of 60 adds little
@@ -121,14 +121,13 @@ void AddProfile(const DepthProfile& profile, DirectionCounts& counts, std::vecto
 }
 
 void LookAtStretch(const DecodedFrame& frame, const PinholeCamera& camera,
-                   const RigidTransform& T_world_camera, const StrandMap& strands,
-                   Stretch& stretch) {
+                   const RigidTransform& T_world_camera, const CurveMap& curves, Stretch& stretch) {
   const RigidTransform T_camera_world = T_world_camera.inverse();
   DirectionCounts counts;
   std::vector<double> widths;
   double looked = 0;
   for (const CurvePlace& place : stretch.places) {
-    const DepthProfile profile = LookAcross(frame.depth, camera, T_camera_world, place, strands);
+    const DepthProfile profile = LookAcross(frame.depth, camera, T_camera_world, place, curves);
     if (profile.sight == Sight::kOutside || profile.sight == Sight::kHidden) continue;
     looked += 1;
     counts.seen += profile.sight == Sight::kSeen;
@@ -231,20 +230,20 @@ std::vector<StretchEvidence> CollectEvidence(const SkeletonGraph& skeleton,
                                              const RadiusEstimate& radii, const Sequence& sequence,
                                              int max_frames) {
   std::vector<Stretch> stretches;
-  std::vector<CurvePlace> strands;
+  std::vector<CurvePlace> curves;
   for (const EdgeId id : skeleton.Edges()) {
     const SkeletonEdge& edge = skeleton.edge(id);
     for (Stretch& stretch : StretchesOf(id, edge)) stretches.push_back(std::move(stretch));
     const std::vector<double> arc = CumulativeLength(edge.points);
-    for (CurvePlace& place : PlacesAlong(id, edge, arc, 0, arc.back(), kStrandStep)) {
-      strands.push_back(std::move(place));
+    for (CurvePlace& place : PlacesAlong(id, edge, arc, 0, arc.back(), kMapStep)) {
+      curves.push_back(std::move(place));
     }
   }
   if (stretches.empty()) return {};
   const std::vector<int> frames = EvenlyThinned(AllFrames(sequence), max_frames);
   ForEachFrame(sequence, frames, {.depth = true, .color = false}, [&](const DecodedFrame& frame) {
     const RigidTransform& T_world_camera = sequence.frames[frame.index].T_world_camera;
-    const StrandMap map(strands, sequence.depth_camera, T_world_camera.inverse());
+    const CurveMap map(curves, sequence.depth_camera, T_world_camera.inverse());
     constexpr int64_t kGrain = 16;
     ParallelFor(0, static_cast<int64_t>(stretches.size()), kGrain, [&](int64_t i) {
       LookAtStretch(frame, sequence.depth_camera, T_world_camera, map, stretches[i]);

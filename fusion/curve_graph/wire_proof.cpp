@@ -40,7 +40,7 @@ constexpr double kOpenRatio = 0.7;       // chosen: log of most over least chang
 constexpr double kOverSurfaces = 2;      // chosen: weight of the change over that on surfaces
 constexpr double kLeastOpen = -1.3;      // chosen: less tells no more
 constexpr double kMaxLogOdds = 4;        // of one stretch for those around it
-constexpr double kOwnWeight = 0.04;      // metres: of the neighbours' mean, drawn to zero
+constexpr double kOwnWeight = 0.04;      // metres: of the neighbours' mean, shrunk towards zero
 
 // The terms of a stretch's own log-odds.
 struct Terms {

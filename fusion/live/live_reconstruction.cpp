@@ -17,7 +17,7 @@ constexpr size_t kSample = 64;
 
 BestOptions ForLive(BestOptions options) {
   // Rows of close wires take a model of all frames; the batch resolves them.
-  options.segmentation.max_row_spacing = 0;
+  options.segmentation.max_array_spacing = 0;
   options.segmentation.max_frame_points = 0;  // decides on the stride, which is fixed here
   return options;
 }

@@ -26,13 +26,13 @@ void VisitOptions(CarriedPointsOptions& options, OptionVisitor& visitor) {
 
 AlignmentResult CarriedPoints::AddBundle(const ObservedPoints& bundle, const RidgePoints& found,
                                          double spacing, const AlignmentOptions& alignment,
-                                         double row_spacing) {
+                                         double array_spacing) {
   AlignmentResult result;
   if (!points_.empty() && !bundle.empty()) {
     AlignmentOptions patient = alignment;
     patient.max_iterations = std::max(alignment.max_iterations, kIterations);
     result = AlignRows(found, AlignmentTarget({ridges_.positions, ridges_.directions}), patient,
-                       row_spacing);
+                       array_spacing);
     if (!result.converged || result.inlier_fraction < options_.min_inliers) {
       result.T_target_source = RigidTransform::Identity();
     }

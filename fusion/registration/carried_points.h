@@ -25,10 +25,10 @@ class CarriedPoints {
   /// Registers the ridges found in a bundle (world frame) to those of the bundles before and adds
   /// both its points and its ridges; where wires are dense, most points lie between them and say
   /// nothing. Ridge points nearer than `spacing` to stronger ones are left out. The returned
-  /// alignment is the identity for the first bundle and where too few points fit. `row_spacing` is
-  /// that of AlignRows.
+  /// alignment is the identity for the first bundle and where too few points fit. `array_spacing`
+  /// is that of AlignRows.
   AlignmentResult AddBundle(const ObservedPoints& bundle, const RidgePoints& found, double spacing,
-                            const AlignmentOptions& alignment, double row_spacing = 0);
+                            const AlignmentOptions& alignment, double array_spacing = 0);
 
   const ObservedPoints& points() const { return points_; }
 

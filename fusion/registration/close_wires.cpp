@@ -8,7 +8,7 @@ namespace curvefusion {
 namespace {
 
 constexpr double kMaxMagnification = 2;
-// Of the row's spacing: points this near to the curves agree with them.
+// Of the wire array's spacing: points this near to the curves agree with them.
 constexpr double kAgreeing = 1.0 / 3;
 // Of all points: so many more must agree to leave the nearest start. One wire of ten.
 constexpr double kClearlyMore = 0.05;
@@ -19,7 +19,7 @@ Vec3 PrincipalDirection(const Mat3& moments) {
   return solver.eigenvectors().col(2);
 }
 
-// The direction in which the wires of a row follow one another: that of the greatest spread of
+// The direction in which the wires of an array follow one another: that of the greatest spread of
 // their points across the wires.
 Vec3 AcrossRow(const RidgePoints& ridges) {
   Mat3 directions = Mat3::Zero();
@@ -46,9 +46,9 @@ double AgreeingShare(const std::vector<Vec3>& points, const RigidTransform& T,
 
 }  // namespace
 
-double Magnification(double row_spacing, double resolved) {
-  if (!(row_spacing > 0)) return 1;
-  return std::clamp(resolved / row_spacing, 1.0, kMaxMagnification);
+double Magnification(double array_spacing, double resolved) {
+  if (!(array_spacing > 0)) return 1;
+  return std::clamp(resolved / array_spacing, 1.0, kMaxMagnification);
 }
 
 RidgeProjectionOptions ForCloseWires(RidgeProjectionOptions options, double magnification) {
@@ -61,16 +61,16 @@ RidgeProjectionOptions ForCloseWires(RidgeProjectionOptions options, double magn
 }
 
 AlignmentResult AlignRows(const RidgePoints& ridges, const AlignmentTarget& target,
-                          const AlignmentOptions& options, double row_spacing) {
+                          const AlignmentOptions& options, double array_spacing) {
   AlignmentResult best = AlignPoints(ridges.positions, target, options);
-  if (!(row_spacing > 0) || ridges.size() == 0) return best;
-  const double distance = kAgreeing * row_spacing;
+  if (!(array_spacing > 0) || ridges.size() == 0) return best;
+  const double distance = kAgreeing * array_spacing;
   double most = AgreeingShare(ridges.positions, best.T_target_source, target, distance);
   most += kClearlyMore;
   const Vec3 across = AcrossRow(ridges);
   for (const int side : {-1, 1}) {
     RigidTransform start = RigidTransform::Identity();
-    start.translation() = side * row_spacing * across;
+    start.translation() = side * array_spacing * across;
     std::vector<Vec3> points = ridges.positions;
     for (Vec3& p : points) p = start * p;
     AlignmentResult result = AlignPoints(points, target, options);

@@ -141,33 +141,33 @@ MaskImage SureWire(const PosteriorImage& posterior, const WireCandidates& frame,
 
 // Takes from the mask what lies in a disc of surely wire-coloured pixels wider than any wire.
 void DropUnresolved(const PosteriorImage& posterior, const ColourLookup& lookup, double focal_px,
-                    double max_width, const MaskImage& in_rows, WireCandidates& frame) {
+                    double max_width, const MaskImage& in_arrays, WireCandidates& frame) {
   const MaskImage sure = SureWire(posterior, frame, lookup);
   const Image<float> depth_in = DistanceToZero(sure);
   const auto radius_px = [&](float depth) { return 0.5 * max_width * focal_px / depth; };
   MaskImage outside_core(sure.width(), sure.height(), 1);
   bool has_core = false;
-  ForEachColour(in_rows, frame.depth, lookup, [&](int u, int v, int x, int y) {
+  ForEachColour(in_arrays, frame.depth, lookup, [&](int u, int v, int x, int y) {
     if (depth_in(x, y) < radius_px(frame.depth(u, v))) return;
     outside_core(x, y) = 0;
     has_core = true;
   });
   if (!has_core) return;
   const Image<float> to_core = DistanceToZero(outside_core);
-  ForEachColour(in_rows, frame.depth, lookup, [&](int u, int v, int x, int y) {
+  ForEachColour(in_arrays, frame.depth, lookup, [&](int u, int v, int x, int y) {
     if (to_core(x, y) <= radius_px(frame.depth(u, v))) frame.mask(u, v) = 0;
   });
 }
 
-// In rows, wire is what lies on crests and background what lies in valleys; elsewhere the mask and
-// what surrounds it.
+// In wire arrays, wire is what lies on crests and background what lies in valleys; elsewhere the
+// mask and what surrounds it.
 void LearnFromStripes(const WireCandidates& frame, const WireColours& colours,
                       const ColourLookup& lookup, WireColourModel& model) {
   const StripeField stripes(ApplyPosterior(BinColours(frame.color), colours.posterior));
-  const MaskImage in_rows = PixelsInRows(frame);
+  const MaskImage in_arrays = PixelsInArrays(frame);
   MaskImage wire = frame.mask, background = BackgroundAround(frame.mask);
-  for (size_t i = 0; i < wire.size(); ++i) wire.data()[i] &= !in_rows.data()[i];
-  ForEachColour(in_rows, frame.depth, lookup, [&](int u, int v, int x, int y) {
+  for (size_t i = 0; i < wire.size(); ++i) wire.data()[i] &= !in_arrays.data()[i];
+  ForEachColour(in_arrays, frame.depth, lookup, [&](int u, int v, int x, int y) {
     const StripePart part = stripes.At(x, y).part;
     wire(u, v) = part == StripePart::kCrest;
     background(u, v) = part == StripePart::kValley;
@@ -189,23 +189,24 @@ void VisitOptions(ColourGateOptions& options, OptionVisitor& visitor) {
                  "Deviation: nor are pixels kept that are less likely wire than so much of the "
                  "likeliest one within 2 pixels; blur raises narrow gaps."},
                 options.min_of_peak);
-  visitor.Visit({"max_colour_width", "m", 0, 0.2,
-                 "Deviation: what has the wires' colours in a disc of this diameter is a row that "
-                 "colours do not resolve either, and left to other views; 0 = not asked."},
-                options.max_width);
+  visitor.Visit(
+      {"max_colour_width", "m", 0, 0.2,
+       "Deviation: what has the wires' colours in a disc of this diameter is a wire array that "
+       "colours do not resolve either, and left to other views; 0 = not asked."},
+      options.max_width);
 }
 
-MaskImage PixelsInRows(const WireCandidates& frame) {
-  const int factor = Divisor(frame.mask, frame.rows);
-  const MaskImage rows = Dilated(frame.rows, (frame.row_margin + factor - 1) / factor);
-  MaskImage in_rows = frame.mask;
-  for (int v = 0; v < in_rows.height(); ++v) {
-    for (int u = 0; u < in_rows.width(); ++u) {
-      in_rows(u, v) &=
-          rows(std::min(u / factor, rows.width() - 1), std::min(v / factor, rows.height() - 1));
+MaskImage PixelsInArrays(const WireCandidates& frame) {
+  const int factor = Divisor(frame.mask, frame.arrays);
+  const MaskImage arrays = Dilated(frame.arrays, (frame.array_margin + factor - 1) / factor);
+  MaskImage in_arrays = frame.mask;
+  for (int v = 0; v < in_arrays.height(); ++v) {
+    for (int u = 0; u < in_arrays.width(); ++u) {
+      in_arrays(u, v) &= arrays(std::min(u / factor, arrays.width() - 1),
+                                std::min(v / factor, arrays.height() - 1));
     }
   }
-  return in_rows;
+  return in_arrays;
 }
 
 WireColours LearnWireColours(const std::vector<WireCandidates>& frames, const Sequence& sequence,
@@ -239,10 +240,10 @@ void SharpenColours(const std::vector<WireCandidates>& frames, const Sequence& s
 }
 
 void ThinToCrests(const WireColours& colours, const Sequence& sequence, WireCandidates& frame) {
-  const MaskImage in_rows = PixelsInRows(frame);
-  if (!AnySet(in_rows)) return;
+  const MaskImage in_arrays = PixelsInArrays(frame);
+  if (!AnySet(in_arrays)) return;
   const StripeField stripes(ApplyPosterior(BinColours(frame.color), colours.posterior));
-  ForEachColour(in_rows, frame.depth, ColourLookup(sequence, colours.shift_px),
+  ForEachColour(in_arrays, frame.depth, ColourLookup(sequence, colours.shift_px),
                 [&](int u, int v, int x, int y) {
                   const StripePart part = stripes.At(x, y).part;
                   if (part != StripePart::kCrest && part != StripePart::kPlateau) {
@@ -253,15 +254,16 @@ void ThinToCrests(const WireColours& colours, const Sequence& sequence, WireCand
 
 void GateByColour(const WireColours& colours, const Sequence& sequence,
                   const ColourGateOptions& options, WireCandidates& frame) {
-  const MaskImage in_rows = PixelsInRows(frame);
-  if (!AnySet(in_rows)) return;
+  const MaskImage in_arrays = PixelsInArrays(frame);
+  if (!AnySet(in_arrays)) return;
   const PosteriorImage posterior = ApplyPosterior(BinColours(frame.color), colours.posterior);
   const PosteriorImage peak = Dilated(posterior, kPeakReach_px);
   const ColourLookup lookup(sequence, colours.shift_px);
   if (options.max_width > 0) {
-    DropUnresolved(posterior, lookup, sequence.color_camera.fx, options.max_width, in_rows, frame);
+    DropUnresolved(posterior, lookup, sequence.color_camera.fx, options.max_width, in_arrays,
+                   frame);
   }
-  ForEachColour(in_rows, frame.depth, lookup, [&](int u, int v, int x, int y) {
+  ForEachColour(in_arrays, frame.depth, lookup, [&](int u, int v, int x, int y) {
     const double limit = std::max(255 * options.min_posterior, options.min_of_peak * peak(x, y));
     if (posterior(x, y) < limit) frame.mask(u, v) = 0;
   });

@@ -21,9 +21,9 @@ struct ColourGateOptions {
   /// 0 to 1: nor are those kept that are less likely than so much of the likeliest pixel within 2
   /// pixels: blur raises narrow gaps.
   double min_of_peak = 0.6;
-  /// Metres, 0 to 0.2: what is wire-coloured in a disc of this diameter is a row that the colour
-  /// image does not resolve either, as no wire is so thick; it is left to other views. 0 = not
-  /// asked. Where two wires of 12 mm cross, a disc of 17 mm fits.
+  /// Metres, 0 to 0.2: what is wire-coloured in a disc of this diameter is a wire array that the
+  /// colour image does not resolve either, as no wire is so thick; it is left to other views. 0 =
+  /// not asked. Where two wires of 12 mm cross, a disc of 17 mm fits.
   double max_width = 0.02;
 };
 void VisitOptions(ColourGateOptions& options, OptionVisitor& visitor);
@@ -36,10 +36,10 @@ struct WireColours {
 
 /// A frame of which some pixels are thought to be wire.
 struct WireCandidates {
-  MaskImage mask;  ///< of the depth image
-  MaskImage rows;  ///< where depth may be one sheet before several wires; smaller than `mask` by an
-                   ///< integer factor
-  int row_margin = 8;  ///< rows reach so many pixels of `mask` beyond where `rows` shows them
+  MaskImage mask;    ///< of the depth image
+  MaskImage arrays;  ///< where depth may be one sheet before several wires; smaller than `mask` by
+                     ///< an integer factor
+  int array_margin = 8;  ///< arrays reach so many pixels of `mask` beyond where `arrays` shows them
   DepthImage depth;
   ColorImage color;
 };
@@ -50,25 +50,25 @@ struct WireCandidates {
 WireColours LearnWireColours(const std::vector<WireCandidates>& frames, const Sequence& sequence,
                              const ColourGateOptions& options);
 
-/// Drops the pixels of the mask, in and next to rows, whose colours are unlikely for wire. Pixels
-/// outside the colour image stay. Rows that the colour image does not resolve are dropped whole.
-/// Linear in pixels.
+/// Drops the pixels of the mask, in and next to wire arrays, whose colours are unlikely for wire.
+/// Pixels outside the colour image stay. Rows that the colour image does not resolve are dropped
+/// whole. Linear in pixels.
 void GateByColour(const WireColours& colours, const Sequence& sequence,
                   const ColourGateOptions& options, WireCandidates& frame);
 
-/// The pixels of the mask in and next to rows.
-MaskImage PixelsInRows(const WireCandidates& frame);
+/// The pixels of the mask in and next to wire arrays.
+MaskImage PixelsInArrays(const WireCandidates& frame);
 
-/// Learns the colours again where masks cover rows whole, gaps and all: wire is what lies in the
-/// middle of the stripes that the colours so far show in rows, background what lies in the middle
-/// between. Where gaps are few pixels wide they have blurred colours that nothing around the object
-/// has; taken for wire, they would close the gaps. Linear in pixels.
+/// Learns the colours again where masks cover wire arrays whole, gaps and all: wire is what lies in
+/// the middle of the stripes that the colours so far show in them, background what lies in the
+/// middle between. Where gaps are few pixels wide they have blurred colours that nothing around the
+/// object has; taken for wire, they would close the gaps. Linear in pixels.
 void SharpenColours(const std::vector<WireCandidates>& frames, const Sequence& sequence,
                     WireColours& colours);
 
-/// Leaves of the mask, in and next to rows, the pixels in the middle of the stripes that the wires'
-/// colours make in the colour image, and those of levels wider than a stripe: where depth is one
-/// sheet, what it has beside a wire's axis only blurs the axis. Linear in pixels.
+/// Leaves of the mask, in and next to wire arrays, the pixels in the middle of the stripes that the
+/// wires' colours make in the colour image, and those of levels wider than a stripe: where depth is
+/// one sheet, what it has beside a wire's axis only blurs the axis. Linear in pixels.
 void ThinToCrests(const WireColours& colours, const Sequence& sequence, WireCandidates& frame);
 
 }  // namespace curvefusion

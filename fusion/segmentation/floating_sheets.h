@@ -11,7 +11,7 @@
 namespace curvefusion {
 
 /// The pixels of those surfaces of a rendering that hang together with nothing: parts of `kept` (a
-/// rendering after opening) behind nearly all of whose outline there is free space. A row of wires
+/// rendering after opening) behind nearly all of whose outline there is free space. A wire array
 /// that depth shows as one sheet looks so; tables, walls and what stands on them do not.
 /// `rendering` is the same before opening. Linear in pixels.
 MaskImage FloatingSheets(const DepthImage& kept, const DepthImage& rendering);

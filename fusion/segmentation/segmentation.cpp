@@ -17,11 +17,11 @@ namespace {
 constexpr int kBackgroundFrames = 10;
 // Frames segmented at the same time: enough to keep the cores busy, few enough to bound memory.
 constexpr size_t kFramesAtOnce = 8;
-// Of floating sheets: rows of wires have stripes on more of their area.
+// Of floating sheets: wire arrays have stripes on more of their area.
 constexpr double kMinStripedShare = 0.7;
-// Pixels: the outermost wires of a close row, and what block matching fattens them by, lie so far
+// Pixels: the outermost wires of a wire array, and what block matching fattens them by, lie so far
 // beyond what the volume shows of it.
-constexpr int kCloseRowMargin = 16;
+constexpr int kWireArrayMargin = 16;
 // Where frames show very many points.
 constexpr int kCrowdedStride = 2;
 
@@ -62,8 +62,8 @@ void MarkOpen(const MaskImage& grilles, DepthImage& solidity) {
   }
 }
 
-void AddRows(const MaskImage& more, MaskImage& rows) {
-  for (size_t i = 0; i < rows.size(); ++i) rows.data()[i] |= more.data()[i];
+void AddArrays(const MaskImage& more, MaskImage& arrays) {
+  for (size_t i = 0; i < arrays.size(); ++i) arrays.data()[i] |= more.data()[i];
 }
 
 // Depth pixels that the volume does not explain, CurveFusion 3.1 "Removing large surfaces".
@@ -79,10 +79,10 @@ WireCandidates FindCandidates(const Sequence& sequence, int frame, const TsdfVol
   DepthImage solidity = solid_depth > 0
                             ? volume.SolidityBehind(rendering, small, T_world_camera, solid_depth)
                             : DepthImage();
-  found.rows = model.openness.Grilles(rendering, small, T_world_camera);
-  AddRows(model.sheets.Mask(rendering, small, T_world_camera), found.rows);
-  if (model.row_spacing > 0) found.row_margin = kCloseRowMargin;
-  if (options.openness.stride > 0) MarkOpen(found.rows, solidity);
+  found.arrays = model.openness.Grilles(rendering, small, T_world_camera);
+  AddArrays(model.sheets.Mask(rendering, small, T_world_camera), found.arrays);
+  if (model.array_spacing > 0) found.array_margin = kWireArrayMargin;
+  if (options.openness.stride > 0) MarkOpen(found.arrays, solidity);
   const DepthImage kept = OpenDepth(rendering, small, solidity, options.opening);
   DifferenceSetOptions difference = options.difference;
   if (!model.is_background_measured) difference.accept_where_nothing_rendered = true;
@@ -104,7 +104,7 @@ SegmentedFrame SegmentFrame(const Sequence& sequence, int frame, const TsdfVolum
   segmented.on_edge =
       MaskPixelsOnEdges(candidates.mask, candidates.depth, edges, sequence.depth_camera,
                         sequence.color_camera, sequence.T_color_depth, options.edges);
-  if (model.row_spacing > 0) ThinToCrests(model.colours, sequence, candidates);
+  if (model.array_spacing > 0) ThinToCrests(model.colours, sequence, candidates);
   segmented.funnel.gated_pixels = CountSet(candidates.mask);
   return segmented;
 }
@@ -177,23 +177,23 @@ double PointsPerFrame(const Sequence& sequence, const WireColours& colours,
   return Mean(points);
 }
 
-void SetRowMargin(int margin, std::vector<WireCandidates>& candidates) {
-  for (WireCandidates& frame : candidates) frame.row_margin = margin;
+void SetArrayMargin(int margin, std::vector<WireCandidates>& candidates) {
+  for (WireCandidates& frame : candidates) frame.array_margin = margin;
 }
 
-// Learns the colours of close rows; false where the colours show no stripes in rows.
-bool LearnCloseRows(const Sequence& sequence, const SegmentationOptions& options,
-                    std::vector<WireCandidates>& candidates, SegmentationModel& model) {
-  const auto has_rows = [](const WireCandidates& frame) { return AnySet(frame.rows); };
-  if (std::none_of(candidates.begin(), candidates.end(), has_rows)) return false;
-  SetRowMargin(kCloseRowMargin, candidates);
+// Learns the colours of close wires; false where the colours show no stripes in them.
+bool LearnWireArrays(const Sequence& sequence, const SegmentationOptions& options,
+                     std::vector<WireCandidates>& candidates, SegmentationModel& model) {
+  const auto has_arrays = [](const WireCandidates& frame) { return AnySet(frame.arrays); };
+  if (std::none_of(candidates.begin(), candidates.end(), has_arrays)) return false;
+  SetArrayMargin(kWireArrayMargin, candidates);
   WireColours colours = LearnWireColours(candidates, sequence, options.gate);
   SharpenColours(candidates, sequence, colours);
   const SheetStripes stripes =
-      MeasureStripes(candidates, colours, sequence, options.max_row_spacing);
+      MeasureStripes(candidates, colours, sequence, options.max_array_spacing);
   if (stripes.share < kMinStripedShare) return false;
-  model.row_spacing = stripes.spacing;
-  model.row_diameter = stripes.width;
+  model.array_spacing = stripes.spacing;
+  model.array_diameter = stripes.width;
   model.colours = std::move(colours);
   return true;
 }
@@ -216,10 +216,10 @@ void VisitOptions(SegmentationOptions& options, OptionVisitor& visitor) {
                  "rendered belong to the set; 0 = never."},
                 options.min_measured_share);
   VisitOptions(options.gate, visitor);
-  visitor.Visit({"max_row_spacing", "m", 0, 0.1,
+  visitor.Visit({"max_array_spacing", "m", 0, 0.1,
                  "Deviation: surfaces that float in space and have straight stripes of wire colour "
-                 "no farther apart than this are rows of wires; 0 = not asked."},
-                options.max_row_spacing);
+                 "no farther apart than this are wire arrays; 0 = not asked."},
+                options.max_array_spacing);
   visitor.Visit(
       {"max_frame_points", "points", 0, 1000000,
        "Deviation: where the frames of a video show more points of wires than this, on "
@@ -243,11 +243,11 @@ SegmentationModel LearnSegmentation(const Sequence& sequence, const TsdfVolume& 
   model.openness = MeasureOpenness(sequence, volume, options.openness);
   if (options.gate.frames == 0) return model;
   const std::vector<int> frames = FramesToLearnFrom(sequence, options.gate.frames);
-  if (options.max_row_spacing > 0) model.sheets = FindSheets(sequence, frames, volume, options);
+  if (options.max_array_spacing > 0) model.sheets = FindSheets(sequence, frames, volume, options);
   std::vector<WireCandidates> candidates = CandidatesOf(sequence, frames, volume, model, options);
-  if (options.max_row_spacing > 0) {
-    if (LearnCloseRows(sequence, options, candidates, model)) return model;
-    SetRowMargin(WireCandidates().row_margin, candidates);
+  if (options.max_array_spacing > 0) {
+    if (LearnWireArrays(sequence, options, candidates, model)) return model;
+    SetArrayMargin(WireCandidates().array_margin, candidates);
   }
   if (!model.sheets.empty()) {
     model.sheets = {};

@@ -26,7 +26,7 @@ struct SegmentationOptions {
   DifferenceSetOptions difference;
   double min_measured_share = 0;
   ColourGateOptions gate;
-  double max_row_spacing = 0;
+  double max_array_spacing = 0;
   int max_frame_points = 0;
   ColourEdgeOptions edges;
   BundleOptions bundle;
@@ -39,9 +39,9 @@ struct SegmentationModel {
   int frame_stride = 1;                ///< every so many-th frame is segmented
   bool is_background_measured = true;  ///< otherwise it is out of range, or cut off
   OpennessGrid openness{OpennessOptions{}};
-  SheetGrid sheets;         ///< rows of wires that depth shows as surfaces
-  double row_spacing = 0;   ///< of their wires, metres; 0 where there are none
-  double row_diameter = 0;  ///< of their wires, metres, roughly
+  SheetGrid sheets;           ///< wire arrays that depth shows as surfaces
+  double array_spacing = 0;   ///< of their wires, metres; 0 where there are none
+  double array_diameter = 0;  ///< of their wires, metres, roughly
   WireColours colours;
 };
 

@@ -73,7 +73,7 @@ SheetStripes MeasureStripes(const std::vector<WireCandidates>& frames, const Wir
   for (const WireCandidates& frame : frames) {
     const PosteriorImage posterior = ApplyPosterior(BinColours(frame.color), colours.posterior);
     const StripeField stripes(posterior);
-    ForEachColour(PixelsInRows(frame), frame.depth, lookup, [&](int u, int v, int x, int y) {
+    ForEachColour(PixelsInArrays(frame), frame.depth, lookup, [&](int u, int v, int x, int y) {
       area += 1;
       const StripePixel at = stripes.At(x, y);
       const Vec2 pixel(x, y);

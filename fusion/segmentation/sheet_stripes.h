@@ -14,8 +14,8 @@ struct SheetStripes {
   double width = 0;  ///< metres, of a stripe, roughly: where wire is likelier than background
 };
 
-/// Looks in the rows of frames for straight parallel stripes of wire colour, up to
-/// `max_spacing` (metres) from one another: rows of wires have them all over, boards with a texture
+/// Looks in the wire arrays of frames for straight parallel stripes of wire colour, up to
+/// `max_spacing` (metres) from one another: wire arrays have them all over, boards with a texture
 /// hardly any. Linear in pixels.
 SheetStripes MeasureStripes(const std::vector<WireCandidates>& frames, const WireColours& colours,
                             const Sequence& sequence, double max_spacing);

@@ -52,10 +52,10 @@ std::vector<Bridge> PossibleBridges(const WireSilhouettes& silhouettes,
     for (size_t j = i + 1; j < ends.size(); ++j) {
       const OpenEnd& a = ends[i];
       const OpenEnd& b = ends[j];
-      const Vec3 way = b.position - a.position;
-      const double length = way.norm();
+      const Vec3 offset = b.position - a.position;
+      const double length = offset.norm();
       if (a.node == b.node || length > options.max_length || length < kStep) continue;
-      const double facing = std::min(a.outward.dot(way), -b.outward.dot(way)) / length;
+      const double facing = std::min(a.outward.dot(offset), -b.outward.dot(offset)) / length;
       if (facing < kFacingCosine) continue;
       const Polyline guide =
           Resample(HermiteBridge(a.position, a.outward, b.position, -b.outward), kStep);
@@ -84,10 +84,10 @@ std::vector<Target> TargetsAhead(const SkeletonGraph& skeleton, const OpenEnd& e
     const Target none{std::numeric_limits<double>::infinity(), id, 0};
     Target best = none;
     for (size_t i = 0; i < points.size(); ++i) {
-      const Vec3 way = points[i] - end.position;
-      const double length = way.norm();
+      const Vec3 offset = points[i] - end.position;
+      const double length = offset.norm();
       if (length > max_gap || length <= 0) continue;
-      const double ahead = end.outward.dot(way) / length;
+      const double ahead = end.outward.dot(offset) / length;
       if (length > kSnapDistance && ahead < (length < kNear ? 0 : kFacingCosine)) continue;
       const double cost = length * (2 - ahead);
       if (cost < best.cost) best = {cost, id, i};

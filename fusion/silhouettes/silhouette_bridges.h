@@ -11,7 +11,7 @@ struct SilhouetteBridgeOptions {
   double min_share = 0.9;   ///< of the images that must show each place as wire
 };
 
-/// Joins ends that nothing continues and that face each other (OpenEnds) where a way between them
+/// Joins ends that nothing continues and that face each other (OpenEnds) where a path between them
 /// is seen as wire and does not run along another edge. Bridges have the radii of the edges they
 /// continue, which need some. Returns how many there are.
 int BridgeOpenEnds(const WireSilhouettes& silhouettes, const SilhouetteBridgeOptions& options,

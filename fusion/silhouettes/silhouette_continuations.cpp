@@ -12,13 +12,13 @@ namespace {
 
 constexpr int kMaxRounds = 8;
 constexpr double kStep = 0.002;         // metres
-constexpr double kMinLength = 0.012;    // metres; shorter ways lie beside curves
-constexpr double kEndReach = 0.008;     // metres; so near to its ends a way lies beside others
+constexpr double kMinLength = 0.012;    // metres; shorter paths lie beside curves
+constexpr double kEndReach = 0.008;     // metres; so near to its ends a path lies beside others
 constexpr double kClearance = 0.004;    // metres
-constexpr double kBeside = 0.008;       // metres; clear of the way itself
+constexpr double kBeside = 0.008;       // metres; clear of the path itself
 constexpr double kTargetReach = 0.005;  // metres; wires at its ends are next to it there
 constexpr double kSheetStep = 0.001;    // metres
-constexpr double kMinCovered = 0.8;     // of the way
+constexpr double kMinCovered = 0.8;     // of the path
 constexpr double kMinAcross = 0.5;      // of a unit vector
 
 // The least share of the images that show a place of a curve as wire.
@@ -57,26 +57,26 @@ bool IsInSheet(const WireSilhouettes& silhouettes, double min_share, const Polyl
   return looked > 0 && covered >= kMinCovered * looked;
 }
 
-// Whether a way ends inside an edge, where it may cross a sheet of wires seen along their plane.
+// Whether a path ends inside an edge, where it may cross a sheet of wires seen along their plane.
 bool CrossesSheet(const WireSilhouettes& silhouettes, double min_share,
-                  const SkeletonGraph& skeleton, const BranchContinuation& way) {
-  if (way.to >= 0) return false;
-  const Polyline& target = skeleton.edge(way.target.edge).points;
+                  const SkeletonGraph& skeleton, const BranchContinuation& path) {
+  if (path.to >= 0) return false;
+  const Polyline& target = skeleton.edge(path.target.edge).points;
   const std::vector<double> arc_length = CumulativeLength(target);
-  const Vec3 across = PointAt(target, arc_length, way.target.arc_length + kStep) -
-                      PointAt(target, arc_length, way.target.arc_length - kStep);
-  return IsInSheet(silhouettes, min_share, way.curve, across.normalized());
+  const Vec3 across = PointAt(target, arc_length, path.target.arc_length + kStep) -
+                      PointAt(target, arc_length, path.target.arc_length - kStep);
+  return IsInSheet(silhouettes, min_share, path.curve, across.normalized());
 }
 
-// Of all ways ahead those that are wire, each turned to where the images show it best.
+// Of all paths ahead those that are wire, each turned to where the images show it best.
 std::vector<BranchContinuation> WiresAhead(const WireSilhouettes& silhouettes, double min_share,
                                            const SkeletonGraph& skeleton,
                                            const ContinuationOptions& options) {
   std::vector<BranchContinuation> wires;
-  for (const BranchContinuation& way : FindContinuations(skeleton, options)) {
+  for (const BranchContinuation& path : FindContinuations(skeleton, options)) {
     double most = 0;
     BranchContinuation best;
-    for (BranchContinuation& turned : WithShifts(skeleton, way)) {
+    for (BranchContinuation& turned : WithShifts(skeleton, path)) {
       const double least = LeastShare(silhouettes, turned.curve);
       if (least <= most) continue;
       most = least;

@@ -70,27 +70,27 @@ void VisitAround(const Cell& cell, int reach, const Visit& visit) {
               std::sqrt(static_cast<double>(x * x + y * y + z * z)));
 }
 
-// Cells from the front of the guide to its back, both included; empty where no way leads there
+// Cells from the front of the guide to its back, both included; empty where no path leads there
 // (A* search, Hart, Nilsson and Raphael 1968).
-std::vector<Cell> ShortestWay(Corridor& corridor, const Polyline& guide) {
+std::vector<Cell> ShortestPath(Corridor& corridor, const Polyline& guide) {
   const Cell goal = corridor.CellAt(guide.back());
   const auto remaining = [&goal](const Cell& cell) {
     return std::hypot(cell[0] - goal[0], cell[1] - goal[1], cell[2] - goal[2]);
   };
-  using Entry = std::tuple<double, double, Cell>;  // bound, way so far
+  using Entry = std::tuple<double, double, Cell>;  // bound, length so far
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
   std::map<Cell, std::pair<double, Cell>> reached;
   const Cell start{};
   open.emplace(remaining(start), 0, start);
   reached[start] = {0, start};
   while (!open.empty()) {
-    const auto [bound, way, cell] = open.top();
+    const auto [bound, length, cell] = open.top();
     open.pop();
     if (cell == goal) break;
-    if (way > reached[cell].first) continue;
-    VisitAround(cell, 1, [&, way = way, cell = cell](const Cell& next, double step) {
+    if (length > reached[cell].first) continue;
+    VisitAround(cell, 1, [&, length = length, cell = cell](const Cell& next, double step) {
       if (step == 0) return;
-      const double to_next = way + step * (next == goal ? 1 : corridor.CostOf(next));
+      const double to_next = length + step * (next == goal ? 1 : corridor.CostOf(next));
       const auto known = reached.find(next);
       if (!std::isfinite(to_next) || (known != reached.end() && known->second.first <= to_next))
         return;
@@ -124,7 +124,7 @@ std::optional<Polyline> PathThroughSilhouettes(const WireSilhouettes& silhouette
                                                const Polyline& guide, double min_share) {
   Corridor cells(silhouettes, guide, min_share);
   Polyline path{guide.front()};
-  for (const Cell& cell : ShortestWay(cells, guide)) path.push_back(cells.PositionOf(cell));
+  for (const Cell& cell : ShortestPath(cells, guide)) path.push_back(cells.PositionOf(cell));
   if (path.size() < 2) return std::nullopt;
   path.back() = guide.back();
   path.erase(path.begin() + 1);

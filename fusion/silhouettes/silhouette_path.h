@@ -7,7 +7,7 @@
 
 namespace curvefusion {
 
-/// The shortest way from the front of `guide` to its back, no farther than two wires beside it,
+/// The shortest path from the front of `guide` to its back, no farther than two wires beside it,
 /// through places that at least min_share of the images show as wire; then moved to the middle of
 /// those places. The ends are kept bit for bit. Nothing where there is none, or only a detour.
 /// Costs O(length of the guide x views).

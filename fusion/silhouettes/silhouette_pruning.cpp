@@ -15,7 +15,8 @@ namespace {
 
 constexpr size_t kRetreat = 2;  // points; near a place beside the wire others may be too
 
-// The points of a curve with low runs replaced by ways through the silhouettes where there are any.
+// The points of a curve with low runs replaced by paths through the silhouettes where there are
+// any.
 Polyline Rerouted(const WireSilhouettes& silhouettes, const Polyline& points, double min_share) {
   Polyline rerouted;
   size_t next = 0;
@@ -25,10 +26,10 @@ Polyline Rerouted(const WireSilhouettes& silhouettes, const Polyline& points, do
     if (from < next || from == to) continue;
     const Polyline guide(points.begin() + static_cast<std::ptrdiff_t>(from),
                          points.begin() + static_cast<std::ptrdiff_t>(to) + 1);
-    const std::optional<Polyline> way = PathThroughSilhouettes(silhouettes, guide, min_share);
-    if (!way) continue;
+    const std::optional<Polyline> detour = PathThroughSilhouettes(silhouettes, guide, min_share);
+    if (!detour) continue;
     for (; next < from; ++next) rerouted.push_back(points[next]);
-    rerouted.insert(rerouted.end(), way->begin(), way->end() - 1);
+    rerouted.insert(rerouted.end(), detour->begin(), detour->end() - 1);
     next = to;
   }
   for (; next < points.size(); ++next) rerouted.push_back(points[next]);

@@ -11,7 +11,7 @@ void MoveJunctionsIntoWires(const WireSilhouettes& silhouettes, double min_share
                             SkeletonGraph& skeleton);
 
 /// Leads stretches of edges that less than min_share of the images show as wire through places near
-/// them that as many do, where there is such a way. Needs radii, which become one for each edge
+/// them that as many do, where there is such a path. Needs radii, which become one for each edge
 /// that is changed.
 void RerouteCurves(const WireSilhouettes& silhouettes, double min_share, SkeletonGraph& skeleton);
 

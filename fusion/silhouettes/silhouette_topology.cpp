@@ -25,12 +25,12 @@ void VisitOptions(SilhouetteOptions& options, OptionVisitor& visitor) {
                 options.max_frames);
   visitor.Visit(
       {"min_share", "", 0, 1,
-       "Deviation: without an adjustment to colours, parts of close rows that a smaller share of "
+       "Deviation: without an adjustment to colours, parts of close wires that a smaller share of "
        "the images shows as wire are false."},
       options.min_share);
   visitor.Visit(
       {"max_bridge", "m", 0, 1,
-       "Deviation: the longest way that silhouettes may show where depth shows none of it or "
+       "Deviation: the longest path that silhouettes may show where depth shows none of it or "
        "little: between ends, ahead of one, or along the line of sight."},
       options.bridges.max_length);
   visitor.Visit({"min_bridge_share", "", 0, 1,

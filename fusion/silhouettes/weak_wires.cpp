@@ -23,23 +23,23 @@ namespace curvefusion {
 namespace {
 
 constexpr double kStep = 0.002;          // metres; along ways, and of the grid of points
-constexpr double kCurveStep = 0.004;     // metres; between places at which ways may end
+constexpr double kCurveStep = 0.004;     // metres; between places at which paths may end
 constexpr double kBeside = 0.0075;       // metres; points of a curve lie nearer to it
 constexpr double kLink = 0.006;          // metres; between the points of a piece
 constexpr int kCorePoints = 3;           // of a piece
-constexpr double kOnWay = 0.0035;        // metres; from a way to points of its wire
-constexpr double kMiss = 0.004;          // metres; at which a way still meets a curve
-constexpr double kSnapDistance = 0.006;  // metres; ways end at nodes this near
-constexpr double kEndReach = 0.008;      // metres; so near to its ends a way lies beside curves
-constexpr double kClearance = 0.005;     // metres; of a way inside
-constexpr double kFar = 0.0125;          // metres; of some place of a way
-constexpr int kMinSteps = 4;             // of a way that have points
-// Of the images: true wires are seen beside all curves in .18 to .60 of them somewhere on their way
-// (training seeds), false ones, which lie before or behind a curve or a net, in .12 at most.
+constexpr double kOnPath = 0.0035;       // metres; from a path to points of its wire
+constexpr double kMiss = 0.004;          // metres; at which a path still meets a curve
+constexpr double kSnapDistance = 0.006;  // metres; paths end at nodes this near
+constexpr double kEndReach = 0.008;      // metres; so near to its ends a path lies beside curves
+constexpr double kClearance = 0.005;     // metres; of a path inside
+constexpr double kFar = 0.0125;          // metres; of some place of a path
+constexpr int kMinSteps = 4;             // of a path that have points
+// Of the images: true wires are seen beside all curves in .18 to .60 of them somewhere on their
+// path (training seeds), false ones, which lie before or behind a curve or a net, in .12 at most.
 constexpr double kMinBeside = 0.15;
 // Radians. From nearly one side what images show as wire is far deeper than a wire is thick:
-// without this limit six scans within .15 get 52 ways, most of them false, a chair within .28 and a
-// rack within .35 one false way each, and a cat within just that two true ones.
+// without this limit six scans within .15 get 52 paths, most of them false, a chair within .28 and
+// a rack within .35 one false path each, and a cat within just that two true ones.
 constexpr double kMinParallax = 0.38;
 constexpr double kAllAround = 0.02;  // metres; nearer curves may be met in any direction
 constexpr int64_t kPlacesPerChunk = 1024;
@@ -84,8 +84,8 @@ std::vector<Vec3> MiddlesOfPieces(const std::vector<Vec3>& places) {
   return middles;
 }
 
-// The samples of curves around a place, by the directions in which they lie: for very many ways out
-// of it.
+// The samples of curves around a place, by the directions in which they lie: for very many paths
+// out of it.
 class CurvesAround {
  public:
   CurvesAround(const PointGrid& curves, const Vec3& place, double reach) {
@@ -102,7 +102,7 @@ class CurvesAround {
     far_.emplace(directions, kMiss / kAllAround);
   }
 
-  // The first sample that a way comes to within a length, looked for at every kStep of it, and the
+  // The first sample that a path comes to within a length, looked for at every kStep of it, and the
   // nearest of several; -1 where there is none.
   int Met(const Vec3& direction, double length) const {
     Meeting first{.step = std::floor(length / kStep)};
@@ -128,7 +128,7 @@ class CurvesAround {
   static void Meet(const Sample& sample, const Vec3& direction, Meeting& first) {
     const double along = sample.offset.dot(direction);
     const double squared_half =
-        kMiss * kMiss - (sample.offset.squaredNorm() - along * along);  // of the way within kMiss
+        kMiss * kMiss - (sample.offset.squaredNorm() - along * along);  // of the path within kMiss
     if (squared_half < 0) return;
     const double half = std::sqrt(squared_half);
     const double step = std::max(1.0, std::ceil((along - half) / kStep));
@@ -143,7 +143,7 @@ class CurvesAround {
   std::optional<PointGrid> far_;  // directions of the others
 };
 
-// A straight way from one curve to another.
+// A straight path from one curve to another.
 struct Chord {
   int front = -1;  // samples of curves
   int back = -1;
@@ -162,7 +162,7 @@ class ChordSearch {
   const SampledCurves& samples() const { return samples_; }
   const PointGrid& grid() const { return grid_; }
 
-  // Of the ways through a place that the images show as wire the one that most places support.
+  // Of the paths through a place that the images show as wire the one that most places support.
   std::optional<Chord> Through(const Vec3& middle, const std::vector<Vec3>& places) const {
     std::vector<Vec3> near;
     for (const Vec3& p : places)
@@ -174,33 +174,33 @@ class ChordSearch {
       if (curves.Met(-direction, (middle - end).norm() - kEndReach) >= 0) return;  // before it
       const int front = curves.Met(direction, options_.max_length);
       if (front < 0) return;
-      const Polyline way{samples_.positions[front], end};
-      const Polyline inside = Inside(way);
-      if (Length(way) > options_.max_length || !IsWire(inside) || !IsApart(inside)) return;
-      const double support = Support(way, near);
+      const Polyline path{samples_.positions[front], end};
+      const Polyline inside = Inside(path);
+      if (Length(path) > options_.max_length || !IsWire(inside) || !IsApart(inside)) return;
+      const double support = Support(path, near);
       if (support > best.support) best = {front, back, support};
     });
     return best.front < 0 ? std::nullopt : std::optional(best);
   }
 
  private:
-  // How many places lie on a way, those in its middle for most; nothing for too short a piece.
-  double Support(const Polyline& way, const std::vector<Vec3>& places) const {
+  // How many places lie on a path, those in its middle for most; nothing for too short a piece.
+  double Support(const Polyline& path, const std::vector<Vec3>& places) const {
     double sum = 0;
     std::set<int> steps;
     for (const Vec3& p : places) {
-      const auto [arc_length, distance] = Project(way, p);
-      if (distance >= kOnWay) continue;
-      sum += 1 - distance * distance / (kOnWay * kOnWay);
+      const auto [arc_length, distance] = Project(path, p);
+      if (distance >= kOnPath) continue;
+      sum += 1 - distance * distance / (kOnPath * kOnPath);
       steps.insert(static_cast<int>(arc_length / kStep));
     }
     return static_cast<int>(steps.size()) < kMinSteps ? 0 : sum;
   }
 
-  static Polyline Inside(const Polyline& way) {
+  static Polyline Inside(const Polyline& path) {
     Polyline inside;
-    for (const Vec3& p : Resample(way, kStep))
-      if (std::min((p - way[0]).norm(), (p - way[1]).norm()) >= kEndReach) inside.push_back(p);
+    for (const Vec3& p : Resample(path, kStep))
+      if (std::min((p - path[0]).norm(), (p - path[1]).norm()) >= kEndReach) inside.push_back(p);
     return inside;
   }
 
@@ -223,12 +223,12 @@ class ChordSearch {
   PointGrid grid_;
 };
 
-// The greatest share of the images that show a place of a way beside all curves, of the places far
+// The greatest share of the images that show a place of a path beside all curves, of the places far
 // from all: nearer ones may be a curve's own wire.
-double ShareBeside(const WireSilhouettes& silhouettes, const Polyline& way,
+double ShareBeside(const WireSilhouettes& silhouettes, const Polyline& path,
                    const ChordSearch& search, double radius) {
   double most = 0;
-  for (const Vec3& p : way) {
+  for (const Vec3& p : path) {
     if (search.grid().Nearest(p, kFar) >= 0) continue;
     most = std::max(most, silhouettes.ShareBeside(p, search.samples().positions, radius));
   }

@@ -94,10 +94,10 @@ double WireSilhouettes::ShareBeside(const Vec3& p, const std::vector<Vec3>& othe
     const Vec3 center = view.ColorCenter();
     const Vec3 ray = (p - center).normalized();
     beside += std::none_of(others.begin(), others.end(), [&](const Vec3& other) {
-      const Vec3 way = other - center;
-      const double along = way.dot(ray);
+      const Vec3 offset = other - center;
+      const double along = offset.dot(ray);
       const double reach = radius + blur * along;
-      return along > 0 && way.squaredNorm() - along * along <= reach * reach;
+      return along > 0 && offset.squaredNorm() - along * along <= reach * reach;
     });
   }
   return looked == 0 ? 0 : static_cast<double>(beside) / looked;

@@ -40,10 +40,10 @@ std::optional<Vec3> TargetOf(const Ray& ray, const TriangleMesh& surface, double
   bool is_inside = false;
   for (size_t i = 0; i < surface.triangles.size(); ++i) {
     const auto [a, b, c] = CornersOf(surface, i);
-    const Vec3 way = (a + b + c) / 3 - ray.origin;
-    if (way.norm() < nearest && way.dot(ray.direction) > kMinCosine * way.norm()) {
-      nearest = way.norm();
-      beside = ray.origin + way;
+    const Vec3 offset = (a + b + c) / 3 - ray.origin;
+    if (offset.norm() < nearest && offset.dot(ray.direction) > kMinCosine * offset.norm()) {
+      nearest = offset.norm();
+      beside = ray.origin + offset;
     }
     const std::optional<double> along = HitOf(ray, a, b, c);
     if (!along || *along > ahead) continue;

@@ -30,10 +30,10 @@ std::vector<TubeView> ViewsOf(const SurfaceTriangles& surface, const SkeletonGra
   for (const EdgeId id : skeleton.Edges()) {
     const SkeletonEdge& edge = skeleton.edge(id);
     for (size_t i = 0; i + 1 < edge.points.size(); ++i) {
-      const Vec3 way = edge.points[i + 1] - edge.points[i];
-      const int steps = std::max(1, static_cast<int>(std::ceil(way.norm() / kAxisStep)));
+      const Vec3 segment = edge.points[i + 1] - edge.points[i];
+      const int steps = std::max(1, static_cast<int>(std::ceil(segment.norm() / kAxisStep)));
       for (int k = 0; k <= steps; ++k) {
-        axis.push_back(edge.points[i] + way * k / steps);
+        axis.push_back(edge.points[i] + segment * k / steps);
         radii.push_back(edge.radii.empty() ? 0 : edge.radii[i]);
       }
     }
@@ -43,8 +43,8 @@ std::vector<TubeView> ViewsOf(const SurfaceTriangles& surface, const SkeletonGra
   const PointIndex index(axis);
   ParallelFor(0, static_cast<int64_t>(surface.size()), 256, [&](int64_t i) {
     const int nearest = index.Nearest(surface.centers[i]);
-    const Vec3 way = surface.centers[i] - axis[nearest];
-    views[i] = {way.norm() - radii[nearest], surface.normals[i].dot(way.normalized())};
+    const Vec3 offset = surface.centers[i] - axis[nearest];
+    views[i] = {offset.norm() - radii[nearest], surface.normals[i].dot(offset.normalized())};
   });
   return views;
 }

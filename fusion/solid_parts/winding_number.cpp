@@ -44,10 +44,10 @@ WindingNumber::WindingNumber(const TriangleMesh& mesh, double cell_size) : mesh_
 double WindingNumber::At(const Vec3& p) const {
   double angle = 0;
   for (const Group& group : groups_) {
-    const Vec3 way = group.center - p;
-    const double distance = way.norm();
+    const Vec3 offset = group.center - p;
+    const double distance = offset.norm();
     if (distance > kFar * group.radius) {
-      angle += group.dipole.dot(way) / (distance * distance * distance);
+      angle += group.dipole.dot(offset) / (distance * distance * distance);
       continue;
     }
     for (const size_t i : group.triangles) {

@@ -22,7 +22,7 @@ std::optional<double> MeasureEdgeExcess(const PosteriorImage& posterior,
                                         std::vector<WholeStrip> whole);
 
 /// The offset of a strip's centre from the projected curve along the sample's normal, pixels, by
-/// the edges on those sides that are clear of other strands: a bar with a row of wires on one side
+/// the edges on those sides that are clear of other curves: a bar with a wire array on one side
 /// shows no strip of its own anywhere. It lies in the middle of two edges, or half a width and
 /// `excess_px` from one. Edges are looked for within search_px; nothing where one does not stand
 /// out, another is nearly as good, or two are not a width apart. `sample` must have been projected

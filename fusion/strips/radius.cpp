@@ -18,10 +18,10 @@ namespace curvefusion {
 
 namespace {
 
-constexpr double kNeighbourStep = 0.002;  // metres, between points of strands kept clear of
+constexpr double kNeighbourStep = 0.002;  // metres, between points of curves kept clear of
 constexpr double kMaxClearancePx = 40;    // a strip and its background fit in
 constexpr double kBorderPx = 8;           // samples nearer to the image border are left out
-constexpr double kCrossingPx = 8;         // farther along a wire a strand may cross it
+constexpr double kCrossingPx = 8;         // farther along a wire a curve may cross it
 constexpr double kAgreement = 0.25;       // strips this near to the mode count, relative
 constexpr int kMinOwnStrips = 20;         // to tell that a piece of a wire is thicker or thinner
 constexpr double kAlikeStrips = 3;        // so many strips err together
@@ -66,8 +66,8 @@ void ForEachProjection(const ColourViews& views, const std::vector<CurveSample>&
   }
 }
 
-// Strips with no other strand near by; of wires that have few of those the ones with none beside:
-// strands that cross the wire a little farther on leave most of its background as it is.
+// Strips with no other curve near by; of wires that have few of those the ones with none beside:
+// curves that cross the wire a little farther on leave most of its background as it is.
 std::vector<StripWidth> MeasureStrips(const ColourViews& views, std::vector<CurveSample> samples,
                                       const SkeletonGraph& skeleton, const RadiusOptions& options) {
   std::vector<FoundStrip> found;
@@ -268,7 +268,7 @@ void VisitOptions(RadiusOptions& options, OptionVisitor& visitor) {
                 options.max_frames);
   visitor.Visit({"gauge_strips", "", 0, 100000,
                  "Deviation: an object is made of few gauges of wire: the diameter of a wire is "
-                 "drawn to that of the wires like it, with the weight of so many strips."},
+                 "shrunk towards that of the wires like it, with the weight of so many strips."},
                 options.gauge_strips);
   visitor.Visit({"search_px", "px", 0, 40,
                  "Deviation: how far from its projection a strip is looked for by the strip model, "

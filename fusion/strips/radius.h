@@ -64,9 +64,9 @@ struct RadiusEstimate {
 /// sequence.frames, evenly thinned), the strip found near each is measured across the curve and
 /// converted to metres. The most prominent value of all is the global radius; each edge gets the
 /// value that the strips of its wire (all edges that go straight on into one another) agree on, or,
-/// where that clearly differs, its own, drawn to the gauge of the wires like it. An edge is cut
-/// into stretches of 30 mm, and where their diameters differ by 30 % and more than their errors
-/// explain, its radius varies. Places where another strand of the skeleton lies within 1.5 widths
+/// where that clearly differs, its own, shrunk towards the gauge of the wires like it. An edge is
+/// cut into stretches of 30 mm, and where their diameters differ by 30 % and more than their errors
+/// explain, its radius varies. Places where another curve of the skeleton lies within 1.5 widths
 /// are left out; wires that are hardly anywhere free of others are measured between those that
 /// cross them. Throws Error(kBadInput) for images that cannot be decoded. Cost: 10 ms a frame for 3
 /// m of wire.

@@ -54,21 +54,21 @@ Vec2 GradientDirection(const Edges& edges, int u, int v) {
 // way as the inside of a strip and its middle as axis.
 void MarkStrip(const Edges& edges, int u, int v, const Vec2& direction, int max_width_px,
                StripRegions& regions) {
-  std::vector<std::pair<int, int>> way;
+  std::vector<std::pair<int, int>> across;
   for (int step = 1; step <= max_width_px; ++step) {
     const int x = static_cast<int>(std::lround(u + step * direction.x()));
     const int y = static_cast<int>(std::lround(v + step * direction.y()));
     if (!regions.inside.Contains(x, y)) return;
     if (edges.mask.at<uint8_t>(y, x) == 0) {
-      way.emplace_back(x, y);
+      across.emplace_back(x, y);
       continue;
     }
     const double width = std::hypot(x - u, y - v);
     if (width < kMinWidthPx) continue;
     if (std::abs(GradientDirection(edges, x, y).dot(direction)) < kMinParallel) return;
-    for (const auto& [a, b] : way) regions.inside(a, b) = 1;
-    if (!way.empty()) {
-      const auto& [a, b] = way[way.size() / 2];
+    for (const auto& [a, b] : across) regions.inside(a, b) = 1;
+    if (!across.empty()) {
+      const auto& [a, b] = across[across.size() / 2];
       regions.axis_width(a, b) = static_cast<float>(width);
     }
     return;

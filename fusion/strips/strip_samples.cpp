@@ -15,7 +15,7 @@ constexpr double kMinDepth = 0.05;  // metres
 constexpr int64_t kGrain = 64;      // samples projected by one task
 constexpr double kMaxSideClearancePx = 16;
 constexpr double kMaxSideAlongPx = 6;
-// Nearer to the line of a curve a strand goes on with it, or lies behind it.
+// Nearer to the line of a curve another curve goes on with it, or lies behind it.
 constexpr double kInLinePx = 1.5;
 constexpr double kInLineSlope = 0.25;  // of the distance along it
 constexpr double kParallel = 0.7;      // cosine
@@ -108,7 +108,7 @@ PointCells ProjectNeighbours(const std::vector<CurveSample>& neighbours,
   return cells;
 }
 
-bool IsSameStrand(const ImagePoint& point, const ProjectedSample& sample, double distance_px) {
+bool IsSameCurve(const ImagePoint& point, const ProjectedSample& sample, double distance_px) {
   const double along_px = std::abs(point.arc_length - sample.arc_length) * point.px_per_metre;
   // Foreshortening below .9 stretches the way along the curve 2.3 times at most.
   return point.edge == sample.edge && along_px < 3 * distance_px + 6;
@@ -122,7 +122,7 @@ double Clearance(const ProjectedSample& sample, const PointCells& cells, double 
     if (offset.squaredNorm() >= clearance * clearance) return;
     if (std::abs(offset.dot(sample.tangent)) > max_along_px) return;
     const double distance = offset.norm();
-    if (!IsSameStrand(point, sample, distance)) clearance = distance;
+    if (!IsSameCurve(point, sample, distance)) clearance = distance;
   });
   return clearance;
 }
@@ -134,7 +134,7 @@ std::array<double, 2> SideClearances(const ProjectedSample& sample, const PointC
     const double along = std::abs(offset.dot(sample.tangent));
     if (along > kMaxSideAlongPx) return;
     const double distance = offset.norm();
-    if (IsSameStrand(point, sample, distance)) return;
+    if (IsSameCurve(point, sample, distance)) return;
     const double across = offset.dot(sample.normal);
     const bool is_in_line = std::abs(across) < kInLinePx + kInLineSlope * along;
     const double behind_px = std::abs(point.depth - sample.depth) * point.px_per_metre;

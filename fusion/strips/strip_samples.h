@@ -32,7 +32,7 @@ struct ProjectedSample {
   Vec2 normal;               ///< unit, in the image
   double depth = 0;          ///< metres along the optical axis
   double metres_per_px = 0;  ///< diameter of the cylinder whose strip is one pixel wide
-  double clearance_px = 0;   ///< to the nearest strand that is not this piece of curve
+  double clearance_px = 0;   ///< to the nearest curve that is not this piece of curve
   /// With StripSight::by_side, of the side against `normal` and of that along it.
   std::array<double, 2> side_clearance_px = {};
 
@@ -43,15 +43,15 @@ struct ProjectedSample {
 /// The derivative of the pixel by the point in the camera's frame.
 Eigen::Matrix<double, 2, 3> ProjectionJacobian(const PinholeCamera& camera, const Vec3& p_camera);
 
-/// Which samples can be looked at, and which other strands are in the way.
+/// Which samples can be looked at, and which other curves are in the way.
 struct StripSight {
   double max_foreshortening = 0.9;  ///< beyond it curves are seen nearly end on
-  /// Strands farther away than this along the sample's curve do not count, pixels: those that cross
+  /// Curves farther away than this along the sample's curve do not count, pixels: those that cross
   /// it beside the sample are not in the way of what is read across it.
   double max_along_px = std::numeric_limits<double>::infinity();
-  /// Whether each side's clearance is wanted, exact up to 16 px: to the strands that cross the
+  /// Whether each side's clearance is wanted, exact up to 16 px: to the curves that cross the
   /// curve or leave it on that side, less than 6 px along it, and to those beside it on either side
-  /// or behind it, of which edges may be mistaken for the curve's own. A strand that goes on with
+  /// or behind it, of which edges may be mistaken for the curve's own. A curve that goes on with
   /// the curve is none.
   bool by_side = false;
 };
@@ -60,7 +60,7 @@ struct StripSight {
 /// its border than `border_px`) and those seen nearly end on.
 /// `neighbours` are samples of the same skeleton at a step of a few millimetres; clearances look at
 /// them and are exact up to `max_clearance_px`. A neighbour on the same edge belongs to another
-/// strand when it is much farther along the curve than across the image.
+/// curve when it is much farther along the curve than across the image.
 std::vector<ProjectedSample> ProjectSamples(const std::vector<CurveSample>& samples,
                                             const std::vector<CurveSample>& neighbours,
                                             const PinholeCamera& camera,

@@ -24,7 +24,7 @@ constexpr float kMaxSecond = 0.7f;     // of the best score
 constexpr double kClearWidths = 0.85;  // 1.2 leaves a tenth more of some curves unmeasured
 constexpr double kClearPx = 2;
 constexpr int kMaxRunGap = 1;  // samples left out within a run
-// So many samples before and behind those clear of other strands take part in the path.
+// So many samples before and behind those clear of other curves take part in the path.
 constexpr size_t kLead = 8;
 
 // Posterior across a curve and its running sum.
@@ -156,8 +156,8 @@ void ScoreCentres(const Profile& profile, double width_px, size_t row, Scores& s
   }
 }
 
-// Of all ways from the centres of one row to those of the next the best each. `before` has room for
-// kMaxJump centres beyond both ends.
+// Of all paths from the centres of one row to those of the next the best each. `before` has room
+// for kMaxJump centres beyond both ends.
 CURVEFUSION_WIDE_LANES void JumpToNext(const float* __restrict before, int centres,
                                        float* __restrict best, int* __restrict jumps) {
   for (int jump = -kMaxJump; jump <= kMaxJump; ++jump) {
@@ -193,7 +193,7 @@ void BestPath(const Scores& scores, size_t begin, size_t end, std::vector<int>& 
   }
 }
 
-// Another strand is as far off as this one, and looks the same: what lies nearer to it is its own.
+// Another curve is as far off as this one, and looks the same: what lies nearer to it is its own.
 void LeaveToNeighbour(double clearance_px, size_t row, Scores& scores) {
   float* values = scores.Row(row);
   for (int c = -scores.half_count; c <= scores.half_count; ++c) {
@@ -234,7 +234,7 @@ bool FollowsOn(const ProjectedSample& before, const ProjectedSample& sample) {
   return sample.edge == before.edge && sample.index - before.index <= 1 + kMaxRunGap;
 }
 
-// Whether each sample is clear of other strands or so near to one that is that it leads the way
+// Whether each sample is clear of other curves or so near to one that is that it leads the way
 // there.
 std::vector<char> MarkLeading(const std::vector<char>& is_clear) {
   std::vector<char> leads(is_clear.size(), 0);

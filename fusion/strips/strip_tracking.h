@@ -16,16 +16,16 @@ struct TrackedStrip {
   bool accepted = false;  ///< clear enough to be a measurement
 };
 
-/// Whether another strand `clearance_px` away leaves enough background beside a strip.
+/// Whether another curve `clearance_px` away leaves enough background beside a strip.
 bool IsClear(double clearance_px, double width_px);
 
 /// Follows the strips of curves through one image: per sample, how well strips of several widths
 /// around `2 radius / metres_per_px` and of every centre within +-search_px (steps of half a pixel)
 /// stand out from both sides; then per run of samples along one edge the best sequence of centres
-/// that do not jump (Viterbi). What lies nearer to another strand than to this one is left to that:
+/// that do not jump (Viterbi). What lies nearer to another curve than to this one is left to that:
 /// wires of a row look all the same. `samples` must be in order along their edges, `radii` holds
 /// one value per sample. Not accepted are strips that stand out too little, those with a second
-/// centre nearly as good, and those with another strand within .85 widths + 2 px, of which nothing
+/// centre nearly as good, and those with another curve within .85 widths + 2 px, of which nothing
 /// else is told.
 std::vector<TrackedStrip> TrackStrips(const PosteriorImage& posterior,
                                       const std::vector<ProjectedSample>& samples,

@@ -15,7 +15,7 @@ namespace curvefusion {
 namespace {
 
 constexpr int kRounds = 4;                  // colour from widths, widths from colour
-constexpr double kClearWidths = 1.5;        // another strand must be farther away
+constexpr double kClearWidths = 1.5;        // another curve must be farther away
 constexpr int kHalfLengthPx = 4;            // of the stretch that a profile is averaged over
 constexpr double kMinRoomPx = 4;            // less would cut wires off and take the rest for all
 constexpr int64_t kGrain = 16;              // samples looked at by one task
@@ -25,7 +25,7 @@ constexpr double kMinSignificance = 4;
 constexpr double kMaxMisfit = 3;
 constexpr size_t kMinOwnStrips = 20;  // for an edge to have a colour of its own
 constexpr double kSameColor = 0.08;   // radians between the directions of two colours
-// The blurred flank of a strand beside a strip, which must not come into its background.
+// The blurred flank of a curve beside a strip, which must not come into its background.
 constexpr double kFlankPx = 2.5;
 
 // What MeasureStrip finds, in the order of the strips; those not measurable have width 0.
@@ -38,7 +38,7 @@ std::vector<ColoredStrip> MeasureColors(const std::vector<FoundStrip>& strips) {
   return colored;
 }
 
-// How far the next strand stays away from what a strip is compared with; negative where it comes
+// How far the next curve stays away from what a strip is compared with; negative where it comes
 // in. The width is that of the edge: with their own, strips measured too narrow would be chosen.
 double BackgroundRoom(const FoundStrip& strip) {
   return strip.sample.clearance_px - strip.position.width_px - kStripMarginPx - kFlankPx;
@@ -104,7 +104,7 @@ void Reposition(const std::vector<SolvedWidth>& solved, double bin,
 }
 
 // Strips whose background is clear; of an edge with few of them also the clearest others, as many
-// as give it a diameter that weighs little: a strand in the background makes strips too narrow.
+// as give it a diameter that weighs little: a curve in the background makes strips too narrow.
 std::vector<size_t> BestStrips(const std::vector<FoundStrip>& strips,
                                const std::vector<SolvedWidth>& solved) {
   std::map<EdgeId, std::vector<std::pair<double, size_t>>> by_edge;
@@ -156,7 +156,7 @@ std::vector<FoundStrip> FindStrips(const ColorImage& image, int frame,
   std::vector<FoundStrip> found(samples.size());
   ParallelFor(0, static_cast<int64_t>(samples.size()), kGrain, [&](int64_t i) {
     const ProjectedSample& sample = samples[i];
-    // The window ends where the next strand, moved by the same pose error, would come in.
+    // The window ends where the next curve, moved by the same pose error, would come in.
     const double max_width_px = std::min(options.max_diameter / sample.metres_per_px,
                                          sample.clearance_px - kStripMarginPx - 1);
     if (max_width_px < kMinRoomPx) return;

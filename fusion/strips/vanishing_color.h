@@ -24,9 +24,9 @@ struct VanishingColor {
 std::optional<VanishingColor> FindVanishingColor(const std::vector<ColoredStrip>& strips,
                                                  const WireColor& about);
 
-/// The wires' colour as estimated from the colours of `strips`, drawn to their vanishing colour: of
-/// narrow strips blur leaves too little to estimate it by. Wide strips tell their colour better
-/// than their backgrounds do: what mirrors its surroundings vanishes before none.
+/// The wires' colour as estimated from the colours of `strips`, shrunk towards their vanishing
+/// colour: of narrow strips blur leaves too little to estimate it by. Wide strips tell their colour
+/// better than their backgrounds do: what mirrors its surroundings vanishes before none.
 WireColor DrawnToVanishing(const WireColor& estimated, const std::vector<ColoredStrip>& strips);
 
 }  // namespace curvefusion

@@ -15,9 +15,9 @@ struct MeasuredDiameter {
 /// gauge's diameter is the median of its wires', weighted by strips.
 std::vector<MeasuredDiameter> FindGauges(std::vector<MeasuredDiameter> wires);
 
-/// The diameter of a wire, drawn to that of its gauge with the weight of `gauge_strips` strips. A
-/// wire of fewer than 20 strips that fits no gauge is given the nearest; `wire` itself where there
-/// are none.
+/// The diameter of a wire, shrunk towards that of its gauge with the weight of `gauge_strips`
+/// strips. A wire of fewer than 20 strips that fits no gauge is given the nearest; `wire` itself
+/// where there are none.
 double DrawnToGauge(const MeasuredDiameter& wire, const std::vector<MeasuredDiameter>& gauges,
                     double gauge_strips);
 

@@ -24,7 +24,7 @@ struct Link {
   }
 };
 
-// Links so far, with a search for short ways that touches only the points around its start.
+// Links so far, with a search for short paths that touches only the points around its start.
 class LinkGraph {
  public:
   explicit LinkGraph(size_t points)
@@ -35,8 +35,8 @@ class LinkGraph {
     neighbours_[link.b].push_back({link.a, link.length});
   }
 
-  // Whether a way from a to b of at most `limit` exists (Dijkstra, cut off at the limit).
-  bool HasWay(int a, int b, double limit) {
+  // Whether a path from a to b of at most `limit` exists (Dijkstra, cut off at the limit).
+  bool HasPath(int a, int b, double limit) {
     bool found = false;
     Reach(a, 0);
     while (!queue_.empty() && !found) {
@@ -152,7 +152,7 @@ void VisitOptions(CurveNetworkOptions& options, OptionVisitor& visitor) {
                  "parallel wires."},
                 options.max_link);
   visitor.Visit({"min_loop", "m", 0, 1,
-                 "Deviation: a link may close a loop only where the way round is longer."},
+                 "Deviation: a link may close a loop only where the path around is longer."},
                 options.min_loop);
   visitor.Visit({"direction_penalty", "", 0, 100,
                  "Deviation: how much longer a link counts that is perpendicular to the ridge."},
@@ -164,7 +164,7 @@ void VisitOptions(CurveNetworkOptions& options, OptionVisitor& visitor) {
 SkeletonGraph ConnectRidgePoints(const RidgePoints& ridge, const CurveNetworkOptions& options) {
   LinkGraph links(ridge.size());
   for (const Link& link : CandidateLinks(ridge, options)) {
-    if (!links.HasWay(link.a, link.b, options.min_loop)) links.Add(link);
+    if (!links.HasPath(link.a, link.b, options.min_loop)) links.Add(link);
   }
   SkeletonGraph graph = TraceChains(links, ridge);
   PruneSpurs(graph, options.min_spur);

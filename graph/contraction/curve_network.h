@@ -19,7 +19,7 @@ struct CurveNetworkOptions {
 void VisitOptions(CurveNetworkOptions& options, OptionVisitor& visitor);
 
 /// Links ridge points by a greedy spanner: links in order of length, those that leave the ridge
-/// direction later; a link between points that are connected already only where the way between
+/// direction later; a link between points that are connected already only where the path between
 /// them is longer than `min_loop`, that is where it closes a loop of the object and not of the
 /// noise. Chains of links become edges, points with one or more than two links nodes. A closed
 /// chain is one edge from a node to itself. Costs O(n k) for k points within `min_loop`.

@@ -92,10 +92,10 @@ double LoopLength(const SkeletonGraph& graph, const FacingEnd& end, const CurveP
     return from.nodes[0] == end.node ? position : arc_length.back() - position;
   }
   const NodeId root = graph.OtherEnd(end.edge, end.node);
-  double way = std::numeric_limits<double>::infinity();
-  if (to.nodes[0] == root) way = position;
-  if (to.nodes[1] == root) way = std::min(way, arc_length.back() - position);
-  return way + Length(from.points);
+  double length = std::numeric_limits<double>::infinity();
+  if (to.nodes[0] == root) length = position;
+  if (to.nodes[1] == root) length = std::min(length, arc_length.back() - position);
+  return length + Length(from.points);
 }
 
 // The end of the target edge that lies near the target point, or -1.
@@ -142,8 +142,8 @@ double ReachForSide(const FacingEnd& end, const Vec3& p, const GapEvidence& evid
 // For a point next to the other end, which may lie ahead where the ends overlap.
 double ReachForFacing(const FacingEnd& end, const FacingEnd& other, const Vec3& p,
                       const FreeEndOptions& options) {
-  const Vec3 way = (p - end.position).normalized();
-  const double cosine = std::min(end.outward.dot(way), -other.outward.dot(way));
+  const Vec3 direction = (p - end.position).normalized();
+  const double cosine = std::min(end.outward.dot(direction), -other.outward.dot(direction));
   if (!other.is_free && cosine < kContinuing) return 0;
   const double reach =
       ReachAt(cosine, options.max_facing_gap, options.max_facing_angle, options.touch_distance);

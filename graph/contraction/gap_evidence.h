@@ -9,18 +9,18 @@
 
 namespace curvefusion {
 
-/// What is known of the straight way between two ends of curves.
+/// What is known of the straight path between two ends of curves.
 class GapEvidence {
  public:
-  /// Points within `radius` of a way, metres, lie on it.
+  /// Points within `radius` of a path, metres, lie on it.
   GapEvidence(const SkeletonGraph& graph, const ObservedPoints& points, double radius);
 
-  /// The share of the way from a to b, but for what the ends themselves account for, along which
+  /// The share of the path from a to b, but for what the ends themselves account for, along which
   /// points were seen; 0 where nothing but the ends is left.
   double PointShare(const Vec3& a, const Vec3& b) const;
 
-  /// Whether a curve other than the two given ones crosses the way from a to b, or comes so near
-  /// to it that the way would rather end there.
+  /// Whether a curve other than the two given ones crosses the path from a to b, or comes so near
+  /// to it that the path would rather end there.
   bool IsCrossed(const Vec3& a, const Vec3& b, const std::array<EdgeId, 2>& own) const;
 
  private:

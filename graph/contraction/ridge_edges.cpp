@@ -57,12 +57,12 @@ bool ClosesShortLoop(const SkeletonGraph& graph, EdgeId id, double limit) {
   const double own = Length(graph.edge(id).points);
   for (const EdgeId first : graph.IncidentEdges(a)) {
     const NodeId corner = graph.OtherEnd(first, a);
-    const double way = own + Length(graph.edge(first).points);
-    if (first == id || corner == a || way > limit) continue;
+    const double around = own + Length(graph.edge(first).points);
+    if (first == id || corner == a || around > limit) continue;
     if (corner == b) return true;
     for (const EdgeId second : graph.IncidentEdges(b)) {
       if (second == id || graph.OtherEnd(second, b) != corner) continue;
-      if (way + Length(graph.edge(second).points) <= limit) return true;
+      if (around + Length(graph.edge(second).points) <= limit) return true;
     }
   }
   return false;

@@ -284,7 +284,7 @@ void VisitOptions(RidgeProjectionOptions& options, OptionVisitor& visitor) {
                 options.kernel_sigma);
   visitor.Visit({"max_sigma", "m", 0.0005, 0.05,
                  "Deviation: width of the kernel on thick wires, which a thin kernel splits into "
-                 "strands."},
+                 "parallel curves."},
                 options.max_sigma);
   visitor.Visit({"sigma_per_thickness", "", 0, 10,
                  "Deviation: width of the kernel over the rms half width of the points across."},

@@ -45,9 +45,9 @@ double LeastGap(const SkeletonGraph& truth) {
     index.WithinRadius(samples.positions[i], 0.012, near);
     for (const int j : near) {
       const bool same = samples.edges[i] == samples.edges[j];
-      const double way = std::abs(samples.arc_lengths[i] - samples.arc_lengths[j]);
+      const double separation = std::abs(samples.arc_lengths[i] - samples.arc_lengths[j]);
       const double length = Length(truth.edge(samples.edges[i]).points);
-      if (same && std::min(way, length - way) < 0.035) continue;
+      if (same && std::min(separation, length - separation) < 0.035) continue;
       const double touching = samples.radii[i] + samples.radii[j];
       least = std::min(least, (samples.positions[i] - samples.positions[j]).norm() / touching);
     }

@@ -27,21 +27,21 @@ SkeletonGraph Comb() {
 
 std::vector<BranchContinuation> Downward(const SkeletonGraph& graph) {
   std::vector<BranchContinuation> downward;
-  for (BranchContinuation& way : FindContinuations(graph, {})) {
-    if (way.curve.back().y() < way.curve.front().y() - 0.02) downward.push_back(way);
+  for (BranchContinuation& path : FindContinuations(graph, {})) {
+    if (path.curve.back().y() < path.curve.front().y() - 0.02) downward.push_back(path);
   }
   return downward;
 }
 
 TEST(FindContinuations, LeadFromBranchesThatEndToTheCurveAhead) {
   const SkeletonGraph graph = Comb();
-  const auto ways = Downward(graph);
-  ASSERT_EQ(ways.size(), 2u);
+  const auto paths = Downward(graph);
+  ASSERT_EQ(paths.size(), 2u);
   for (size_t i = 0; i < 2; ++i) {
-    EXPECT_EQ(ways[i].curve.front(), graph.position(ways[i].from));
-    EXPECT_EQ(ways[i].to, -1);
+    EXPECT_EQ(paths[i].curve.front(), graph.position(paths[i].from));
+    EXPECT_EQ(paths[i].to, -1);
     // The bar below is sampled every 1.5 mm.
-    EXPECT_LT((ways[i].curve.back() - Vec3(i == 0 ? 0 : 0.03, -0.04, 0)).norm(), 0.0016);
+    EXPECT_LT((paths[i].curve.back() - Vec3(i == 0 ? 0 : 0.03, -0.04, 0)).norm(), 0.0016);
   }
 }
 
@@ -54,19 +54,19 @@ TEST(FindContinuations, SparesWiresThatGoOn) {
     if (graph.position(node) == Vec3(0, 0, 0)) a = node;
   }
   Connect(graph, a, end, StraightLine({0, 0, 0}, {0, -0.12, 0}));
-  const auto ways = Downward(graph);
-  ASSERT_EQ(ways.size(), 1u);
-  EXPECT_NEAR(ways[0].curve.front().x(), 0.03, 1e-12);
+  const auto paths = Downward(graph);
+  ASSERT_EQ(paths.size(), 1u);
+  EXPECT_NEAR(paths[0].curve.front().x(), 0.03, 1e-12);
 }
 
 TEST(FindContinuations, LeadToAnEndThatFacesOnce) {
   SkeletonGraph graph;
   graph.AddPolyline(StraightLine({-0.06, 0, 0}, {0, 0, 0}));
   graph.AddPolyline(StraightLine({0.04, 0.002, 0}, {0.1, 0.002, 0}));
-  const auto ways = FindContinuations(graph, {});
-  ASSERT_EQ(ways.size(), 1u);
-  EXPECT_GE(ways[0].to, 0);
-  EXPECT_EQ(ways[0].curve.back(), graph.position(ways[0].to));
+  const auto paths = FindContinuations(graph, {});
+  ASSERT_EQ(paths.size(), 1u);
+  EXPECT_GE(paths[0].to, 0);
+  EXPECT_EQ(paths[0].curve.back(), graph.position(paths[0].to));
 }
 
 TEST(FindContinuations, ReachNoFartherThanTheyMay) {
@@ -84,8 +84,8 @@ TEST(AddContinuations, MakeCyclesOfAComb) {
     graph.SetCurve(id, edge.points, std::vector<double>(edge.points.size(), 0.002));
   }
   EXPECT_EQ(graph.CycleRank(), 0);
-  const auto ways = Downward(graph);
-  AddContinuations(graph, ways, {});
+  const auto paths = Downward(graph);
+  AddContinuations(graph, paths, {});
   EXPECT_EQ(graph.CycleRank(), 1);
   EXPECT_EQ(graph.ComponentCount(), 1);
   EXPECT_EQ(CountDegree(graph, 4), 2);
@@ -99,22 +99,22 @@ TEST(AddContinuations, MakeCyclesOfAComb) {
 
 TEST(ShiftedContinuations, EndBesideEachOtherOnTheOtherEdge) {
   const SkeletonGraph graph = Comb();
-  const BranchContinuation way = Downward(graph).front();
-  const std::vector<BranchContinuation> ways = WithShifts(graph, way);
-  ASSERT_EQ(ways.size(), 7);
-  EXPECT_EQ(ways[0].curve, way.curve);
-  for (size_t i = 1; i < ways.size(); ++i) {
-    EXPECT_EQ(ways[i].curve.front(), way.curve.front());
-    EXPECT_NEAR((ways[i].curve.back() - way.curve.back()).norm(),
+  const BranchContinuation path = Downward(graph).front();
+  const std::vector<BranchContinuation> paths = WithShifts(graph, path);
+  ASSERT_EQ(paths.size(), 7);
+  EXPECT_EQ(paths[0].curve, path.curve);
+  for (size_t i = 1; i < paths.size(); ++i) {
+    EXPECT_EQ(paths[i].curve.front(), path.curve.front());
+    EXPECT_NEAR((paths[i].curve.back() - path.curve.back()).norm(),
                 0.003 * static_cast<double>((i + 1) / 2), 1e-12);
   }
 }
 
 TEST(ShiftedContinuations, DoNotLeaveTheOtherEdge) {
   const SkeletonGraph graph = Comb();
-  BranchContinuation way = Downward(graph).front();
-  way.target.arc_length = 0.004;
-  EXPECT_EQ(WithShifts(graph, way).size(), 5);
+  BranchContinuation path = Downward(graph).front();
+  path.target.arc_length = 0.004;
+  EXPECT_EQ(WithShifts(graph, path).size(), 5);
 }
 
 }  // namespace

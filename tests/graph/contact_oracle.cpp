@@ -66,29 +66,29 @@ std::vector<Piece> Pieces(const SkeletonGraph& graph) {
   return pieces;
 }
 
-// A point of two segments by its parameters on both, and a way between them as a function of it.
+// A point of two segments by its parameters on both, and a path between them as a function of it.
 using Place = std::array<Number, 2>;
-struct Way {
+struct Path {
   Number constant, per_x, per_y;
   Number At(const Place& p) const { return constant + per_x * p[0] + per_y * p[1]; }
 };
 
-Way WayFrom(double s_a, double s_b, double t_a, double t_b) {
+Path PathFrom(double s_a, double s_b, double t_a, double t_b) {
   return {Number(s_a) + Number(t_a), Number(s_b) - Number(s_a), Number(t_b) - Number(t_a)};
 }
 
-std::vector<Way> AllWays(const Piece& s, const Piece& t) {
-  std::vector<Way> ways;
-  if (s.curve == t.curve) ways.push_back(WayFrom(-s.arc_a, -s.arc_b, t.arc_a, t.arc_b));
+std::vector<Path> AllPaths(const Piece& s, const Piece& t) {
+  std::vector<Path> paths;
+  if (s.curve == t.curve) paths.push_back(PathFrom(-s.arc_a, -s.arc_b, t.arc_a, t.arc_b));
   const auto from = [](const Piece& p, int end, double arc) {
     return end == 0 ? arc : p.curve_length - arc;
   };
   for (int i = 0; i < 2; ++i)
     for (int j = 0; j < 2; ++j)
       if (s.curve_nodes[i] == t.curve_nodes[j] && !(s.curve == t.curve && i == j))
-        ways.push_back(WayFrom(from(s, i, s.arc_a), from(s, i, s.arc_b), from(t, j, t.arc_a),
-                               from(t, j, t.arc_b)));
-  return ways;
+        paths.push_back(PathFrom(from(s, i, s.arc_a), from(s, i, s.arc_b), from(t, j, t.arc_a),
+                                 from(t, j, t.arc_b)));
+  return paths;
 }
 
 Point Difference(const Piece& s, const Piece& t, const Place& p) {
@@ -97,16 +97,16 @@ Point Difference(const Piece& s, const Piece& t, const Place& p) {
   return CGAL::ORIGIN + (on_s - on_t);
 }
 
-// The square [0, 1]^2 cut to where all ways are at least `least` long.
-std::vector<Place> FarPlaces(const std::vector<Way>& ways, const Number& least) {
+// The square [0, 1]^2 cut to where all paths are at least `least` long.
+std::vector<Place> FarPlaces(const std::vector<Path>& paths, const Number& least) {
   std::vector<Place> polygon = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-  for (const Way& way : ways) {
+  for (const Path& path : paths) {
     std::vector<Place> kept;
     for (size_t i = 0; i < polygon.size(); ++i) {
       const Place& p = polygon[i];
       const Place& q = polygon[(i + 1) % polygon.size()];
-      const Number at_p = way.At(p) - least;
-      const Number at_q = way.At(q) - least;
+      const Number at_p = path.At(p) - least;
+      const Number at_q = path.At(q) - least;
       if (at_p >= 0) kept.push_back(p);
       if (CGAL::sign(at_p) * CGAL::sign(at_q) < 0) {
         const Number x = at_p / (at_p - at_q);
@@ -159,11 +159,11 @@ bool AreInContactByDefinition(const Piece& s, const Piece& t, double threshold) 
   if (HaveOtherCommonPoint(s, t)) return true;
   if (threshold == 0) return false;
   const Number limit(threshold);
-  const std::vector<Way> ways = AllWays(s, t);
-  if (ways.empty())
+  const std::vector<Path> paths = AllPaths(s, t);
+  if (paths.empty())
     return CGAL::squared_distance(Kernel::Segment_3(s.a, s.b), Kernel::Segment_3(t.a, t.b)) <=
            limit * limit;
-  const std::vector<Place> places = FarPlaces(ways, Number(kConnectedReach * threshold));
+  const std::vector<Place> places = FarPlaces(paths, Number(kConnectedReach * threshold));
   return !places.empty() && SquaredDistance(s, t, places) <= limit * limit;
 }
 

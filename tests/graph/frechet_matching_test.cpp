@@ -20,9 +20,9 @@ double DiscreteDistance(const Polyline& a, const Polyline& b) {
     double before = i == 0 ? 0 : std::numeric_limits<double>::infinity();  // at i - 1, j - 1
     for (size_t j = 0; j < b.size(); ++j) {
       const double above = least[j];
-      const double way = std::min({before, above, j > 0 ? least[j - 1] : above});
+      const double reached = std::min({before, above, j > 0 ? least[j - 1] : above});
       before = above;
-      least[j] = std::max(way, (a[i] - b[j]).norm());
+      least[j] = std::max(reached, (a[i] - b[j]).norm());
     }
   }
   return least.back();

@@ -20,17 +20,17 @@ struct LaidCable {
   double diameter = 0;
 };
 
-// A smooth way across a rectangle of the xz plane.
-Polyline DrawnWay(Random& random, double width, double height) {
+// A smooth path across a rectangle of the xz plane.
+Polyline CablePath(Random& random, double width, double height) {
   const int knots = random.Integer(4, 7);
   const bool upright = random.Chance(0.4);
-  Polyline way;
+  Polyline path;
   for (int i = 0; i < knots; ++i) {
     const double along = (static_cast<double>(i) / (knots - 1) - 0.5) * random.Uniform(0.9, 1);
     const double across = random.Uniform(-0.5, 0.5);
-    way.emplace_back((upright ? across : along) * width, 0, (upright ? along : across) * height);
+    path.emplace_back((upright ? across : along) * width, 0, (upright ? along : across) * height);
   }
-  return Resample(SmoothThrough(way, kStep), kStep);
+  return Resample(SmoothThrough(path, kStep), kStep);
 }
 
 // How high a cable's axis must lie at a point to clear one piece below.
@@ -77,12 +77,12 @@ void Lay(LaidCable& cable, const std::vector<LaidCable>& below) {
   spread();
 }
 
-// How little of a way runs nearly on top of a cable: crossings are short.
-bool Crosses(const Polyline& way, const LaidCable& other, double diameter) {
+// How little of a path runs nearly on top of a cable: crossings are short.
+bool Crosses(const Polyline& path, const LaidCable& other, double diameter) {
   constexpr double kLongest = 60;  // mm
   const double near = (diameter + other.diameter) / 2;
   int covered = 0;
-  for (const Vec3& p : way) {
+  for (const Vec3& p : path) {
     covered += std::any_of(other.points.begin(), other.points.end(), [&](const Vec3& q) {
       return std::hypot(p.x() - q.x(), p.z() - q.z()) < near;
     });
@@ -97,7 +97,7 @@ void MakeCables(Random& random, WireAssembly& wires) {
   const int count = random.Integer(2, 6);
   std::vector<LaidCable> laid;
   for (int attempt = 0; static_cast<int>(laid.size()) < count && attempt < 60; ++attempt) {
-    LaidCable cable{DrawnWay(random, width, height), random.LogUniform(2.5, 9)};
+    LaidCable cable{CablePath(random, width, height), random.LogUniform(2.5, 9)};
     const bool free = std::all_of(laid.begin(), laid.end(), [&](const LaidCable& other) {
       return Crosses(cable.points, other, cable.diameter);
     });

@@ -66,8 +66,8 @@ double SelfDistance(const Polyline& points, double apart, bool closed) {
   const std::vector<double> at = CumulativeLength(points);
   for (size_t i = 0; i < points.size(); ++i) {
     for (size_t j = 0; j < i; ++j) {
-      const double way = at[i] - at[j];
-      if (way < apart || (closed && at.back() - way < apart)) continue;
+      const double separation = at[i] - at[j];
+      if (separation < apart || (closed && at.back() - separation < apart)) continue;
       least = std::min(least, (points[i] - points[j]).norm());
     }
   }

@@ -18,8 +18,8 @@ class DepthProfileTest : public testing::Test {
     }
   }
   DepthProfile Look(const std::vector<CurvePlace>& places) const {
-    const StrandMap strands(places, camera_, RigidTransform::Identity());
-    return LookAcross(depth_, camera_, RigidTransform::Identity(), places.front(), strands);
+    const CurveMap curves(places, camera_, RigidTransform::Identity());
+    return LookAcross(depth_, camera_, RigidTransform::Identity(), places.front(), curves);
   }
   DepthProfile Look() const { return Look({place_}); }
   static void ExpectSides(const DepthProfile& profile, Beside one, Beside other) {

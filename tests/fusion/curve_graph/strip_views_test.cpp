@@ -11,7 +11,7 @@ namespace curvefusion {
 namespace {
 
 constexpr double kBehind = 1.2;     // metres to what stands behind
-constexpr double kSpacing = 0.015;  // of a row of wires
+constexpr double kSpacing = 0.015;  // of a wire array
 const Eigen::AlignedBox3d kAround(Vec3(-0.06, -0.06, -0.01), Vec3(0.06, 0.06, 0.01));
 
 std::vector<Polyline> Row() {
@@ -33,7 +33,8 @@ TEST(StripViews, ShowWhichWayAWireRuns) {
   EXPECT_EQ(views.Along(place + Vec3(0.01, 0, 0), Vec3::UnitY()).seen, 0);
 }
 
-// All images show a strip at a place of a curve that comes towards the cameras, by the same few pixels.
+// All images show a strip at a place of a curve that comes towards the cameras, by the same few
+// pixels.
 TEST(StripViews, ForeshortenedCurvesTellLittle) {
   const SilhouetteScan scan({TestLine({0, -0.06, 0}, {0, 0.06, 0})}, {}, kBehind, 0.2);
   const StripViews views = scan.Strips({}, kAround);

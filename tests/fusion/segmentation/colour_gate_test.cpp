@@ -39,7 +39,7 @@ WireCandidates Rows(int shift, const Rgb& wire) {
   WireCandidates frame;
   frame.depth = DepthImage(kWidth, kHeight, 1.0f);
   frame.mask = MaskImage(kWidth, kHeight, 0);
-  frame.rows = MaskImage(kWidth / 2, kHeight / 2, 1);
+  frame.arrays = MaskImage(kWidth / 2, kHeight / 2, 1);
   frame.color = ColorImage(kWidth, kHeight);
   for (int v = 0; v < kHeight; ++v) {
     for (int u = 0; u < kWidth; ++u) {
@@ -115,7 +115,7 @@ TEST(ColourGateOutsideRows, DropsNothing) {
   const Sequence sequence = OneCamera();
   WireCandidates frame = Rows(0, kGreen);
   const WireColours colours = LearnWireColours({frame}, sequence, Asked());
-  frame.rows = MaskImage(kWidth / 2, kHeight / 2, 0);
+  frame.arrays = MaskImage(kWidth / 2, kHeight / 2, 0);
   const MaskImage before = frame.mask;
   GateByColour(colours, sequence, Asked(), frame);
   for (size_t i = 0; i < before.size(); ++i) EXPECT_EQ(frame.mask.data()[i], before.data()[i]);

@@ -34,7 +34,7 @@ WireCandidates Board(const IsGreen& is_green) {
   WireCandidates frame;
   frame.depth = DepthImage(kWidth, kHeight, 1.0f);
   frame.mask = MaskImage(kWidth, kHeight, 0);
-  frame.rows = MaskImage(kWidth / 2, kHeight / 2, 1);
+  frame.arrays = MaskImage(kWidth / 2, kHeight / 2, 1);
   frame.color = ColorImage(kWidth, kHeight, kGrey);
   for (int v = 30; v < 130; ++v) {
     for (int u = 80; u < 157; ++u) {
@@ -83,7 +83,7 @@ TEST(SheetStripes, AreNoneWithoutRows) {
   EXPECT_EQ(MeasureStripes({}, {}, OneCamera(), 0.013).spacing, 0);
   std::vector<WireCandidates> frames = {Board(IsWire)};
   const WireColours colours = ColoursOf(frames);
-  frames[0].rows = MaskImage(kWidth / 2, kHeight / 2, 0);
+  frames[0].arrays = MaskImage(kWidth / 2, kHeight / 2, 0);
   EXPECT_EQ(MeasureStripes(frames, colours, OneCamera(), 0.013).share, 0);
 }
 
@@ -106,7 +106,7 @@ TEST(ThinToCrests, LeavesTheMiddleOfWires) {
 TEST(ThinToCrests, LeavesAloneWhatIsInNoRow) {
   std::vector<WireCandidates> frames = {Board(IsWire)};
   const WireColours colours = ColoursOf(frames);
-  frames[0].rows = MaskImage(kWidth / 2, kHeight / 2, 0);
+  frames[0].arrays = MaskImage(kWidth / 2, kHeight / 2, 0);
   const MaskImage before = frames[0].mask;
   ThinToCrests(colours, OneCamera(), frames[0]);
   for (size_t i = 0; i < before.size(); ++i) EXPECT_EQ(frames[0].mask.data()[i], before.data()[i]);

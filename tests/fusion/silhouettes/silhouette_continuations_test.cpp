@@ -84,7 +84,7 @@ TEST(SilhouetteContinuations, TurnToWhereTheWireIs) {
   for (const NodeId node : graph.Nodes()) {
     if (graph.Degree(node) != 3 || graph.position(node).y() != kRows[1]) continue;
     ++reached;
-    EXPECT_NEAR(graph.position(node).x(), 0, 0.003);  // ways are tried every 3 mm
+    EXPECT_NEAR(graph.position(node).x(), 0, 0.003);  // paths are tried every 3 mm
   }
   EXPECT_EQ(reached, 1);
 }

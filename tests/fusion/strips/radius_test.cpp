@@ -245,7 +245,7 @@ TEST(RadiusSharedData, Cubeframe) {
       }
     }
     const auto errors = RelativeErrors(EstimateRadius(skeleton, sequence, frames, {}), diameters);
-    ASSERT_GE(errors.size(), 18u);  // of 20: two 28 mm spokes are seldom free of other strands
+    ASSERT_GE(errors.size(), 18u);  // of 20: two 28 mm spokes are seldom free of other curves
     EXPECT_LT(errors[errors.size() / 2], 0.05);
     EXPECT_LT(errors.back(), 0.15);  // a spoke with a dozen strips
   }

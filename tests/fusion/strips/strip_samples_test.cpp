@@ -100,7 +100,7 @@ TEST(ProjectSamplesTest, ClearancesOfTheTwoSides) {
 }
 
 // At 0.58 m one millimetre is one pixel.
-TEST(ProjectSamplesTest, ClearanceIsTheDistanceToOtherStrands) {
+TEST(ProjectSamplesTest, ClearanceIsTheDistanceToOtherCurves) {
   SkeletonGraph skeleton;
   const EdgeId edge = skeleton.AddPolyline({{-0.1, 0, 0.58}, {0.1, 0, 0.58}});
   skeleton.AddPolyline({{-0.1, 0.012, 0.58}, {0, 0.012, 0.58}});
@@ -112,7 +112,7 @@ TEST(ProjectSamplesTest, ClearanceIsTheDistanceToOtherStrands) {
   }
 }
 
-TEST(ProjectSamplesTest, AnEdgeThatTurnsBackIsAnotherStrand) {
+TEST(ProjectSamplesTest, AnEdgeThatTurnsBackIsAnotherCurve) {
   SkeletonGraph skeleton;
   skeleton.AddPolyline({{-0.1, 0, 0.58}, {0.1, 0, 0.58}, {0.1, 0.015, 0.58}, {-0.1, 0.015, 0.58}});
   int far_from_turn = 0;

@@ -81,7 +81,7 @@ TEST(TrackStripsTest, TwoStripsAreNoAnswer) {
   }
 }
 
-TEST(TrackStripsTest, AnotherStrandNearbyIsNotMeasured) {
+TEST(TrackStripsTest, AnotherCurveNearbyIsNotMeasured) {
   PosteriorImage image(kWidth, kHeight, 0);
   DrawWire([](int) { return 80; }, 6, image);
   std::vector<ProjectedSample> samples = Expected();

@@ -71,7 +71,8 @@ TEST(VanishingColorTest, NothingBeforeOneBackgroundOrOfFewStrips) {
   EXPECT_FALSE(FindVanishingColor({}, About(kWire)));
 }
 
-// What blur makes of the colour of narrow strips is drawn to the true one, wide ones keep theirs.
+// What blur makes of the colour of narrow strips is shrunk towards the true one, wide ones keep
+// theirs.
 TEST(VanishingColorTest, NarrowStripsAreDrawnToIt) {
   const Eigen::Vector3d mixed(80, 128, 90);
   const WireColor of_narrow = DrawnToVanishing(About(mixed), Strips(2.6, 1.2));

@@ -67,7 +67,7 @@ TEST(ProjectToRidges, PointsKeepTheirSpacing) {
 TEST(ProjectToRidges, ThickWireIsOneRidge) {
   const RidgePoints ridge = ProjectToRidges(NoisyWires({kWire}, 6e-3), {});
   ASSERT_GT(ridge.size(), 20U);
-  // A kernel for thin wires leaves strands on the surface, 6 mm away. At the ends, the surface
+  // A kernel for thin wires leaves curves on the surface, 6 mm away. At the ends, the surface
   // ends in a rim that the ridge may follow a little; a kernel stretched to twice its 6 to 8 mm
   // sees it from some 15 mm away.
   for (const Vec3& p : ridge.positions) {
