@@ -19,7 +19,7 @@ std::vector<std::string> SamplingNames();
 /// Throws Error(kUsage) naming the nearest one.
 Sampling SamplingNamed(const std::string& name);
 
-/// #points by #dimensions numbers in [0, 1); the same seed gives the same points on any machine.
+/// `points` vectors of `dimensions` numbers in [0, 1); the same seed gives the same on any machine.
 /// Every seed shifts a Sobol sequence by its own random digits (exclusive or), which leaves it as
 /// even as it is. Up to 3666 dimensions.
 std::vector<std::vector<double>> UnitSamples(Sampling sampling, int points, int dimensions,
