@@ -37,7 +37,7 @@ struct Sequence {
   double depth_scale = 5000;          ///< depth units per metre
   int invalid_depth = 0;              ///< raw value that means "no measurement", besides 0
   std::vector<SequenceFrame> frames;  ///< ordered, all with both images
-  bool has_poses = true;              ///< otherwise those of the frames say nothing
+  bool has_poses = true;              ///< otherwise T_world_camera of the frames is meaningless
   int frames_without_pose = 0;        ///< dropped when opening
   int frames_without_partner = 0;     ///< colour or depth images without the other, dropped
   std::vector<std::string> warnings;  ///< what the user should know, a sentence each
@@ -64,8 +64,8 @@ Sequence OpenSequence(const std::filesystem::path& folder, PoseUse use = PoseUse
 /// infinity where there is only one frame.
 double StepBetweenFrames(const Sequence& sequence, double share);
 
-/// Whether three quarters of the frames are as near to the next as those of a camera in a moving
-/// hand; otherwise they are views each of its own.
+/// Whether the sequence is a video: three quarters of its steps are as small as those of a handheld
+/// camera. Otherwise its frames are separate views.
 bool IsVideo(const Sequence& sequence);
 
 /// Decodes one depth image to metres and undoes the lens distortion. Thread-safe. Throws

@@ -14,7 +14,8 @@ namespace curvefusion {
 /// The paper as it is written, or what a user gets by default.
 enum class Profile { kPaper, kBest };
 
-/// The options of one profile, which decide which method runs.
+/// The options of one profile, which decide which method runs. Default-constructed they are the
+/// paper's; ProfileOptions gives those of either.
 using PipelineOptions = std::variant<PaperOptions, BestOptions>;
 
 /// The options a profile starts from, before the config file and --set.
@@ -26,7 +27,9 @@ void VisitOptions(PipelineOptions& options, OptionVisitor& visitor);
 /// The options of VolumeFusion, which both profiles have.
 const TsdfOptions& VolumeOptions(const PipelineOptions& options);
 
-/// The whole method of a profile. Throws Error for input that cannot be read.
+/// The whole method of a profile. `sequence` must have poses (FindPoses makes them where they are
+/// missing); the result is in its world frame. A plain PipelineObserver ignores all events. Throws
+/// Error for input that cannot be read.
 Reconstruction Reconstruct(const Sequence& sequence, const PipelineOptions& options,
                            PipelineObserver& observer);
 

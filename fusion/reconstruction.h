@@ -42,8 +42,10 @@ class PipelineObserver {
 
 /// The outcome of a run. An empty skeleton means: nothing thin was found, an expected outcome.
 struct Reconstruction {
-  /// Radii at every vertex where any could be measured. Observations: in the paper profile bundles,
-  /// otherwise images of `views` that saw the point.
+  /// The curves, world frame, with a radius (metres) at every point, or with none where no diameter
+  /// could be measured in the whole scan. An edge whose radius in `radii.edges` is 0 was not
+  /// measured and has `radii.unmeasured_radius`. Observations: how many bundles (paper profile) or
+  /// images of `views` saw the point.
   SkeletonGraph skeleton;
   /// What may be thin but is no proven wire, world frame; the best profile only.
   UncertainCurves uncertain;

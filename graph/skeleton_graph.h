@@ -54,15 +54,15 @@ class SkeletonGraph {
   /// Removes an edge and returns it.
   SkeletonEdge TakeEdge(EdgeId edge);
 
-  /// All edges by their handles, those that were removed empty; of a graph that is given up, or not
-  /// used before it has got them back.
+  /// Moves out all edges, indexed by handle (empty where removed). The graph must not be used again
+  /// before PutEdges has put them back.
   std::vector<SkeletonEdge> TakeEdges() { return std::move(edges_); }
   void PutEdges(std::vector<SkeletonEdge> edges) { edges_ = std::move(edges); }
 
   /// Removes a node without edges.
   void RemoveNode(NodeId node);
 
-  /// Removes all nodes without edges, of those that changed after a version.
+  /// Removes nodes without edges: all, or with `since` > 0 those changed after that version().
   void RemoveIsolatedNodes(int since = 0);
 
   /// Moves a node and with it the ends of its edges.
@@ -81,8 +81,8 @@ class SkeletonGraph {
   /// has no length then, but ties that node (RemoveZeroLengthSegments makes it one with `kept`).
   void MergeNodes(NodeId kept, NodeId merged);
 
-  /// Joins the two edges of every node of degree 2, of those that changed after a version, into
-  /// one. A closed curve keeps one node.
+  /// Joins the two edges of every node of degree 2 into one; `since` as in RemoveIsolatedNodes. A
+  /// closed curve keeps one node.
   void DissolveDegree2Nodes(int since = 0);
 
   bool HasNode(NodeId node) const;
@@ -90,7 +90,7 @@ class SkeletonGraph {
   const Vec3& position(NodeId node) const;
   const SkeletonEdge& edge(EdgeId edge) const;
 
-  /// Live handles in ascending order; of what changed after a version only.
+  /// Handles of all nodes (edges) in ascending order; `since` as in RemoveIsolatedNodes.
   std::vector<NodeId> Nodes(int since = 0) const;
   std::vector<EdgeId> Edges(int since = 0) const;
 

@@ -26,7 +26,8 @@ inline constexpr double kProximity = 1 * kMillimetre;
 /// What is wrong with a graph, one sentence each; empty for a valid one:
 /// - it has no Faults;
 /// - no two edges come within `proximity` of each other except at a shared node, no edge comes
-///   within it of itself except where it is continuous (FindContacts says what that means);
+///   within it of itself except between places less than kConnectedReach times `proximity` apart
+///   along it that have no point in common (FindContacts in graph/contacts.h);
 /// - no edge is there twice: two edges between the same nodes that are one curve to within
 ///   `proximity` (graph/parallel_edges.h).
 /// Exact decisions; O(n log n) in segments for graphs that are nearly valid.

@@ -1,6 +1,6 @@
 #pragma once
 
-// This header is about OpenMesh: include it where half-edges are needed.
+// Brings in OpenMesh, whose warnings are silenced here.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wshadow"
 #pragma GCC diagnostic ignored "-Wpedantic"

@@ -14,7 +14,7 @@ namespace curvefusion {
 /// How tubes are made of a skeleton.
 struct TubeOptions {
   double default_radius = 0.0025;  ///< m, > 0, of edges without radii; Kinect-size wires
-  int sides = 16;                  ///< corners of a ring, 8 to 64; chosen here: < 1 % of the radius
+  int sides = 16;  ///< corners of a ring, 8 to 64; chosen here: 16 differ from a circle by 1.3 %
   double ring_spacing = 2.5;     ///< radii between rings along straight tubes, 1 to 20; chosen here
   double axis_tolerance = 0.02;  ///< radii by which the simplified axis may differ, 0.005 to 0.2;
                                  ///< chosen here: far below what a scan resolves
@@ -35,7 +35,8 @@ struct TubeFallback {
 
 /// The tubes of a skeleton as one surface.
 struct TubeMesh {
-  SurfaceMesh surface;  ///< outward normals, metres; coordinates as in the files written from it
+  SurfaceMesh
+      surface;  ///< outward normals, metres, float32; WriteMesh takes ToTriangleMesh(surface)
   WatertightReport report;              ///< of the surface; always watertight unless empty
   std::vector<TubePath> paths;          ///< tubes swept in one piece (for ComputeTubeNormals)
   int unions = 0;                       ///< junctions, contacts and groups of them, united exactly
@@ -48,8 +49,9 @@ struct TubeMesh {
 /// the tubes and stays so in float32 files: all of this is checked before it is returned. Nodes
 /// without edges are ignored; an empty skeleton gives an empty surface. Throws Error(kBadInput)
 /// for radii or coordinates that cannot be (see PrepareTubes) and, naming the place, where nothing
-/// gives a sound surface. Where the union of some tubes does not come out, in any of several turns
-/// of all tubes, these are wrapped or resampled (see LastResort), which `fallbacks` tells. Tubes
+/// gives a sound surface. Where an exact union fails in all turns of the
+/// tubes' rings that are tried, the tubes there are replaced by an approximate closed surface (see
+/// TubeFallback::last_resort). Tubes
 /// are polygons about a simplified axis: gaps, contacts and holes of less than about a tenth of the
 /// radius may come out either way. Cost: 3 to 7 ms of one core per junction. The paper assumes
 /// tubes of constant radius about the curves (CurveFusion 3.3) and does not say how they join.

@@ -20,7 +20,8 @@ struct ColourStartOptions {
 };
 void VisitOptions(ColourStartOptions& options, OptionVisitor& visitor);
 
-/// The options of every stage of the best profile.
+/// The options of every stage of the best profile. Start from DefaultBestOptions: in a
+/// default-constructed one most extensions of the paper are off.
 struct BestOptions {
   TsdfOptions volume;
   int volume_stride = 1;
@@ -40,7 +41,7 @@ struct BestOptions {
 };
 void VisitOptions(BestOptions& options, OptionVisitor& visitor);
 
-/// What the profile starts from.
+/// The documented defaults of the best profile.
 BestOptions DefaultBestOptions();
 
 }  // namespace curvefusion

@@ -23,7 +23,7 @@ using SharesOfCurve = std::function<std::vector<double>(const Polyline&)>;
 
 /// Removes what images look past: stretches of edges that less than min_share of them show as wire,
 /// with the stubs that remain. Short stretches at junctions stay, since those may lie beside where
-/// wires meet, and so do short ones that are missed by little, and bends of long edges that a third
+/// wires meet, and so do short ones that are missed by little, and bends of long edges that .36
 /// of that share shows; nor does a stretch go of which half is `shown_by_depth` (places, up to 3 mm
 /// away). Returns the length removed, metres.
 double DropRefutedParts(const SharesOfCurve& shares_of, double min_share,

@@ -29,9 +29,9 @@ double ColourLogOdds(const StretchEvidence& evidence);
 
 /// Judges every stretch by its own evidence and by that of the stretches around it on the same
 /// connected part of the skeleton: few wires end within some centimetres, and what hides one
-/// stretch rarely hides those beside it. On validation scans it says too little in the middle: of
-/// what it holds 90 % likely all is true, of 58 % .98 (docs/proof.md). `evidence` is
-/// CollectEvidence of the skeleton. Cost: n log n.
+/// stretch rarely hides those beside it. On validation scans medium probabilities are too low: of
+/// stretches given .90 all are wires, of those given .58 a share of .98 (docs/proof.md). `evidence`
+/// is CollectEvidence of the skeleton. Cost: n log n.
 std::vector<WireProof> ProveWires(const SkeletonGraph& skeleton,
                                   const std::vector<StretchEvidence>& evidence);
 

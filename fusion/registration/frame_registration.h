@@ -36,8 +36,8 @@ struct RegisteredFrames {
 /// correction for each, `cameras` where each was taken from. What single frames measure is smoothed
 /// over time by what is known of drift: a frame alone is too noisy. In the end everything is moved
 /// so that the first frame keeps its given pose: the drift of a trajectory starts at zero there.
-/// Deviation: the paper registers bundles as a whole; a bundle smears by the drift within it, and
-/// anchors the world to the mean drift of the first one.
+/// Deviation: the paper registers whole bundles, which are smeared by the drift within them and tie
+/// the world to the mean drift of the first one.
 RegisteredFrames RegisterFrames(const std::vector<ObservedPoints>& frames,
                                 const std::vector<RigidTransform>& start,
                                 const std::vector<Vec3>& cameras, RidgePoints ridge,

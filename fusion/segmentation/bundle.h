@@ -49,8 +49,8 @@ class BundleDifferenceSet {
   void AddFrame(const MaskImage& mask, const MaskImage& on_edge, const DepthImage& depth,
                 const PinholeCamera& camera, const RigidTransform& T_bundle_camera);
 
-  /// One point per voxel that, together with its 26 neighbours, was seen in at least min_frames
-  /// frames.
+  /// One point per voxel where at least min_frames different frames have a point in it or in one of
+  /// its 26 neighbours.
   BundlePoints Points() const;
 
   /// What each frame saw of the voxels given (BundlePoints::voxels): one point per frame and voxel.

@@ -13,7 +13,7 @@ struct DepthOpeningOptions {
   double radius = 0.02;
   /// Metres, 0.001 to 0.5: a step of depth between neighbouring pixels above that is a
   /// discontinuity unless the surface is as steep beside it (the paper gives no value; three
-  /// voxels).
+  /// voxels of the paper profile).
   double discontinuity = 0.015;
   /// 1/m, 0 to 0.1: steps up to that times depth squared are noise (3.5 standard deviations of a
   /// Kinect V1, Khoshelham 2012).

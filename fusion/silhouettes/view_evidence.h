@@ -38,10 +38,10 @@ struct ViewEvidence {
 
 /// Looks for every point of the skeleton (world frame) in at most options.max_frames depth images,
 /// evenly spread. A point is seen where a depth within the wire's outline, or a pixel beside it,
-/// agrees with the wire's near side within options.tolerance; the image looked past it where all
-/// depths there are nearer than that; and it was looked for in vain otherwise, also where nothing
-/// was measured. Throws Error(kBadInput) for an image that cannot be decoded. Cost: points x
-/// frames.
+/// agrees with the wire's near side within options.tolerance; it is hidden, and the image does not
+/// count, where all depths there are nearer; it was looked for in vain otherwise, also where
+/// nothing was measured. Throws Error(kBadInput) for an image that cannot be decoded. Cost: points
+/// x frames.
 ViewEvidence CountViews(const SkeletonGraph& skeleton, const Sequence& sequence,
                         const ViewEvidenceOptions& options);
 

@@ -2,6 +2,10 @@
 
 /// The skeleton graph: polylines between junctions and free ends. Exact intersections, validation,
 /// radii, figures.
+///
+///     for (const EdgeId id : skeleton.Edges()) {
+///       const SkeletonEdge& edge = skeleton.edge(id);  // edge.points and edge.radii, metres
+///     }
 
 #include "graph/graph_figures.h"
 #include "graph/intersections.h"
