@@ -47,7 +47,8 @@ std::string LostPoints(const PointFunnel& points) {
                                : "fell to the colour check: no edges in the colour images where "
                                  "they end; are colour and depth taken together?";
   return LargestLoss({loss(points.too_few_frames,
-                           "were seen in too few frames of their bundle; do the poses fit?"),
+                           "were seen in too few images one after another; move slower, or check "
+                           "the poses"),
                       loss(points.small_clusters, "stood in clusters too small for a thin part"),
                       loss(points.unverified, unverified),
                       loss(points.isolated, "stood far from all others")})
@@ -59,12 +60,13 @@ std::string LostCurves(const CurveFunnel& curves) {
     return Loss{taken,
                 fmt::format("{:.2f} of {:.2f} m of curve {}", taken, curves.contracted, how)};
   };
-  return LargestLoss({loss(curves.unproven.surface, "were the edges of surfaces"),
-                      loss(curves.unproven.thick, "were thicker than wires are"),
-                      loss(curves.unproven.looked_past, "were looked past by the depth images"),
-                      loss(curves.unproven.unproven,
-                           "could not be told to be wires (evidence.min_probability)"),
-                      loss(curves.looked_past, "were looked past by the colour images")})
+  return LargestLoss(
+             {loss(curves.unproven.surface, "were the edges of surfaces"),
+              loss(curves.unproven.thick, "were thicker than wires are"),
+              loss(curves.unproven.looked_past, "lie where the depth images see what is behind"),
+              loss(curves.unproven.unproven,
+                   "could not be told to be wires (evidence.min_probability)"),
+              loss(curves.looked_past, "lie where the colour images show what is behind")})
       .sentence;
 }
 
@@ -95,7 +97,7 @@ std::string UncertainLine(const UnprovenLengths& lengths) {
   };
   add(lengths.surface, "edges of surfaces");
   add(lengths.thick, "too thick");
-  add(lengths.looked_past, "looked past by depth images");
+  add(lengths.looked_past, "where depth sees what is behind");
   add(lengths.unproven, "without enough evidence");
   if (reasons.empty()) return "";
   return fmt::format("  left out  {:.2f} m that are no proven wires: {}\n", lengths.Sum(), reasons);

@@ -112,7 +112,9 @@ std::string PlacesWarning(const Trust& trust) {
       "the colour images could not confirm where the curves lie (a strip was seen along {:.0f} % "
       "of "
       "them): places are as exact as depth and camera poses, some millimetres. Poses were "
-      "corrected by {:.0f} mm; where that is more than a few, take better ones, or try --track",
+      "corrected by {:.0f} mm; if that is more than a few, scan again, slower (or, where the scan "
+      "came "
+      "with poses, try --track)",
       100 * trust.colour_share, 1000 * trust.pose_shift);
 }
 

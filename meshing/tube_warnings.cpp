@@ -10,10 +10,11 @@ std::vector<std::string> TubeWarnings(const SkeletonGraph& skeleton, const TubeM
   int unknown = 0;
   for (const EdgeId edge : skeleton.Edges()) unknown += skeleton.edge(edge).radii.empty() ? 1 : 0;
   if (unknown > 0) {
-    warnings.push_back(
-        fmt::format("the thickness of {} of {} curves is unknown; {:g} mm was assumed for the mesh "
-                    "(change it with tubes.default_radius)",
-                    unknown, skeleton.edge_count(), 2 * options.default_radius / kMillimetre));
+    warnings.push_back(fmt::format(
+        "the thickness of {} of {} curves is unknown; {:g} mm was assumed for the mesh "
+        "(`mesh --radius 2.5` sets all, `reconstruct --set tubes.default_radius=0.0025` "
+        "these)",
+        unknown, skeleton.edge_count(), 2 * options.default_radius / kMillimetre));
   }
   for (const TubeFallback& fallback : tubes.fallbacks) {
     const Vec3& p = fallback.position;

@@ -71,8 +71,9 @@ void PrintGeometry(const GeometryReport& geometry) {
 
 void PrintFindings(const CheckReport& report) {
   for (const CheckFinding& finding : report.findings) {
-    fmt::print("{}: {}\n", finding.severity == Severity::kError ? "error" : "warning",
-               finding.message);
+    const char* severity = finding.severity == Severity::kError ? "error" : "warning";
+    const std::string cause = finding.cause.empty() ? "" : " [" + finding.cause + "]";
+    fmt::print("{}{}: {}\n", severity, cause, finding.message);
   }
   if (report.findings.empty()) fmt::print("nothing is wrong with this sequence\n");
 }
@@ -126,7 +127,9 @@ void AddCheckCommand(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand(
       "check", "Check a sequence before it is reconstructed; exit code 3 at errors");
   const auto arguments = std::make_shared<CheckArguments>();
-  command->add_option("SEQUENCE", arguments->sequence, "Folder of the sequence, or its recording")
+  command
+      ->add_option("SEQUENCE", arguments->sequence,
+                   "The scan: a folder of images, or a recording such as scan.bag")
       ->required();
   command->add_option("--repair", arguments->repaired,
                       "Folder for a corrected copy where poses, depth unit, clocks or order are "

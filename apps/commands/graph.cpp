@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -28,8 +29,9 @@ struct GraphArguments {
   bool info = false;
   bool validate = false;
   double proximity_mm = kProximity / kMillimetre;
-  double resolve_mm = 0;  // 0 = do not
-  double smooth = 0;      // lambda; 0 = do not
+  std::vector<int> removed;  // numbers of curves as the report page counts them, from 1
+  double resolve_mm = 0;     // 0 = do not
+  double smooth = 0;         // lambda; 0 = do not
   std::filesystem::path output;
   std::filesystem::path convert;
   double fit_mm = 0;  // 0 = --convert writes polylines
@@ -99,14 +101,31 @@ void ExportCutList(const GraphArguments& arguments, const SkeletonGraph& graph) 
   if (!arguments.run.quiet) fmt::print("Wrote {}\n", arguments.cut_list.string());
 }
 
+// Takes curves out; those that met there without the removed ones are one curve afterwards.
+void RemoveCurves(const GraphArguments& arguments, SkeletonGraph& graph) {
+  if (arguments.removed.empty()) return;
+  const std::vector<EdgeId> edges = graph.Edges();
+  for (const int number : std::set<int>(arguments.removed.begin(), arguments.removed.end())) {
+    if (number < 1 || number > static_cast<int>(edges.size())) {
+      throw Error(ErrorKind::kUsage, fmt::format("--remove {}: {} has curves 1 to {}", number,
+                                                 arguments.graph.string(), edges.size()));
+    }
+    graph.RemoveEdge(edges[static_cast<size_t>(number) - 1]);
+  }
+  graph.RemoveIsolatedNodes();
+  graph.DissolveDegree2Nodes();
+}
+
 void CheckUsage(const GraphArguments& arguments) {
-  const bool changes = arguments.resolve_mm > 0 || arguments.smooth > 0;
+  const bool changes =
+      !arguments.removed.empty() || arguments.resolve_mm > 0 || arguments.smooth > 0;
   if (changes && arguments.output.empty())
-    throw Error(ErrorKind::kUsage, "--resolve and --smooth need -o: where to write the result");
+    throw Error(ErrorKind::kUsage,
+                "--remove, --resolve and --smooth need -o: where to write the result");
   if (!changes && !arguments.output.empty())
-    throw Error(
-        ErrorKind::kUsage,
-        "-o takes the result of --resolve or --smooth; --convert writes the graph as it is");
+    throw Error(ErrorKind::kUsage,
+                "-o takes the result of --remove, --resolve or --smooth; --convert writes the "
+                "graph as it is");
   if (!arguments.output.empty()) CheckSkeletonFormat(arguments.output);
   if (arguments.fit_mm > 0) {
     CheckSplineFormat(arguments.convert);
@@ -133,6 +152,7 @@ int RunGraph(const GraphArguments& arguments) {
   } else if (!arguments.convert.empty()) {
     Export(arguments.convert, graph, arguments.run.quiet);
   }
+  RemoveCurves(arguments, graph);
   if (arguments.resolve_mm > 0) ResolveIntersections(graph, arguments.resolve_mm * kMillimetre);
   if (arguments.smooth > 0) {
     SmoothingOptions options;
@@ -158,8 +178,7 @@ void AddGraphCommand(CLI::App& app, int& exit_code) {
                    "A .json, .graphml, .ply or .obj file (in metres) or .swc (in micrometres)")
       ->required();
   command->add_flag("--info", arguments->info,
-                    "Print figures in mm, after --resolve or --smooth those of the result (the "
-                    "default)");
+                    "Print figures in mm, of the result where the graph is changed (the default)");
   CLI::Option* const validate = command->add_flag(
       "--validate", arguments->validate,
       "Print everything that is wrong with the file and where; exit code 3 if anything is");
@@ -168,6 +187,10 @@ void AddGraphCommand(CLI::App& app, int& exit_code) {
                    "With --validate: how near in mm curves may come without meeting (1)")
       ->check(CLI::PositiveNumber)
       ->needs(validate);  // by its name CLI11 cannot look it up without memory
+  command
+      ->add_option("--remove", arguments->removed,
+                   "Take these curves out, numbered from 1 as on the report page: 3,17")
+      ->delimiter(',');
   command
       ->add_option("--resolve", arguments->resolve_mm,
                    "Make junctions where curves cross or come within this distance in mm, and "
@@ -179,7 +202,7 @@ void AddGraphCommand(CLI::App& app, int& exit_code) {
                    "against the data (lambda, without unit; 60 in the paper)")
       ->check(CLI::PositiveNumber);
   command->add_option("-o,--output", arguments->output,
-                      "Where --resolve and --smooth write; formats as for --convert");
+                      "Where --remove, --resolve and --smooth write; formats as for --convert");
   CLI::Option* const convert = command->add_option(
       "--convert", arguments->convert,
       "Write the graph as it was read, by extension: .json, .graphml, .ply or .obj lines (metres), "
@@ -207,6 +230,7 @@ void AddGraphCommand(CLI::App& app, int& exit_code) {
   command->footer(
       "Example:\n  curvefusion graph result/skeleton.json --info\n"
       "  curvefusion graph result/skeleton.json --validate --proximity 3\n"
+      "  curvefusion graph result/skeleton.json --remove 3,17 -o edited.json\n"
       "  curvefusion graph result/skeleton.json --resolve 3 --smooth 60 -o mended.json\n"
       "  curvefusion graph result/skeleton.json --convert wires.dxf\n"
       "  curvefusion graph result/skeleton.json --fit 0.5mm --convert wires.step\n"

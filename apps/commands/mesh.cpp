@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <limits>
 #include <memory>
@@ -77,8 +78,8 @@ void PrintSize(const Vec3& size, MeshUnit unit, const char* remark) {
 
 void PrintReport(const WatertightReport& report, MeshUnit unit) {
   const double cm = (unit == MeshUnit::kMetres ? 1 : kMillimetre) * 100;
-  fmt::print("  vertices {}, faces {}, components {}, genus {}\n", report.vertices, report.faces,
-             report.components, report.genus);
+  fmt::print("  vertices {}, faces {}, separate pieces {}, genus {}\n", report.vertices,
+             report.faces, report.components, report.genus);
   fmt::print("  volume {:.6g} cm3, area {:.6g} cm2, worst angle {:.3g} degrees\n",
              report.volume * cm * cm * cm, report.area * cm * cm,
              report.min_angle * 180 / std::numbers::pi);
@@ -137,18 +138,20 @@ void RequirePrintable(const MeshArguments& arguments, const SkeletonGraph& skele
   double thinnest = std::numeric_limits<double>::infinity();
   EdgeId edge = 0;
   for (const EdgeId id : skeleton.Edges()) {
-    for (const double radius : skeleton.edge(id).radii) {
-      if (2 * radius >= thinnest) continue;
-      thinnest = 2 * radius;
-      edge = id;
-    }
+    const std::vector<double>& radii = skeleton.edge(id).radii;
+    const double radius = radii.empty() ? arguments.tubes.default_radius
+                                        : *std::min_element(radii.begin(), radii.end());
+    if (2 * radius >= thinnest) continue;
+    thinnest = 2 * radius;
+    edge = id;
   }
   if (thinnest >= arguments.min_diameter_mm * kMillimetre) return;
   throw Error(ErrorKind::kBadInput,
-              fmt::format("{}: edge {} is {:.2f} mm thick, printing needs {} mm; make all wires "
-                          "thicker with --radius {:g}, or change --min-diameter",
-                          arguments.input.string(), edge, thinnest / kMillimetre,
-                          arguments.min_diameter_mm, arguments.min_diameter_mm / 2));
+              fmt::format("{}: edge {} (curve {} of the report page) is {:.2f} mm thick, less than "
+                          "the {} mm of --min-diameter: lower that, or give all wires one "
+                          "thickness with --radius (half of it, in mm)",
+                          arguments.input.string(), edge, edge + 1, thinnest / kMillimetre,
+                          arguments.min_diameter_mm));
 }
 
 int MeshSkeleton(const MeshArguments& arguments) {

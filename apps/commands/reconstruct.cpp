@@ -77,7 +77,9 @@ void AddReconstructCommand(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand(
       "reconstruct", "Turn an RGB-D sequence into a curve skeleton and a tube mesh");
   const auto arguments = std::make_shared<ReconstructArguments>();
-  command->add_option("SEQUENCE", arguments->sequence, "Folder of the sequence, or its recording")
+  command
+      ->add_option("SEQUENCE", arguments->sequence,
+                   "The scan: a folder of images, or a recording such as scan.bag")
       ->required();
   command
       ->add_option("-o,--output", arguments->output,
@@ -96,10 +98,11 @@ void AddReconstructCommand(CLI::App& app, int& exit_code) {
                    "depth edges; given: always that of the intrinsics")
       ->check(CLI::IsMember({"auto", "given"}))
       ->capture_default_str();
-  command->add_flag("--hybrid", arguments->hybrid,
-                    "Write hybrid.ply (m) and hybrid.stl (mm, for printing) as well: one watertight "
-                    "mesh of the wires and of the solid parts that they are attached to (a seat, a "
-                    "pot, a mug), without floor, walls and table");
+  command->add_flag(
+      "--hybrid", arguments->hybrid,
+      "Write hybrid.ply (m) and hybrid.stl (mm, for printing) as well: one watertight "
+      "mesh of the wires and of the solid parts that they are attached to (a seat, a "
+      "pot, a mug), without floor, walls and table");
   AddRunOptions(*command, arguments->run);
   command->add_option("--save-stages", arguments->stages.folder,
                       "Folder for the points and curves of every step, as PLY");

@@ -113,7 +113,9 @@ void AddTrackCommand(CLI::App& app, int& exit_code) {
   CLI::App* command =
       app.add_subcommand("track", "Find the camera poses of a sequence from depth and colour");
   const auto arguments = std::make_shared<TrackArguments>();
-  command->add_option("SEQUENCE", arguments->sequence, "Folder of the sequence, or its recording")
+  command
+      ->add_option("SEQUENCE", arguments->sequence,
+                   "The scan: a folder of images, or a recording such as scan.bag")
       ->required();
   command
       ->add_option("-o,--output", arguments->output,

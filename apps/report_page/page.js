@@ -133,7 +133,7 @@ const ReportPage = (() => {
       ["Seen in depth images", trust.depth_share,
        "of the length was measured in at least half of the depth images that looked there."],
       ["Seen in colour images", trust.colour_share,
-       "of the length lies beside a strip that colour images show."],
+       "of the length shows in the colour images as a band with two edges."],
       ["Diameter measured", trust.measured_diameter_share,
        "of the length has a diameter that was measured; the rest was given that of the thinnest wires."],
     ];
@@ -145,7 +145,7 @@ const ReportPage = (() => {
       ? `Curves now lie ${number(trust.residual_px, 2)} pixels beside the wires in the colour images (${
         number(trust.residual_before_px, 2)} before curves and poses were adjusted to them).`
       : "Curves and poses were not adjusted to the colour images.";
-    const moved = `The given camera poses were moved by ${number(trust.pose_shift_mm, 1)} mm and ${
+    const moved = `The camera's positions were corrected by ${number(trust.pose_shift_mm, 1)} mm and ${
       number(trust.pose_turn_degrees, 2)} degrees (median), at most by ${
       number(trust.max_pose_shift_mm, 1)} mm.`;
     byId("trust").replaceChildren(element("div", { class: "trust" }, ...rows),
@@ -281,7 +281,7 @@ const ReportPage = (() => {
   const FILE_MEANINGS = {
     "skeleton.json": "the curves with their junctions and diameters",
     "uncertain.json": "curves that may be thin but are no proven wires",
-    "mesh.ply": "the tubes as one closed surface, for CAD, printing or rendering",
+    "mesh.ply": "the tubes, each part a closed surface, in metres; for a printer: curvefusion mesh skeleton.json --for print -o wires.3mf",
     "hybrid.ply": "the tubes and the solid parts they are attached to, as one closed surface",
     "hybrid.stl": "the same in millimetres, for printing",
     "preview.png": "a picture of the result",
@@ -534,7 +534,7 @@ const ReportPage = (() => {
     if (!found) {
       parts.push(element("p", {}, "Nothing of this is a proven wire"));
     } else if (colour === "evidence") {
-      ramp("Evidence: depth images that see it", CurveViewer.ramps.evidence, ["0 %", "50 %", "100 %"]);
+      ramp("Seen in depth images (red: by few, which need not be wrong)", CurveViewer.ramps.evidence, ["0 %", "50 %", "100 %"]);
     } else if (colour === "diameter") {
       const range = viewer.diameterRange();
       if (range) ramp("Diameter", CurveViewer.ramps.diameter, range.map((d) => `${d.toFixed(1)} mm`));

@@ -99,7 +99,7 @@ TEST_F(CommandLine, MeshCheckTellsDefectsByExitCodeOne) {
   std::ofstream(folder_ / "closed.obj") << open << "f 2 3 4\n";
   const Outcome sound = Run("mesh --check closed.obj");
   EXPECT_EQ(sound.exit_code, 0) << sound.output;
-  EXPECT_THAT(sound.output, HasSubstr("vertices 4, faces 4, components 1, genus 0"));
+  EXPECT_THAT(sound.output, HasSubstr("vertices 4, faces 4, separate pieces 1, genus 0"));
   EXPECT_THAT(sound.output, HasSubstr("volume 166667 cm3"));
   const Outcome defect = Run("mesh --check open.obj");
   EXPECT_EQ(defect.exit_code, 1) << defect.output;
@@ -124,7 +124,7 @@ TEST_F(CommandLine, MeshWritesEveryFormatWithAnyRadii) {
   for (const char* name : {"a.ply", "a.obj", "a.stl", "a.glb", "a.3mf"}) {
     const Outcome outcome = Run(std::string("mesh skeleton.json --check -o ") + name);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
-    EXPECT_THAT(outcome.output, HasSubstr("components 2, genus 0")) << name;
+    EXPECT_THAT(outcome.output, HasSubstr("separate pieces 2, genus 0")) << name;
     EXPECT_THAT(outcome.output, HasSubstr("watertight")) << name;
   }
   // The mean of the first is 4 mm, and both are equally long: the median is the thinner one.
@@ -151,7 +151,9 @@ TEST_F(CommandLine, MeshWritesEveryFormatWithAnyRadii) {
   }
   const Outcome thin = Run("mesh skeleton.json --for print --min-diameter 5 -o thin.stl");
   EXPECT_EQ(thin.exit_code, 3);
-  EXPECT_THAT(thin.output, HasSubstr("edge 1 is 4.00 mm thick, printing needs 5 mm"));
+  EXPECT_THAT(
+      thin.output,
+      HasSubstr("edge 1 (curve 2 of the report page) is 4.00 mm thick, less than the 5 mm"));
   EXPECT_EQ(Run("mesh skeleton.json --for print --min-diameter 5 --radius 3 -o b.stl").exit_code,
             0);
   EXPECT_EQ(Run("mesh skeleton.json --for print -o a.ply").exit_code, 2);

@@ -49,6 +49,27 @@ TEST_F(GraphCommand, ValidationNamesEveryPlaceAndIsThree) {
   EXPECT_THAT(torn.output, HasSubstr("edges[1].nodes[1] is 5, but there are 2 nodes"));
 }
 
+// Three wires that meet in a star and one more; without an arm the other two are one curve.
+TEST_F(GraphCommand, CurvesAreRemovedByTheirNumbersOnTheReportPage) {
+  SkeletonGraph star;
+  const NodeId middle = star.AddNode({0, 0, 0});
+  for (const Vec3& tip : {Vec3(0.1, 0, 0), Vec3(-0.1, 0, 0), Vec3(0, 0.03, 0)}) {
+    star.AddEdge({{middle, star.AddNode(tip)}, {{0, 0, 0}, tip}, {}, {}});
+  }
+  star.AddPolyline({{0, 0, 0.5}, {0, 0.2, 0.5}});
+  WriteSkeleton(folder_ / "star.json", star);
+  const Outcome removed = Run("graph star.json --remove 4,3 -o edited.json");
+  EXPECT_EQ(removed.exit_code, 0) << removed.output;
+  const SkeletonGraph edited = ReadSkeleton(folder_ / "edited.json");
+  EXPECT_EQ(edited.edge_count(), 1);
+  EXPECT_EQ(edited.node_count(), 2);
+  EXPECT_NEAR(edited.TotalLength(), 0.2, 1e-12);
+  const Outcome missing = Run("graph star.json --remove 5 -o edited.json");
+  EXPECT_EQ(missing.exit_code, 2);
+  EXPECT_THAT(missing.output, HasSubstr("has curves 1 to 4"));
+  EXPECT_EQ(Run("graph star.json --remove 3").exit_code, 2);
+}
+
 // Squares of such coordinates overflow, on which exact predicates end in SIGFPE.
 TEST_F(GraphCommand, CoordinatesBeyondTheBoundAreThree) {
   std::ofstream(folder_ / "far.json")
