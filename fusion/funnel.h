@@ -6,7 +6,7 @@
 
 namespace curvefusion {
 
-/// How many points each rule of the segmentation took, CurveFusion 3.1: pixels of all frames that
+/// How many points each rule of the segmentation took, CurveFusion 4.1: pixels of all frames that
 /// were segmented, then points of all bundles.
 struct PointFunnel {
   int64_t frames = 0;          ///< segmented

@@ -26,7 +26,7 @@ struct ResolutionRounds {
 /// and shared bit for bit, and what rounding moves is checked again (docs/graph.md says why this
 /// ends). Throws Error(kBadInput) for coordinates that are not finite, Error(kUsage) for a
 /// threshold that is negative or not finite. Near-linear in segments for graphs with few contacts.
-/// CurveFusion 3.3: "if any two curve segments intersect (within a proximity threshold) at an
+/// CurveFusion 4.3: "if any two curve segments intersect (within a proximity threshold) at an
 /// internal point, we create a new junction at this intersection and split each of the segments".
 ResolutionRounds ResolveIntersections(SkeletonGraph& graph, double threshold);
 

@@ -33,7 +33,7 @@ void MergeNodeGroups(SkeletonGraph& graph, const std::vector<NodeGroup>& groups,
 /// together: edges are split there and the nodes merged (MergeNodeGroups, weighted by degree, links
 /// up to 3 `snap`). A place within `snap` metres of arc length of an end of its edge stands for the
 /// node at that end, and places within `snap` of each other on one edge are one. The handles of
-/// split edges become invalid. Cost O(n log n) in pairs and points of the graph. CurveFusion 3.3:
+/// split edges become invalid. Cost O(n log n) in pairs and points of the graph. CurveFusion 4.3:
 /// "we create a new junction at this intersection and split each of the segments accordingly".
 void JoinLocations(SkeletonGraph& graph, const std::vector<LocationPair>& pairs, double snap);
 

@@ -12,7 +12,7 @@ void ContractEdges(SkeletonGraph& graph, const std::vector<EdgeId>& edges);
 
 /// Removes edges shorter than `length`, shortest first: dangling and isolated ones and self-loops
 /// disappear, links between junctions shrink to one junction. Nodes of degree 2 are dissolved
-/// before and after. CurveFusion 3.3: "we remove any curve segment shorter than a threshold".
+/// before and after. CurveFusion 4.3: "we remove any curve segment shorter than a threshold".
 void RemoveShortEdges(SkeletonGraph& graph, double length);
 
 /// Removes dangling edges shorter than `length` that end at a junction, shortest first; edges that

@@ -13,7 +13,7 @@ void SetRadius(double radius, SkeletonGraph& graph);
 void SetMeanRadii(SkeletonGraph& graph);
 
 /// Gives every curve the same radius: the median over the length of all curves that have radii, as
-/// the paper keeps one radius for all (CurveFusion 3.3). A graph without radii stays as it is.
+/// the paper keeps one radius for all (CurveFusion 4.3). A graph without radii stays as it is.
 void SetMedianRadius(SkeletonGraph& graph);
 
 /// Keeps the radii of every point ("vertex"), or does SetMeanRadii ("edge") or SetMedianRadius

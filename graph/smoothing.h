@@ -4,10 +4,10 @@
 
 namespace curvefusion {
 
-/// Curve fitting of CurveFusion 3.3, Eq. 1.
+/// Curve fitting of CurveFusion 4.3, Eq. 1.
 struct SmoothingOptions {
-  double step = 1 * kMillimetre;  ///< distance of vertices on curves (CurveFusion 3.3)
-  double lambda = 60;             ///< weight of smoothness against data (CurveFusion 3.3)
+  double step = 1 * kMillimetre;  ///< distance of vertices on curves (CurveFusion 4.3)
+  double lambda = 60;             ///< weight of smoothness against data (CurveFusion 4.3)
   /// Free ends keep their place, which Eq. 1 smooths like any vertex: repeated smoothing would wear
   /// curved ends off.
   bool hold_free_ends = true;

@@ -20,7 +20,7 @@ std::vector<std::string> EdgeFaults(const SkeletonEdge& edge, const SkeletonGrap
 std::vector<std::string> Faults(const SkeletonGraph& graph);
 
 /// How near curves of a result may come without meeting, metres. Chosen: half the distance of the
-/// axes of two wires of 2 mm (CurveFusion 3, assumption iv) that touch.
+/// axes of two wires of 2 mm (CurveFusion 4, assumption iv) that touch.
 inline constexpr double kProximity = 1 * kMillimetre;
 
 /// What is wrong with a graph, one sentence each; empty for a valid one:

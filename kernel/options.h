@@ -13,7 +13,7 @@ struct OptionInfo {
   const char* unit;         ///< "m", "px", "frames", "" for a pure number
   double min;               ///< least allowed value
   double max;               ///< greatest allowed value
-  const char* description;  ///< one sentence; ends with its source ("CurveFusion 3.1") or begins
+  const char* description;  ///< one sentence; ends with its source ("CurveFusion 4.1") or begins
                             ///< with "Deviation:" where the best profile leaves the paper
 };
 

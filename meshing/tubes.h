@@ -54,7 +54,7 @@ struct TubeMesh {
 /// TubeFallback::last_resort). Tubes
 /// are polygons about a simplified axis: gaps, contacts and holes of less than about a tenth of the
 /// radius may come out either way. Cost: 3 to 7 ms of one core per junction. The paper assumes
-/// tubes of constant radius about the curves (CurveFusion 3.3) and does not say how they join.
+/// tubes of constant radius about the curves (CurveFusion 4.3) and does not say how they join.
 TubeMesh BuildTubes(const SkeletonGraph& graph, const TubeOptions& options);
 
 }  // namespace curvefusion

@@ -262,7 +262,7 @@ SkeletonGraph
     A new one.
 )";
 
-constexpr const char* kSmoothDocs = R"(Resample to 1 mm and smooth (CurveFusion 3.3, Eq. 1).
+constexpr const char* kSmoothDocs = R"(Resample to 1 mm and smooth (CurveFusion 4.3, Eq. 1).
 
 Parameters
 ----------

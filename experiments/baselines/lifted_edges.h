@@ -8,7 +8,7 @@
 
 namespace curvefusion {
 
-/// "Simply lifting all the detected RGB edges to 3D" (CurveFusion 3.1, figure 2): the edge pixels
+/// "Simply lifting all the detected RGB edges to 3D" (CurveFusion 4.1, figure 2): the edge pixels
 /// of all colour images at their raw depths, merged on a grid, and the L1-medial skeleton of these
 /// points. Given: colour, depth, poses, and a box of the world outside of which nothing counts, so
 /// that the room's texture is not held against it. Throws Error(kBadInput) for an image that cannot

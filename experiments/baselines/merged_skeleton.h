@@ -16,7 +16,7 @@ struct SkeletonOfPoints {
 
 /// How contracted samples become branches and junctions.
 enum class BranchStrategy {
-  kExplicitJunctions,  ///< CurveFusion 3.2 (TraceBranches)
+  kExplicitJunctions,  ///< CurveFusion 4.2 (TraceBranches)
   kBridgePoints        ///< Huang et al. 2013 (AddBridgedBranches)
 };
 

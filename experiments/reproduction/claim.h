@@ -49,8 +49,8 @@ struct Claim {
   std::string cause = {};   ///< what is known of why it fails, shown where it is not reproduced
 };
 
-/// Every quantitative claim and every "works" or "fails" of the paper's section 4 (Results), with
-/// those of sections 1 and 3 that section 4 rests on, in the paper's order within a topic.
+/// Every quantitative claim and every "works" or "fails" of the paper's section 5 (Results), with
+/// those of sections 1, 3 and 4 that it rests on, in the paper's order within a topic.
 const std::vector<Claim>& Claims();
 
 // One file each.

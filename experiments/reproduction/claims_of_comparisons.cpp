@@ -15,8 +15,8 @@ std::vector<Claim> OfTabb(const std::string& method, const std::string& given) {
   const auto claim = [&](const std::string& words, const std::string& figure, const char* measured,
                          const Bound& bound) {
     return Claim{.topic = "Comparisons",
-                 .words = words + " reconstruction\" than Tabb 2013 " + given,
-                 .place = "4, Comparisons; Fig. 13",
+                 .words = words + " than Tabb 2013 " + given,
+                 .place = "5, Comparisons; Fig. 13",
                  .study = "comparisons",
                  .figure = figure + " less that of Tabb 2013",
                  .measure = LeadOver(method, measured),
@@ -25,11 +25,13 @@ std::vector<Claim> OfTabb(const std::string& method, const std::string& given) {
                  .beside = method,
                  .cause = "baselines.md#tabb-2013"};
   };
-  return {claim("\"a ... more complete", "recall at 5 mm of its surface", "surface.recall", {}),
-          claim("more complete and no less precise: \"a ...", "F at 2 mm of its surface",
+  return {claim("\"smoother and more complete\": more complete", "recall at 5 mm of its surface",
+                "surface.recall", {}),
+          claim("more complete and no less precise (ours)", "F at 2 mm of its surface",
                 "surface.F2", {}),
-          claim("\"a smoother", "mean angle between its surface and the true one, degrees,",
-                "normal_error_deg", {.at_most = true})};
+          claim("\"smoother and more complete\": smoother",
+                "mean angle between its surface and the true one, degrees,", "normal_error_deg",
+                {.at_most = true})};
 }
 
 std::vector<Claim> OfOtherMethods() {
@@ -40,7 +42,7 @@ std::vector<Claim> OfOtherMethods() {
   const auto surface = [&](const std::string& words, const std::vector<std::string>& subjects) {
     return Claim{.topic = topic,
                  .words = fails + words,
-                 .place = "4, Comparisons; Fig. 2",
+                 .place = "5, Comparisons; Fig. 2",
                  .kind = ClaimKind::kOthersFail,
                  .study = "comparisons",
                  .figure = "F at 2 mm of its surface",
@@ -70,10 +72,10 @@ std::vector<Claim> OfOtherMethods() {
              "Fig. 2; 3", "L1 of all frames"),
       curves("\"simply lifting all the detected RGB edges to 3D would produce an extremely noisy "
              "point set\"",
-             "3.1; Fig. 2", "colour edges"),
+             "4.1; Fig. 2", "colour edges"),
       {.topic = topic,
        .words = "\"our approach detects and accumulates ... skeletons\" instead",
-       .place = "4, Comparisons",
+       .place = "5, Comparisons",
        .study = "comparisons",
        .figure = "F at 2 mm of the same scans",
        .measure = MedianOf("F2"),
@@ -83,7 +85,7 @@ std::vector<Claim> OfOtherMethods() {
       {.topic = topic,
        .words = "\"the original method of Huang et al. leads to spurious junctions\", explicit "
                 "junctions do not",
-       .place = "3.2; Fig. 5",
+       .place = "4.2; Fig. 5",
        .study = "comparisons",
        .figure = "spurious junctions less those of Huang's branches, same samples of a bundle",
        .measure = LeadOver("Huang 2013 branches", "spurious_junctions"),
@@ -95,12 +97,12 @@ std::vector<Claim> OfOtherMethods() {
        .cause = "baselines.md#huang-2013"},
       {.topic = topic,
        .words = "Liu et al. 2017 \"results in many spurious 3D curves\"",
-       .place = "4, Comparisons; Fig. 14",
+       .place = "5, Comparisons; Fig. 14",
        .figure = "Liu et al. 2017 is not implemented"},
       {.topic = topic,
        .words = "structures over 10 mm \"can be reconstructed with reasonable quality using the "
                 "conventional KinectFusion pipeline\"",
-       .place = "3, assumption (iv)",
+       .place = "4, assumption (iv)",
        .study = "comparisons",
        .figure = "F at 5 mm of its surface, wires of 15 mm",
        .measure = MedianOf("F5"),
@@ -111,7 +113,7 @@ std::vector<Claim> OfOtherMethods() {
 
 std::vector<Claim> OfLimitations() {
   const char* topic = "Limitations";
-  const char* place = "4, Limitations";
+  const char* place = "5, Limitations";
   const auto of = [](const char* limit) { return Labels{{"limit", limit}}; };
   return {
       {.topic = topic,
@@ -125,7 +127,7 @@ std::vector<Claim> OfLimitations() {
        .origin = "chosen: nine tenths of the curves"},
       {.topic = topic,
        .words = "\"sufficiently separated (~2-5 cm depending on depth)\" they can be scanned",
-       .place = "3, assumption (i)",
+       .place = "4, assumption (i)",
        .study = "limitations",
        .figure = "recall of wire 50 to 60 mm above the table",
        .measure = MedianOf("recall_at.55", of("surface")),
@@ -151,7 +153,7 @@ std::vector<Claim> OfLimitations() {
        .origin = "on most seeds"},
       {.topic = topic,
        .words = "\"our radius estimation assumes ... a constant radius for all its parts\"",
-       .place = place + std::string("; 3.3"),
+       .place = place + std::string("; 4.3"),
        .kind = ClaimKind::kFails,
        .study = "limitations",
        .figure = "relative error of diameters of 3 to 12 mm in one object",

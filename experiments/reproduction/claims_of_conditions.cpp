@@ -1,4 +1,4 @@
-// What section 4 of the paper says of sensors, camera calibration, thickness, colour and RGB.
+// What section 5 of the paper says of sensors, camera calibration, thickness, colour and RGB.
 #include "experiments/reproduction/claim.h"
 #include "experiments/reproduction/measures.h"
 
@@ -17,7 +17,7 @@ constexpr const char* kAlikeOrigin = "chosen: less than pictures show";
 
 std::vector<Claim> OfSensors() {
   const char* topic = "Effect of different sensors";
-  const char* place = "4, Effect of different sensors; Fig. 10";
+  const char* place = "5, Effect of different sensors; Fig. 10";
   const auto on = [](const char* sensor) { return Labels{{"sensor", sensor}}; };
   const auto with = [](const char* sensor, const char* object) {
     return Labels{{"object", object}, {"sensor", sensor}};
@@ -91,7 +91,7 @@ std::vector<Claim> OfSensors() {
 
 std::vector<Claim> OfPoses() {
   const char* topic = "Effect of different camera calibration";
-  const char* place = "4, Effect of different camera calibration; Fig. 11";
+  const char* place = "5, Effect of different camera calibration; Fig. 11";
   const auto from = [](const char* source) {
     return Labels{{"poses", source}, {"colour", "registered"}};
   };
@@ -128,7 +128,7 @@ std::vector<Claim> OfPoses() {
 
 std::vector<Claim> OfWires() {
   const char* topic = "Effect of wire thickness and color";
-  const char* place = "4, Effect of wire thickness and color; Fig. 12";
+  const char* place = "5, Effect of wire thickness and color; Fig. 12";
   const Labels bright = {{"albedo", "0.9"}, {"shininess", "0"}};
   return {
       {.topic = topic,
@@ -142,7 +142,7 @@ std::vector<Claim> OfWires() {
        .origin = kNineTenths},
       {.topic = topic,
        .words = "2 mm and more can be",
-       .place = "Fig. 12; 3, assumption (iv)",
+       .place = "Fig. 12; 4, assumption (iv)",
        .study = "thickness-colour",
        .figure = "recall of the wire of 2 mm",
        .measure = MedianOf("recall_of_2mm", bright),
@@ -181,7 +181,7 @@ std::vector<Claim> OfColour() {
   return {
       {.topic = "Effect of different RGB resolutions",
        .words = "480 x 640 and 1024 x 1280: \"no discernible difference in the output quality\"",
-       .place = "4, Effect of different RGB resolutions",
+       .place = "5, Effect of different RGB resolutions",
        .study = "rgb-resolution",
        .figure = "difference of F at 2 mm",
        .measure = AmountOf(DifferenceOf(kF2, {{"colour", "1280x1024"}}, {{"colour", "640x480"}})),

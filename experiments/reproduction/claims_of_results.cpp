@@ -1,4 +1,4 @@
-// What section 4 of the paper says of its objects, of bundles, of the spacing of wires and of time.
+// What section 5 of the paper says of its objects, of bundles, of the spacing of wires and of time.
 #include "experiments/reproduction/claim.h"
 #include "experiments/reproduction/measures.h"
 
@@ -17,7 +17,7 @@ std::vector<Claim> OfObjects() {
   return {
       {.topic = topic,
        .words = "\"Our algorithm successfully detects ... 95% of these junctions\"",
-       .place = "4, paragraph 2",
+       .place = "5, paragraph 2",
        .study = "objects",
        .figure = "recall of all junctions within 10 mm, pooled",
        .measure = RatioOf(matched, truth),
@@ -27,7 +27,7 @@ std::vector<Claim> OfObjects() {
        .cause = "paper_profile.md#what-it-gives"},
       {.topic = topic,
        .words = "\"... and classifies\" them",
-       .place = "4, paragraph 2",
+       .place = "5, paragraph 2",
        .study = "objects",
        .figure = "share of true junctions found with the right valence",
        .measure = RatioOf("aligned.junctions_10mm.valence_right", truth),
@@ -37,7 +37,7 @@ std::vector<Claim> OfObjects() {
        .cause = "paper_profile.md#what-it-gives"},
       {.topic = topic,
        .words = "\"... and provides a faithful 3D reconstruction\"",
-       .place = "4, paragraph 2; Fig. 9",
+       .place = "5, paragraph 2; Fig. 9",
        .study = "objects",
        .figure = "F at 5 mm, aligned, median of objects",
        .measure = MedianOf("aligned.curves.5mm.f"),
@@ -46,7 +46,7 @@ std::vector<Claim> OfObjects() {
        .cause = "paper_profile.md#what-it-gives"},
       {.topic = topic,
        .words = "\"Our examples have skeleton structures that contain from 14 to 336 junctions\"",
-       .place = "4, paragraph 2; Table 1",
+       .place = "5, paragraph 2; Table 1",
        .study = "objects",
        .figure = "junction recall of the chair, which has 336",
        .measure = RatioOf(matched, truth, {{"object", "chair"}}),
@@ -66,12 +66,12 @@ std::vector<Claim> OfObjects() {
        .cause = "paper_profile.md#what-it-gives"},
       {.topic = topic,
        .words = "\"the cloth hanger ... was scanned in 1,136 frames\"",
-       .place = "4, paragraph 2; Fig. 1",
+       .place = "5, paragraph 2; Fig. 1",
        .figure = "the study takes at most 150 frames of each object"},
       {.topic = topic,
        .words =
            "\"the factory calibration between RGB channel and depth channel ... is insufficient\"",
-       .place = "4, paragraph 1",
+       .place = "5, paragraph 1",
        .kind = ClaimKind::kFails,
        .study = "poses",
        .figure = "F at 5 mm of the cat by a raw camera whose colour nobody has registered",
@@ -82,7 +82,7 @@ std::vector<Claim> OfObjects() {
 
 std::vector<Claim> OfBundles() {
   const char* topic = "Effect of bundle size";
-  const char* place = "4, Effect of bundle size; Fig. 8";
+  const char* place = "5, Effect of bundle size; Fig. 8";
   const auto frames = [](const char* k) { return Labels{{"frames", k}}; };
   return {{.topic = topic,
            .words = "too few frames, \"e.g. k = 1 or 4\": \"a broken partial skeleton\"",
@@ -128,7 +128,7 @@ std::vector<Claim> OfSpacingAndTime() {
   return {
       {.topic = "Effect of inter-wire distance",
        .words = "\"the skeleton extraction step works robustly for spacings larger than 17 mm\"",
-       .place = "4, Effect of inter-wire distance",
+       .place = "5, Effect of inter-wire distance",
        .study = "inter-wire",
        .figure = "least spacing with all six wires apart, mm",
        .measure = LeastLabelWith("wires.resolved", "spacing"),
@@ -139,7 +139,7 @@ std::vector<Claim> OfSpacingAndTime() {
       {.topic = "Performance",
        .words = "segmentation 8 s, L1 extraction 12 s, fusion 1 to 3 s a bundle of 30 frames, "
                 "on four cores of an i7-6820HK",
-       .place = "4, Performance",
+       .place = "5, Performance",
        .study = "objects",
        .figure = "seconds for 30 frames on this machine, busy or not",
        .measure = MedianOf("seconds_per_30_frames"),
@@ -157,7 +157,7 @@ std::vector<Claim> OfSpacingAndTime() {
        .decimals = 1},
       {.topic = "Performance",
        .words = "L1 extraction \"remains as a bottleneck\"",
-       .place = "4, Performance; 5",
+       .place = "5, Performance; 6",
        .kind = ClaimKind::kFails,
        .study = "objects",
        .figure = "share of time that contraction takes",

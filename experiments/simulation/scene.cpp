@@ -169,7 +169,7 @@ void AddSolids(const std::vector<SceneBox>& solids, Random& random, uint64_t see
 void VisitOptions(SceneOptions& options, OptionVisitor& visitor) {
   visitor.Visit(
       {"wire_albedo", "", 0, 1,
-       "Brightness of the wires in colour and infrared; CurveFusion 4, effect of colour."},
+       "Brightness of the wires in colour and infrared; CurveFusion 5, effect of colour."},
       options.wire_albedo);
   visitor.Visit(
       {"wire_hue", "", 0, 1, "Hue of the wires from red over green and blue; own choice."},
@@ -177,7 +177,7 @@ void VisitOptions(SceneOptions& options, OptionVisitor& visitor) {
   visitor.Visit({"wire_saturation", "", 0, 1, "Saturation of the wires' colour; own choice."},
                 options.wire_saturation);
   visitor.Visit({"wire_shininess", "", 0, 1,
-                 "Share of light the wires mirror; CurveFusion 4, effect of colour."},
+                 "Share of light the wires mirror; CurveFusion 5, effect of colour."},
                 options.wire_shininess);
   visitor.Visit({"furniture", "", 0, 40,
                  "Things in the room that are no wires: books, cups, slats, leaves; own choice."},

@@ -273,7 +273,7 @@ void VisitOptions(SimulationOptions& options, OptionVisitor& visitor) {
   visitor.Visit({"pose_error_scale", "", 0, 10, "Factor on the errors of the poses; own choice."},
                 options.pose_error_scale);
   visitor.Visit({"large_color", "", 0, 1,
-                 "Colour at twice the resolution (1280x1024 for a Kinect V1); CurveFusion 4, RGB "
+                 "Colour at twice the resolution (1280x1024 for a Kinect V1); CurveFusion 5, RGB "
                  "resolutions."},
                 options.large_color);
   visitor.Visit({"registration_error_px", "px", 0, 20,

@@ -4,7 +4,7 @@ namespace curvefusion {
 
 namespace {
 
-// Steps up to the points of bundles, CurveFusion 3.1.
+// Steps up to the points of bundles, CurveFusion 4.1.
 std::vector<Ablation> OfSegmentation() {
   return {
       {"volume stride", {"volume.stride=1"}, "Time: large surfaces are seen often enough."},

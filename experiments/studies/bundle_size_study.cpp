@@ -1,7 +1,7 @@
 // How many frames make a bundle? "when too few frames are grouped together, e.g. k=1 or 4, the
 // merged point cloud is too sparse and leads to a broken partial skeleton ... when too many, e.g.
 // k=240 or 1000, the merged point cloud becomes more dense but too blurry"; and VolumeFusion "fails
-// to produce satisfactory reconstruction from any accumulated point cloud" (CurveFusion 4, Effect
+// to produce satisfactory reconstruction from any accumulated point cloud" (CurveFusion 5, Effect
 // of bundle size, and its figure).
 #include <fmt/format.h>
 

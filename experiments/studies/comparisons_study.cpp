@@ -1,4 +1,4 @@
-// Other methods on the same scans, against the same truth (CurveFusion 4, Comparisons, and its
+// Other methods on the same scans, against the same truth (CurveFusion 5, Comparisons, and its
 // figure 2). experiments/baselines says what each is given.
 #include <fmt/format.h>
 
@@ -31,7 +31,7 @@ namespace fs = std::filesystem;
 // As a mesh is cut to the object (PartAroundTruth).
 constexpr double kMargin = 30 * kMillimetre;
 
-// "40 calibrated cameras" of the original setup of Tabb 2013 (CurveFusion 4, Comparisons).
+// "40 calibrated cameras" of the original setup of Tabb 2013 (CurveFusion 5, Comparisons).
 constexpr int kSilhouetteViews = 40;
 
 enum class Kind {
@@ -54,7 +54,7 @@ struct Method {
   double wire_mm = 0;  // in place of the object's own
 };
 // "Thin structures of diameter larger than 10 mm can be reconstructed with reasonable quality using
-// the conventional KinectFusion pipeline" (CurveFusion 3, assumption iv): the object of 15 mm wire.
+// the conventional KinectFusion pipeline" (CurveFusion 4, assumption iv): the object of 15 mm wire.
 // KinectFusion's volume is that of 5 mm, near the 5.9 mm of its 512^3 voxels over 3 m. Tabb 2013
 // has the finest voxels of VolumeFusion, 1.5 pixels wide at .7 m; it had 3.6 mm for trees.
 constexpr Method kMethods[] = {{"VolumeFusion 2 mm", Kind::kVolume, 2},

@@ -1,5 +1,5 @@
 // How near may parallel wires be? "the skeleton extraction step works robustly for spacings larger
-// than 17 mm" (CurveFusion 4, Effect of inter-wire distance).
+// than 17 mm" (CurveFusion 5, Effect of inter-wire distance).
 #include <fmt/format.h>
 
 #include "capture/sequence.h"

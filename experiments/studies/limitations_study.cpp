@@ -1,5 +1,5 @@
 // Where does the method break? Wires below 2 mm, wire that lies on a surface or rises from it,
-// junctions of valence 3 to 8, and diameters that differ or vary within an object (CurveFusion 4,
+// junctions of valence 3 to 8, and diameters that differ or vary within an object (CurveFusion 5,
 // Limitations).
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // The eight objects of the paper's Table 1: "Our algorithm successfully detects and classifies 95%
-// of these junctions and provides a faithful 3D reconstruction" (CurveFusion 4).
+// of these junctions and provides a faithful 3D reconstruction" (CurveFusion 5).
 #include <fmt/format.h>
 
 #include "experiments/studies/bar_panels.h"

@@ -1,6 +1,6 @@
 // Which poses are good enough? BundleFusion "performed as well as ORB-SLAM", KinFu gives
 // "reasonable camera calibration", PTAM "failed to provide sufficient quality camera calibration"
-// (CurveFusion 4, Effect of different camera calibration). And is the factory calibration between
+// (CurveFusion 5, Effect of different camera calibration). And is the factory calibration between
 // colour and depth good enough, on which no registration was run ("insufficient", 4)?
 #include "capture/sequence.h"
 #include "capture/trajectory.h"

@@ -1,5 +1,5 @@
 // Does the resolution of colour matter? Of 640x480 and 1280x1024 the paper "observed no discernible
-// difference in the output quality" (CurveFusion 4, Effect of different RGB resolutions).
+// difference in the output quality" (CurveFusion 5, Effect of different RGB resolutions).
 #include "experiments/studies/bar_panels.h"
 #include "experiments/studies/result_table.h"
 #include "experiments/studies/studies.h"

@@ -110,9 +110,9 @@ void AddKinectV1(std::vector<SensorCheck>& checks) {
   checks.push_back({wires(5), "recall", 0.65, 0.9, CheckBasis::kFitted, filter});
   checks.push_back({wires(9), "recall", 0.97, 1, CheckBasis::kFitted, filter});
   checks.push_back({Wires(sensor, 0.7, 4, 0.05), "recall", 0, 0.02, CheckBasis::kPredicted,
-                    "CurveFusion 4: black wire is lost"});
+                    "CurveFusion 5: black wire is lost"});
   checks.push_back({Wires(sensor, 0.7, 4, 0.1), "recall", 0, 0.02, CheckBasis::kPredicted,
-                    "CurveFusion 4: black wire is lost"});
+                    "CurveFusion 5: black wire is lost"});
 }
 
 void AddTimeOfFlight(std::vector<SensorCheck>& checks) {
@@ -139,14 +139,14 @@ void AddFootprintSensors(std::vector<SensorCheck>& checks) {
     checks.push_back(
         {what, "sigma_mm", 0.9 * sigma_mm, 1.1 * sigma_mm, CheckBasis::kParameter, source});
   };
-  const char* rack = "CurveFusion 4: the rack, not the breadholder";
+  const char* rack = "CurveFusion 5: the rack, not the breadholder";
   checks.push_back({Wires("sr300", 0.7, 5), "recall", 0, 0.1, CheckBasis::kFitted, rack});
   checks.push_back({Wires("sr300", 0.7, 8), "recall", 0.5, 1, CheckBasis::kFitted, rack});
   around(Wall("sr300", 0.7), 4 * 0.49, "4 z^2 mm, 10 %");
   around(Wall("d400", 1), 0.08 / (425 * 0.05) / kMillimetre, ".08 px of disparity, 10 %");
   around(Wall("artec_spider", 0.25), 0.05, "data sheet, 10 %");
   checks.push_back({Wires("artec_spider", 0.25, 1.5), "recall", 0.95, 1, CheckBasis::kPredicted,
-                    "CurveFusion 4: 1.5 mm wires"});
+                    "CurveFusion 5: 1.5 mm wires"});
 }
 
 void AddPoseSources(std::vector<SensorCheck>& checks) {

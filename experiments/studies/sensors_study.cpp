@@ -1,6 +1,6 @@
 // Which sensors are good enough? A PrimeSense is comparable to a Kinect V1, with an SR300 the rack
 // of 8 mm can be reconstructed and the breadholder of 5 mm cannot, and a Kinect V2 "cannot be used
-// for producing any reasonable reconstruction results" (CurveFusion 4, Effect of different
+// for producing any reasonable reconstruction results" (CurveFusion 5, Effect of different
 // sensors).
 #include "experiments/studies/bar_panels.h"
 #include "experiments/studies/result_table.h"

@@ -1,7 +1,7 @@
 // Which wires can a Kinect V1 scan? "thin structures of diameter smaller than 2 mm cannot be
 // sufficiently scanned by the Kinect V1 for proper reconstruction", and a black model "cannot be
 // scanned using Kinect V1 due to its light-absorbing surface"; models of "considerable surface
-// shininess ... can still be scanned well" (CurveFusion 4, Effect of wire thickness and color).
+// shininess ... can still be scanned well" (CurveFusion 5, Effect of wire thickness and color).
 #include <fmt/format.h>
 
 #include <cmath>

@@ -12,7 +12,7 @@ BestOptions DefaultBestOptions() {
   options.segmentation.gate.frames = 10;
   options.segmentation.max_array_spacing = 0.013;
   options.segmentation.max_frame_points = 19000;
-  // CurveFusion 3, assumption (i): thin structures lie 2 cm or more before other surfaces. Depth
+  // CurveFusion 4, assumption (i): thin structures lie 2 cm or more before other surfaces. Depth
   // with no rendering behind it is no wire in four of five pixels, on simulated scans.
   options.segmentation.difference.front_distance = 0.02;
   options.segmentation.difference.accept_where_nothing_rendered = false;

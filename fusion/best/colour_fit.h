@@ -11,7 +11,7 @@
 
 namespace curvefusion {
 
-/// The wires' radii in all colour images (CurveFusion 3.3, "Wire radius estimation"); those of
+/// The wires' radii in all colour images (CurveFusion 4.3, "Wire radius estimation"); those of
 /// close wires (`array_diameter`, metres) where no strip can be measured for itself. Throws
 /// Error(kBadInput) for an image that cannot be read.
 RadiusEstimate MeasureRadii(const SkeletonGraph& skeleton, const Sequence& sequence,

@@ -33,7 +33,7 @@ constexpr double kAround = 1.8;
 
 constexpr double kFewImages = 5;       // chosen: so many images count as much as knowing nothing
 constexpr double kSameFloor = 0.03;    // chosen: so much of a wire's surroundings goes on by chance
-constexpr double kWidestWire = 0.012;  // metres, CurveFusion 4
+constexpr double kWidestWire = 0.012;  // metres, CurveFusion 5
 constexpr double kNeighbourhood = 0.25;  // metres
 constexpr double kTellingChange = 5;     // grey levels; chosen: noise of smoothed pixels is 1 to 2
 constexpr double kOpenRatio = 0.7;       // chosen: log of most over least change, so much is open

@@ -8,7 +8,7 @@
 
 namespace curvefusion {
 
-/// The bundle skeleton, CurveFusion 3.2: "we next extract the central skeleton of each cluster of
+/// The bundle skeleton, CurveFusion 4.2: "we next extract the central skeleton of each cluster of
 /// the bundle by computing the L1 medial axis of the cluster". Each cluster is contracted by
 /// itself: another one nearby does not draw its samples. An empty graph where nothing is
 /// curve-like.

@@ -47,10 +47,10 @@ std::vector<Vec3> LiftFrame(const Sequence& sequence, int frame, const CurveEdge
 void VisitOptions(CurveEdgeOptions& options, OptionVisitor& visitor) {
   visitor.Visit(
       {"low_threshold", "grey levels", 0, 2000,
-       "Gradient at which a colour edge goes on (Canny). CurveFusion 3.1 gives no value."},
+       "Gradient at which a colour edge goes on (Canny). CurveFusion 4.1 gives no value."},
       options.low_threshold);
   visitor.Visit({"high_threshold", "grey levels", 0, 2000,
-                 "Gradient at which a colour edge begins (Canny). CurveFusion 3.1 gives no value."},
+                 "Gradient at which a colour edge begins (Canny). CurveFusion 4.1 gives no value."},
                 options.high_threshold);
 }
 

@@ -20,7 +20,7 @@ void VisitOptions(CurveEdgeOptions& options, OptionVisitor& visitor);
 /// The pixels on colour edges of all frames of a bundle, lifted by "the corresponding raw depth
 /// measurements": the depth image is projected into the colour image, the nearest depth where
 /// several meet, and every edge pixel with a depth becomes a point in the first frame's depth
-/// camera. CurveFusion 3.1 "Removing 'ghost' points". Throws Error(kBadInput) for an image that
+/// camera. CurveFusion 4.1 "Removing 'ghost' points". Throws Error(kBadInput) for an image that
 /// cannot be read.
 std::vector<Vec3> LiftColourEdges(const Sequence& sequence, const BundleFrames& frames,
                                   const CurveEdgeOptions& options);

@@ -16,7 +16,7 @@ struct Match {
 
 /// Matches every point of every edge of `source` (indexed by edge handle, then point) with the
 /// nearest curve of `target` within `distance`: "overlapping curve segments, i.e., curves which are
-/// close to each other within a specified distance threshold", CurveFusion 3.3 (ii). Not in the
+/// close to each other within a specified distance threshold", CurveFusion 4.3 (ii). Not in the
 /// paper: curves whose directions differ by more than 0.6 rad cross instead of overlapping, and a
 /// point beyond the end of a curve does not match that curve, as the source goes on there. Both
 /// graphs should be sampled evenly at about `step`. O(n log n + k) in points and in pairs of points

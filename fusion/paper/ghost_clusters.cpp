@@ -82,17 +82,17 @@ int64_t CountPoints(const Clusters& clusters) {
 
 void VisitOptions(GhostClusterOptions& options, OptionVisitor& visitor) {
   visitor.Visit({"cluster_radius", "m", 0.001, 0.1,
-                 "DBSCAN radius. CurveFusion 3.1 uses DBSCAN, the value is ours."},
+                 "DBSCAN radius. CurveFusion 4.1 uses DBSCAN, the value is ours."},
                 options.cluster_radius);
   visitor.Visit({"core_points", "points", 1, 1000,
-                 "DBSCAN density. CurveFusion 3.1 uses DBSCAN; Ester et al. 1996 have 4."},
+                 "DBSCAN density. CurveFusion 4.1 uses DBSCAN; Ester et al. 1996 have 4."},
                 options.core_points);
   visitor.Visit(
-      {"min_cluster_points", "points", 1, 100000, "Smaller clusters are ghosts. CurveFusion 3.1."},
+      {"min_cluster_points", "points", 1, 100000, "Smaller clusters are ghosts. CurveFusion 4.1."},
       options.min_cluster_points);
   visitor.Visit({"isolation_distance", "m", 0, 10,
                  "Clusters shorter than this and farther than this from every other one are "
-                 "ghosts. CurveFusion 3.1."},
+                 "ghosts. CurveFusion 4.1."},
                 options.isolation_distance);
   visitor.Visit({"verified_share", "", 0, 1,
                  "Clusters with a smaller share of voxels on colour edges are ghosts. CurveFusion "

@@ -9,7 +9,7 @@
 
 namespace curvefusion {
 
-/// CurveFusion 3.1 "Removing 'ghost' points".
+/// CurveFusion 4.1 "Removing 'ghost' points".
 struct GhostClusterOptions {
   /// Metres, 0.001 to 0.1. DBSCAN's radius; the paper gives none. Chosen: two voxels.
   double cluster_radius = 10 * kMillimetre;

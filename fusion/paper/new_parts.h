@@ -20,7 +20,7 @@ struct AttachmentDistances {
 /// region, we split the curve segment that crosses the junction"); a junction near one of the
 /// partial skeleton becomes one with it. Stubs and detours that never leave the overlap distance
 /// are not added. `matches` are those of `bundle` in `partial`, whose points may have moved since
-/// but not changed in number. CurveFusion 3.3 (ii).
+/// but not changed in number. CurveFusion 4.3 (ii).
 void AddNewParts(SkeletonGraph& partial, const SkeletonGraph& bundle,
                  const std::vector<std::vector<Match>>& matches,
                  const AttachmentDistances& distances);

@@ -20,7 +20,7 @@ struct MergeWeights {
 /// are averaged: partners are found along arc length. Within a run of points matched to one edge,
 /// the matches are first made monotone (isotonic regression), so that nearest points cannot zigzag.
 /// `matches` are those of `bundle` in `partial`; the topology and the point indices of `partial`
-/// stay as they are. CurveFusion 3.3 (ii).
+/// stay as they are. CurveFusion 4.3 (ii).
 void AverageOverlaps(SkeletonGraph& partial, const SkeletonGraph& bundle,
                      const std::vector<std::vector<Match>>& matches, const MergeWeights& weights);
 

@@ -4,10 +4,10 @@ namespace curvefusion {
 
 void VisitOptions(PaperBundleOptions& options, OptionVisitor& visitor) {
   visitor.Visit({"frames", "frames", 1, 100000,
-                 "Consecutive frames merged before a skeleton is extracted. CurveFusion 3.1, k."},
+                 "Consecutive frames merged before a skeleton is extracted. CurveFusion 4.1, k."},
                 options.frames);
   visitor.Visit({"voxel_size", "m", 0.0005, 0.05,
-                 "Grid on which the merged points are resampled. CurveFusion 3.1 gives no value."},
+                 "Grid on which the merged points are resampled. CurveFusion 4.1 gives no value."},
                 options.voxel_size);
 }
 

@@ -11,7 +11,7 @@
 
 namespace curvefusion {
 
-/// Frames of a bundle, and the grid of its points, CurveFusion 3.1.
+/// Frames of a bundle, and the grid of its points, CurveFusion 4.1.
 struct PaperBundleOptions {
   /// 1 to 100000. "k = 30 works well for most of the models we have tested."
   int frames = 30;

@@ -47,7 +47,7 @@ double MeanMotion(const RigidTransform& T, const std::vector<Vec3>& points) {
 
 void VisitOptions(SkeletonAlignmentOptions& options, OptionVisitor& visitor) {
   visitor.Visit({"sample_step", "m", 1e-4, 0.1,
-                 "Distance of samples along curves; CurveFusion 3.3 says dense."},
+                 "Distance of samples along curves; CurveFusion 4.3 says dense."},
                 options.sample_step);
   visitor.Visit({"max_distance", "m", 1e-4, 1,
                  "Samples farther than this from the other skeleton pair with nothing. Not in the "

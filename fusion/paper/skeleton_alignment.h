@@ -5,7 +5,7 @@
 
 namespace curvefusion {
 
-/// Iterative closest points (Besl and McKay 1992), CurveFusion 3.3 (i).
+/// Iterative closest points (Besl and McKay 1992), CurveFusion 4.3 (i).
 struct SkeletonAlignmentOptions {
   /// Metres, 0.0001 to 0.1. "Densely and uniformly distributed sample points": no number; chosen:
   /// the step of the smoothing.

@@ -101,22 +101,22 @@ SkeletonGraph CleanedAndSmoothed(SkeletonGraph graph, const SkeletonFusionOption
 
 void VisitOptions(SkeletonFusionOptions& options, OptionVisitor& visitor) {
   visitor.Visit({"overlap_distance", "m", 0.0005, 0.1,
-                 "Curves nearer than this are merged. CurveFusion 3.3."},
+                 "Curves nearer than this are merged. CurveFusion 4.3."},
                 options.overlap_distance);
   visitor.Visit({"junction_distance", "m", 0.0005, 0.1,
-                 "Junctions of both skeletons nearer than this become one. CurveFusion 3.3."},
+                 "Junctions of both skeletons nearer than this become one. CurveFusion 4.3."},
                 options.junction_distance);
   visitor.Visit({"intersection_distance", "m", 0.0001, 0.1,
-                 "Curves that come nearer than this meet in a junction; CurveFusion 3.3 gives no "
+                 "Curves that come nearer than this meet in a junction; CurveFusion 4.3 gives no "
                  "value."},
                 options.intersection_distance);
   visitor.Visit(
-      {"min_edge_length", "m", 0, 0.1, "Shorter edges are removed after merging. CurveFusion 3.3."},
+      {"min_edge_length", "m", 0, 0.1, "Shorter edges are removed after merging. CurveFusion 4.3."},
       options.min_edge_length);
-  visitor.Visit({"step", "m", 1e-4, 0.1, "Distance of vertices on curves. CurveFusion 3.3."},
+  visitor.Visit({"step", "m", 1e-4, 0.1, "Distance of vertices on curves. CurveFusion 4.3."},
                 options.step);
   visitor.Visit(
-      {"lambda", "", 0, 1e6, "Weight of smoothness against data. CurveFusion 3.3, Eq. 1."},
+      {"lambda", "", 0, 1e6, "Weight of smoothness against data. CurveFusion 4.3, Eq. 1."},
       options.lambda);
 }
 

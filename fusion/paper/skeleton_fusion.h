@@ -6,7 +6,7 @@
 
 namespace curvefusion {
 
-/// Iterative fusion of bundle skeletons, CurveFusion 3.3.
+/// Iterative fusion of bundle skeletons, CurveFusion 4.3.
 struct SkeletonFusionOptions {
   SkeletonAlignmentOptions alignment;
   /// Metres, 0.0005 to 0.1. "Close to each other within a specified distance threshold (set to be

@@ -78,14 +78,14 @@ ObservedPoints ImageDifference(const DepthImage& depth, const PinholeCamera& cam
 void VisitOptions(SurfaceRemovalOptions& options, OptionVisitor& visitor) {
   visitor.Visit({"opening_radius", "m", 0.001, 0.5,
                  "Surfaces of the rendered volume are eroded and dilated by so much; what is "
-                 "narrower than twice that goes. CurveFusion 3.1."},
+                 "narrower than twice that goes. CurveFusion 4.1."},
                 options.opening_radius);
   visitor.Visit({"discontinuity", "m", 0.001, 0.5,
                  "A step of the rendering's depth above that is an edge, unless the surface is as "
-                 "steep beside it. CurveFusion 3.1 gives no value."},
+                 "steep beside it. CurveFusion 4.1 gives no value."},
                 options.discontinuity);
   visitor.Visit({"separation", "m", 0, 0.2,
-                 "Depth nearer than this to a large surface belongs to it. CurveFusion 3, "
+                 "Depth nearer than this to a large surface belongs to it. CurveFusion 4, "
                  "assumption (i): 2 to 5 cm depending on depth."},
                 options.separation);
 }

@@ -9,7 +9,7 @@
 
 namespace curvefusion {
 
-/// CurveFusion 3.1 "Removing large surfaces".
+/// CurveFusion 4.1 "Removing large surfaces".
 struct SurfaceRemovalOptions {
   /// Metres, 0.001 to 0.5. "We set the distance used for both erosion and dilation to 2 cm",
   /// measured across the line of sight, as topological operators on an image do. Sides of boxes

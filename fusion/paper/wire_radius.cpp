@@ -34,10 +34,10 @@ void VisitOptions(WireRadiusOptions& options, OptionVisitor& visitor) {
                  "3.3 gives no number."},
                 options.sample_step);
   visitor.Visit({"box_size_px", "px", 4, 128,
-                 "Side of the box that must hold exactly one strip. CurveFusion 3.3."},
+                 "Side of the box that must hold exactly one strip. CurveFusion 4.3."},
                 options.box_size_px);
   visitor.Visit({"histogram_bin", "m", 0.00001, 0.01,
-                 "Bin of the histogram of diameters. CurveFusion 3.3 gives no number."},
+                 "Bin of the histogram of diameters. CurveFusion 4.3 gives no number."},
                 options.histogram_bin);
 }
 

@@ -9,7 +9,7 @@
 
 namespace curvefusion {
 
-/// CurveFusion 3.3 "Wire radius estimation".
+/// CurveFusion 4.3 "Wire radius estimation".
 struct WireRadiusOptions {
   /// Metres, 0.0005 to 0.1. "We sample a set of points from the skeleton": no number; chosen.
   double sample_step = 5 * kMillimetre;

@@ -15,10 +15,10 @@ bool OnOutline(const MaskImage& mask, int u, int v) {
 
 void VisitOptions(BundleOptions& options, OptionVisitor& visitor) {
   visitor.Visit({"frames", "frames", 1, 100000,
-                 "Consecutive frames merged before a skeleton is extracted. CurveFusion 3.1, k."},
+                 "Consecutive frames merged before a skeleton is extracted. CurveFusion 4.1, k."},
                 options.frames);
   visitor.Visit({"voxel_size", "m", 0.0005, 0.05,
-                 "Grid on which the merged points are resampled. CurveFusion 3.1."},
+                 "Grid on which the merged points are resampled. CurveFusion 4.1."},
                 options.voxel_size);
   visitor.Visit({"min_frames", "frames", 1, 1000,
                  "Deviation: points seen in fewer frames are dropped; noise does not come back at "

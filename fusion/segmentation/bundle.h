@@ -11,7 +11,7 @@
 
 namespace curvefusion {
 
-/// How frames are grouped and their points resampled, CurveFusion 3.1.
+/// How frames are grouped and their points resampled, CurveFusion 4.1.
 struct BundleOptions {
   int frames = 30;
   double voxel_size = 0.0025;

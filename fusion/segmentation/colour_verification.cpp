@@ -49,7 +49,7 @@ MaskImage Dilated(const MaskImage& mask, double radius_px) {
 
 void VisitOptions(ColourEdgeOptions& options, OptionVisitor& visitor) {
   visitor.Visit({"low_threshold", "grey levels", 0, 2000,
-                 "Gradient at which an edge goes on (Canny). CurveFusion 3.1 detects edges, the "
+                 "Gradient at which an edge goes on (Canny). CurveFusion 4.1 detects edges, the "
                  "value is ours."},
                 options.low_threshold);
   visitor.Visit(

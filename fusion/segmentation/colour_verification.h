@@ -7,7 +7,7 @@
 
 namespace curvefusion {
 
-/// Curve edges of the colour images, with which candidates are verified, CurveFusion 3.1.
+/// Curve edges of the colour images, with which candidates are verified, CurveFusion 4.1.
 struct ColourEdgeOptions {
   double low_threshold = 40;
   double high_threshold = 100;

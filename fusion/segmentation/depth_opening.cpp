@@ -17,11 +17,11 @@ void VisitOptions(DepthOpeningOptions& options, OptionVisitor& visitor) {
   visitor.Visit(
       {"opening_radius", "m", 0, 0.5,
        "The rendering's surfaces are eroded and dilated by so much; what is narrower than "
-       "twice that is no large surface. CurveFusion 3.1."},
+       "twice that is no large surface. CurveFusion 4.1."},
       options.radius);
   visitor.Visit({"discontinuity", "m", 0.001, 0.5,
                  "A step of the rendering's depth above that is an edge, unless the surface is as "
-                 "steep beside it. CurveFusion 3.1 gives no value."},
+                 "steep beside it. CurveFusion 4.1 gives no value."},
                 options.discontinuity);
   visitor.Visit({"solid_depth", "m", 0, 0.1,
                  "Deviation: what frames saw through so far behind its rendering is no large "

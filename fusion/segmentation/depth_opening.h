@@ -6,10 +6,10 @@
 
 namespace curvefusion {
 
-/// Removal of thin parts from a depth rendering, CurveFusion 3.1.
+/// Removal of thin parts from a depth rendering, CurveFusion 4.1.
 struct DepthOpeningOptions {
   /// Metres, 0 to 0.5: surfaces are eroded and dilated by so much, measured across the line of
-  /// sight; what is narrower than twice that goes (CurveFusion 3.1).
+  /// sight; what is narrower than twice that goes (CurveFusion 4.1).
   double radius = 0.02;
   /// Metres, 0.001 to 0.5: a step of depth between neighbouring pixels above that is a
   /// discontinuity unless the surface is as steep beside it (the paper gives no value; three

@@ -81,7 +81,7 @@ MaskImage WithNeighbours(const MaskImage& mask, const DepthImage& depth,
 void VisitOptions(DifferenceSetOptions& options, OptionVisitor& visitor) {
   visitor.Visit({"noise_factor", "", 0, 20,
                  "Standard deviations of depth noise a pixel must lie in front of the rendering. "
-                 "CurveFusion 3.1."},
+                 "CurveFusion 4.1."},
                 options.noise_factor);
   visitor.Visit({"noise_quadratic", "1/m", 0, 0.1,
                  "Depth noise divided by depth squared. Khoshelham 2012 for the Kinect V1."},
@@ -100,7 +100,7 @@ void VisitOptions(DifferenceSetOptions& options, OptionVisitor& visitor) {
       options.behind_removed);
   visitor.Visit(
       {"accept_where_nothing_rendered", "", 0, 1,
-       "Whether pixels with no rendering behind them belong to the set. CurveFusion 3.1."},
+       "Whether pixels with no rendering behind them belong to the set. CurveFusion 4.1."},
       options.accept_where_nothing_rendered);
   visitor.Visit({"min_neighbours", "px", 0, 24,
                  "Deviation: so many of the 24 pixels around must be in the set at the same depth; "

@@ -7,7 +7,7 @@
 
 namespace curvefusion {
 
-/// Which raw depth pixels belong to a thin structure, CurveFusion 3.1 "Removing large surfaces".
+/// Which raw depth pixels belong to a thin structure, CurveFusion 4.1 "Removing large surfaces".
 struct DifferenceSetOptions {
   double noise_factor = 3.0;
   double noise_quadratic = kNoisePerSquaredDepth;

@@ -106,16 +106,16 @@ std::vector<Cluster> WithoutIsolated(const BundlePoints& bundle, std::vector<Clu
 
 void VisitOptions(GhostRemovalOptions& options, OptionVisitor& visitor) {
   visitor.Visit({"cluster_radius", "m", 0.001, 0.1,
-                 "DBSCAN radius. CurveFusion 3.1 uses DBSCAN, the value is ours."},
+                 "DBSCAN radius. CurveFusion 4.1 uses DBSCAN, the value is ours."},
                 options.cluster_radius);
   visitor.Visit({"core_points", "points", 1, 100,
-                 "DBSCAN density. CurveFusion 3.1 uses DBSCAN, the value is ours."},
+                 "DBSCAN density. CurveFusion 4.1 uses DBSCAN, the value is ours."},
                 options.core_points);
   visitor.Visit(
-      {"min_cluster_points", "points", 1, 100000, "Smaller clusters are ghosts. CurveFusion 3.1."},
+      {"min_cluster_points", "points", 1, 100000, "Smaller clusters are ghosts. CurveFusion 4.1."},
       options.min_cluster_points);
   visitor.Visit({"isolation_distance", "m", 0, 10,
-                 "Clusters farther than this from every larger one are ghosts. CurveFusion 3.1, "
+                 "Clusters farther than this from every larger one are ghosts. CurveFusion 4.1, "
                  "read as said in ghost_removal.h."},
                 options.isolation_distance);
   visitor.Visit({"isolated_outline", "", 0, 2,
@@ -125,7 +125,7 @@ void VisitOptions(GhostRemovalOptions& options, OptionVisitor& visitor) {
                 options.isolated_outline);
   visitor.Visit(
       {"verified_share", "", 0, 1,
-       "Clusters with a smaller share of points on colour edges are ghosts. CurveFusion 3.1."},
+       "Clusters with a smaller share of points on colour edges are ghosts. CurveFusion 4.1."},
       options.verified_share);
   visitor.Visit({"verified_outline", "", 0, 1,
                  "Deviation: clusters with a smaller share of their outline on colour edges are "

@@ -6,7 +6,7 @@
 
 namespace curvefusion {
 
-/// Which clusters of a bundle difference set are no physical thing, CurveFusion 3.1 "Removing
+/// Which clusters of a bundle difference set are no physical thing, CurveFusion 4.1 "Removing
 /// 'ghost' points".
 struct GhostRemovalOptions {
   double cluster_radius = 0.01;

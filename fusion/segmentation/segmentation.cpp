@@ -66,7 +66,7 @@ void AddArrays(const MaskImage& more, MaskImage& arrays) {
   for (size_t i = 0; i < arrays.size(); ++i) arrays.data()[i] |= more.data()[i];
 }
 
-// Depth pixels that the volume does not explain, CurveFusion 3.1 "Removing large surfaces".
+// Depth pixels that the volume does not explain, CurveFusion 4.1 "Removing large surfaces".
 WireCandidates FindCandidates(const Sequence& sequence, int frame, const TsdfVolume& volume,
                               const SegmentationModel& model, const SegmentationOptions& options) {
   WireCandidates found;

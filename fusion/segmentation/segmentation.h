@@ -18,7 +18,7 @@
 
 namespace curvefusion {
 
-/// Everything that decides which points are thin, CurveFusion 3.1.
+/// Everything that decides which points are thin, CurveFusion 4.1.
 struct SegmentationOptions {
   int render_divisor = 1;
   OpennessOptions openness;

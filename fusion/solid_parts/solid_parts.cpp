@@ -15,7 +15,7 @@ namespace curvefusion {
 
 namespace {
 
-// Half of what is thin to segmentation (segmentation.opening_radius; CurveFusion 3.1): a volume's
+// Half of what is thin to segmentation (segmentation.opening_radius; CurveFusion 4.1): a volume's
 // surface so near to a wire is the wire's, what is no wider is no surface.
 constexpr double kReach = 20 * kMillimetre;
 // A volume smears a surface by about as much; planes and tubes hold what is within.

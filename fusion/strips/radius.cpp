@@ -256,14 +256,14 @@ void AssignRadii(const RadiusEstimate& estimate, SkeletonGraph& skeleton) {
 void VisitOptions(RadiusOptions& options, OptionVisitor& visitor) {
   visitor.Visit(
       {"sample_step", "m", 0.0005, 0.1,
-       "Distance along the curves of the places where widths are measured. CurveFusion 3.3 "
+       "Distance along the curves of the places where widths are measured. CurveFusion 4.3 "
        "gives no number."},
       options.sample_step);
   visitor.Visit({"histogram_bin", "m", 0.00001, 0.01,
-                 "Bin of the histogram of diameters. CurveFusion 3.3 gives no number."},
+                 "Bin of the histogram of diameters. CurveFusion 4.3 gives no number."},
                 options.histogram_bin);
   visitor.Visit({"max_frames", "frames", 1, 1000000,
-                 "Colour images used; more are thinned evenly. CurveFusion 3.3 uses all; beyond 30 "
+                 "Colour images used; more are thinned evenly. CurveFusion 4.3 uses all; beyond 30 "
                  "the result hardly changes."},
                 options.max_frames);
   visitor.Visit({"gauge_strips", "", 0, 100000,
@@ -275,7 +275,7 @@ void VisitOptions(RadiusOptions& options, OptionVisitor& visitor) {
                  "since poses drift."},
                 options.search_px);
   visitor.Visit({"max_diameter", "m", 0.001, 0.2,
-                 "Wider strips are no wires. CurveFusion 4 shows wires up to 12 mm."},
+                 "Wider strips are no wires. CurveFusion 5 shows wires up to 12 mm."},
                 options.max_diameter);
   visitor.Visit(
       {"luma_blur_px", "px", 0.1, 5,

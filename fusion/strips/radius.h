@@ -8,7 +8,7 @@
 
 namespace curvefusion {
 
-/// Wire radius estimation, CurveFusion 3.3 ("Wire radius estimation"). Units, ranges and sources
+/// Wire radius estimation, CurveFusion 4.3 ("Wire radius estimation"). Units, ranges and sources
 /// stand in VisitOptions.
 struct RadiusOptions {
   double sample_step = 0.010;

@@ -26,7 +26,7 @@ std::vector<FoundStrip> FindStrips(const ColorImage& image, int frame,
 /// The diameters of strips from their colours: estimates the wires' colour from all strips and
 /// their backgrounds, solves each width with it, and repeats with the better widths. Left out are
 /// strips that the wire's colour does not explain and those with another curve within 1.5 widths.
-/// Deviation from CurveFusion 3.3: nothing is thresholded and no edge is located, so the width is
+/// Deviation from CurveFusion 4.3: nothing is thresholded and no edge is located, so the width is
 /// unbiased where a wire is a few pixels wide and shaded.
 std::vector<StripWidth> SolveStripWidths(std::vector<FoundStrip> strips,
                                          const RadiusOptions& options);

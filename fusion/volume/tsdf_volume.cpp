@@ -22,7 +22,7 @@ namespace curvefusion {
 void VisitOptions(TsdfOptions& options, OptionVisitor& visitor) {
   visitor.Visit({"voxel_size", "m", 0.001, 0.1,
                  "Distance of the samples of the volume, which represents large surfaces only. "
-                 "CurveFusion 3.1."},
+                 "CurveFusion 4.1."},
                 options.voxel_size);
   visitor.Visit({"truncation_voxels", "voxels", 2, 20,
                  "Distances are stored so far before and behind surfaces. Curless and Levoy 1996."},

@@ -13,10 +13,10 @@
 
 namespace curvefusion {
 
-/// VolumeFusion (Curless and Levoy 1996), CurveFusion 3.1. The volume only has to represent large
+/// VolumeFusion (Curless and Levoy 1996), CurveFusion 4.1. The volume only has to represent large
 /// surfaces, so its voxels are coarse.
 struct TsdfOptions {
-  /// Metres, 0.001 to 0.1. CurveFusion 3.1 names no size; 10 mm segments equally well in half the
+  /// Metres, 0.001 to 0.1. CurveFusion 4.1 names no size; 10 mm segments equally well in half the
   /// time.
   double voxel_size = 0.005;
   /// Voxels before and behind a measurement that are sure to be stored, 2 to 20 (Curless and Levoy

@@ -8,7 +8,7 @@
 
 namespace curvefusion {
 
-/// VolumeFusion of every `stride`-th frame of a sequence, CurveFusion 3.1: the model of the large
+/// VolumeFusion of every `stride`-th frame of a sequence, CurveFusion 4.1: the model of the large
 /// surfaces, within a box where one is given. `on_frame` is called after each one. Throws
 /// Error(kBadInput) for an image that cannot be read.
 TsdfVolume FuseVolume(const Sequence& sequence, const TsdfOptions& options, int stride,

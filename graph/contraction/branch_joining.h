@@ -17,7 +17,7 @@ struct Branch {
 };
 
 /// The last step of TraceBranches. Every cluster of `junction_samples`, the samples that belong to
-/// no branch, is a junction, and the branches that run up to it end there (CurveFusion 3.2), in the
+/// no branch, is a junction, and the branches that run up to it end there (CurveFusion 4.2), in the
 /// point nearest to their lines. A cluster that only one branch runs up to prolongs the branch,
 /// which then looks further ahead. Ends left over are joined to an end that faces them, or else to
 /// the side of the branch they run up to, or else they reach out to their tips. `spacing` is the

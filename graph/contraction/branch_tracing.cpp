@@ -173,7 +173,7 @@ void VisitOptions(BranchTracingOptions& options, OptionVisitor& visitor) {
                 options.join_reach);
   visitor.Visit({"junction_link", "spacings", 0.1, 10,
                  "Samples outside branches are one junction when they are linked by steps no "
-                 "longer than this. CurveFusion 3.2 without a number."},
+                 "longer than this. CurveFusion 4.2 without a number."},
                 options.junction_link);
   visitor.Visit({"minimum_samples", "samples", 2, 1000,
                  "A branch has at least so many samples. Huang et al. 2013, 4.2."},

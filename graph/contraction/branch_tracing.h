@@ -36,7 +36,7 @@ void VisitOptions(BranchTracingOptions& options, OptionVisitor& visitor);
 /// Makes a graph of contracted samples: runs of samples with a clear direction become branches
 /// (Huang et al. 2013, 4.2); every cluster of the samples left over is one junction, where the
 /// branches that run up to it are joined; ends without a cluster between them are joined where they
-/// continue each other (CurveFusion 3.2). Nodes of degree 2 are dissolved. O(n log n). Depends on
+/// continue each other (CurveFusion 4.2). Nodes of degree 2 are dissolved. O(n log n). Depends on
 /// the order of the samples only through ties.
 SkeletonGraph TraceBranches(const ContractedSamples& samples, const BranchTracingOptions& options);
 

@@ -8,7 +8,7 @@
 
 namespace curvefusion {
 
-/// How ridge points are linked into curves. Deviation: CurveFusion 3.2 traces branches during
+/// How ridge points are linked into curves. Deviation: CurveFusion 4.2 traces branches during
 /// contraction and takes what is left over as junctions.
 struct CurveNetworkOptions {
   double max_link = 0.005;

@@ -5,7 +5,7 @@
 
 namespace curvefusion {
 
-/// How junctions are placed. Deviation: CurveFusion 3.2 takes the cluster of non-branch points as
+/// How junctions are placed. Deviation: CurveFusion 4.2 takes the cluster of non-branch points as
 /// the junction, which blurs it by the kernel's width.
 struct JunctionRefinementOptions {
   double inner_radius = 0.007;

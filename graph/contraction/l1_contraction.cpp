@@ -253,10 +253,10 @@ L1Options OptionsForRadius(double initial_radius, L1Options options) {
 
 void VisitOptions(L1Options& options, OptionVisitor& visitor) {
   visitor.Visit(
-      {"initial_radius", "m", 1e-4, 1e3, "Radius of the neighbourhoods at first. CurveFusion 3.2."},
+      {"initial_radius", "m", 1e-4, 1e3, "Radius of the neighbourhoods at first. CurveFusion 4.2."},
       options.initial_radius);
   visitor.Visit(
-      {"maximum_radius", "m", 1e-4, 1e3, "Radius of the neighbourhoods at last. CurveFusion 3.2."},
+      {"maximum_radius", "m", 1e-4, 1e3, "Radius of the neighbourhoods at last. CurveFusion 4.2."},
       options.maximum_radius);
   visitor.Visit({"growth", "m", 1e-5, 1e3,
                  "The radius grows by so much whenever contraction has come to rest. CurveFusion "

@@ -28,7 +28,7 @@ L1Options OptionsForRadius(double initial_radius, L1Options options = {});
 /// Contracts a well-spread subset of the points onto local medians of all points while keeping the
 /// samples apart along the curves (Huang et al. 2013, Eq. 1 to 7). The neighbourhood grows from
 /// initial_radius to maximum_radius; samples whose neighbourhood has become a line stop there and
-/// are not drawn into larger ones (CurveFusion 3.2). Throws Error(kBadInput) for a point that is
+/// are not drawn into larger ones (CurveFusion 4.2). Throws Error(kBadInput) for a point that is
 /// not finite. Cost: samples x neighbours x iterations.
 ContractedSamples ContractToMedian(const ObservedPoints& points, const L1Options& options);
 

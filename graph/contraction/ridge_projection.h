@@ -10,7 +10,7 @@
 
 namespace curvefusion {
 
-/// How points are moved onto the ridges of their density. Deviation: CurveFusion 3.2 contracts to
+/// How points are moved onto the ridges of their density. Deviation: CurveFusion 4.2 contracts to
 /// the L1 axis with a kernel of 15 to 25 mm, which merges wires nearer than that.
 struct RidgeProjectionOptions {
   double kernel_sigma = 0.0035;

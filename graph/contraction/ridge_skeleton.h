@@ -11,7 +11,7 @@
 
 namespace curvefusion {
 
-/// The best profile's way from points to curves, in place of the L1 axis (CurveFusion 3.2).
+/// The best profile's way from points to curves, in place of the L1 axis (CurveFusion 4.2).
 struct RidgeOptions {
   RidgeProjectionOptions projection;
   CurveNetworkOptions network;
