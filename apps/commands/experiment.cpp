@@ -219,10 +219,10 @@ void AddRequestOptions(CLI::App& command, ExperimentArguments& arguments) {
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command
-      .add_option(
-          "--objects", arguments.request.objects,
-          "Objects of the studies objects, bundle-size and ablation, or families of the study "
-          "families, separated by commas")
+      .add_option("--objects", arguments.request.objects,
+                  "Objects of the studies objects, bundle-size, comparisons and ablation, or "
+                  "families of the "
+                  "study families, separated by commas")
       ->delimiter(',');
   command
       .add_option(

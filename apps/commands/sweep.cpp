@@ -222,8 +222,8 @@ void AddRunnerOptions(CLI::App& command, SweepArguments& arguments) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command
       .add_option("--jobs", arguments.runner.jobs,
-                  "With run: cores of this machine, otherwise all; with --slurm, jobs in its queue "
-                  "at a time, otherwise 64")
+                  "With run: cores to use (default all); with --slurm, jobs in its queue at a time "
+                  "(default 64)")
       ->check(CLI::Range(1, 10000));
   command.add_flag("--slurm", arguments.runner.slurm,
                    "With run: every scan and cell is a job of Slurm; all machines see the folder");

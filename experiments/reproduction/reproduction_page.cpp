@@ -20,7 +20,7 @@ constexpr const char* kWords =
     "For "
     "another method or sensor that the paper says fails, *reproduced* means that it fails here "
     "too. "
-    "*Not measured*: no study, or none of its runs are finished. F at 2 or 5 mm is the harmonic "
+    "*Not measured*: no study, or no finished run of that case. F at 2 or 5 mm is the harmonic "
     "mean "
     "of precision and recall within that distance, after one rigid alignment to the truth. In "
     "brackets: least and greatest seed.";
