@@ -20,13 +20,13 @@ struct Panel {
   const char* title;
   double least_range;
 };
-constexpr Panel kPanels[] = {{"F2 aligned", "F at 2 mm, aligned", 0.05},
-                             {"junction recall", "Junction recall", 0.05},
-                             {"junction precision", "Junction precision", 0.05},
-                             {"diameter error (mm)", "Diameter error, mm", 0.1},
-                             {"CPU s per 30 frames", "CPU s, 30 frames", 0.5}};
+constexpr Panel kPanels[] = {{"F2 aligned", "F at 2 mm,\\naligned", 0.05},
+                             {"junction recall", "Junction\\nrecall", 0.05},
+                             {"junction precision", "Junction\\nprecision", 0.05},
+                             {"diameter error (mm)", "Diameter\\nerror, mm", 0.1},
+                             {"CPU s per 30 frames", "CPU s,\\n30 frames", 0.5}};
 constexpr double kRowHeight = 0.14;     // inches
-constexpr double kTitleAndTicks = 0.5;  // inches
+constexpr double kTitleAndTicks = 0.6;  // inches
 
 // Rows of a number, a name and the changes.
 std::string ChangesData(const std::vector<ChangeRow>& rows) {
@@ -98,13 +98,14 @@ std::string ChangesCommands(const std::vector<ChangeRow>& rows, double label_wid
       "set grid xtics linecolor rgb '#DDDDDD' linewidth 0.6 dashtype 1\n"
       "set arrow 1 from 0,graph 0 to 0,graph 1 nohead linecolor rgb '#444444' linewidth 0.8\n"
       "set multiplot layout 1,{} margins {:.3f},0.985,{:.3f},{:.3f} spacing 0.02,0\n",
-      rows.size(), std::size(kPanels), label_width, 0.25 / height, 1 - 0.25 / height);
+      rows.size(), std::size(kPanels), label_width, 0.25 / height, 1 - 0.35 / height);
   int column = 3;
   for (const Panel& panel : kPanels) {
     const double range = RangeOf(panel, rows);
     const bool first = column == 3;
     commands += fmt::format(
-        "set title '{0}' offset 0,-0.6\nset xrange [-{1}:{1}]\nset xtics (-{2}, 0, {2})\n"
+        "set title \"{0}\" offset 0,-0.6\nset xrange [-{1}:{1}]\nset xtics (-{2}, 0, {2}) font "
+        "',6'\n"
         "plot {3}{4}{5}\nunset ytics\n",
         panel.title, range, TickBelow(0.8 * range),
         first ? "data using (0):1:ytic(2) with points pointsize 0, " : "",
