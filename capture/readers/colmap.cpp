@@ -339,7 +339,8 @@ void AddImages(const ColmapModel& model, const fs::path& folder, const std::stri
     const fs::path color = ColorFolder(folder) / image.name;
     const fs::path depth = (folder / "depth" / image.name).replace_extension(".png");
     const auto pose = with_poses ? PoseOf(image, where, on_finding) : RigidTransform::Identity();
-    if (!fs::exists(depth) || !fs::exists(color)) {
+    std::error_code unreadable;  // such as a name that is too long
+    if (!fs::exists(depth, unreadable) || !fs::exists(color, unreadable)) {
       ++sequence.frames_without_partner;
     } else if (!pose) {
       ++sequence.frames_without_pose;
