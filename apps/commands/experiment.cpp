@@ -221,8 +221,7 @@ void AddRequestOptions(CLI::App& command, ExperimentArguments& arguments) {
   command
       .add_option("--objects", arguments.request.objects,
                   "Objects of the studies objects, bundle-size, comparisons and ablation, or "
-                  "families of the "
-                  "study families, separated by commas")
+                  "families of the study families, separated by commas")
       ->delimiter(',');
   command
       .add_option(

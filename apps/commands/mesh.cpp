@@ -51,24 +51,22 @@ MeshUnit UnitOf(const MeshArguments& arguments, const std::filesystem::path& pat
   return arguments.unit == "mm" ? MeshUnit::kMillimetres : MeshUnit::kMetres;
 }
 
-bool TellsItsUnit(const std::filesystem::path& path) {
-  return path.extension() == ".glb" || path.extension() == ".3mf";
-}
+// The unit of a mesh from elsewhere, and what is said of it where neither the file nor the user
+// tells.
+struct AssumedUnit {
+  MeshUnit unit;
+  const char* remark;
+};
 
-// Of a mesh from elsewhere. Nothing that is scanned by hand is 20 metres large, nor as small as 20
-// millimetres (chosen).
-MeshUnit LikelyUnit(const MeshArguments& arguments, const Vec3& size) {
-  const bool is_known = !arguments.unit.empty() || TellsItsUnit(arguments.input);
-  return !is_known && size.maxCoeff() > 20 ? MeshUnit::kMillimetres
-                                           : UnitOf(arguments, arguments.input);
-}
-
-// What a size says of the unit that it is in.
-const char* UnitRemark(const MeshArguments& arguments, MeshUnit unit) {
-  if (!arguments.unit.empty() || TellsItsUnit(arguments.input)) return "";
-  return unit == MeshUnit::kMetres
-             ? " (coordinates taken as metres; --unit mm if they are not)"
-             : " (coordinates taken as millimetres; --unit m if they are not)";
+AssumedUnit UnitOfInput(const MeshArguments& arguments, const Vec3& size) {
+  // Chosen: nothing that is scanned by hand is 20 metres large, nor as small as 20 millimetres.
+  constexpr double kLargest = 20;
+  const MeshUnit unit = UnitOf(arguments, arguments.input);
+  if (!arguments.unit.empty() || OnlyUnit(arguments.input)) return {unit, ""};
+  if (unit == MeshUnit::kMetres && size.maxCoeff() <= kLargest) {
+    return {unit, " (coordinates taken as metres; --unit mm if they are not)"};
+  }
+  return {MeshUnit::kMillimetres, " (coordinates taken as millimetres; --unit m if they are not)"};
 }
 
 void PrintSize(const Vec3& size, MeshUnit unit, const char* remark) {
@@ -85,32 +83,27 @@ void PrintReport(const WatertightReport& report, MeshUnit unit) {
              report.min_angle * 180 / std::numbers::pi);
 }
 
-void PrintCheck(const MeshArguments& arguments, const WatertightReport& report, MeshUnit unit) {
-  if (arguments.run.quiet) return;
-  PrintReport(report, unit);
-  const std::string defects = report.faces > 0 ? report.Defects() : "no faces";
-  fmt::print("  {}\n", report.IsWatertight() ? "watertight" : defects);
-  if (report.defect_place) {
-    const Vec3& p = *report.defect_place;
-    fmt::print("  the first near ({:g}, {:g}, {:g})\n", p.x(), p.y(), p.z());
+// Examines a mesh as another program would find it in its file; the exit code.
+int CheckMesh(const TriangleMesh& mesh, MeshUnit unit, bool quiet) {
+  const WatertightReport report = ExamineMesh(mesh);
+  if (!quiet) {
+    PrintReport(report, unit);
+    const std::string defects = report.faces > 0 ? report.Defects() : "no faces";
+    fmt::print("  {}\n", report.IsWatertight() ? "watertight" : defects);
+    if (report.defect_place) {
+      const Vec3& p = *report.defect_place;
+      fmt::print("  the first near ({:g}, {:g}, {:g})\n", p.x(), p.y(), p.z());
+    }
   }
-}
-
-// Examines the file that was written as another program would find it.
-int CheckOutput(const MeshArguments& arguments) {
-  const WatertightReport report = ExamineMesh(ReadMesh(arguments.output));
-  PrintCheck(arguments, report, UnitOf(arguments, arguments.output));
   return report.IsWatertight() ? 0 : kDefectFound;
 }
 
 int CheckInput(const MeshArguments& arguments) {
   const TriangleMesh mesh = ReadMesh(arguments.input);
-  const WatertightReport report = ExamineMesh(mesh);
   const Vec3 size = SizeOf(mesh);
-  const MeshUnit unit = LikelyUnit(arguments, size);
-  if (!arguments.run.quiet) PrintSize(size, unit, UnitRemark(arguments, unit));
-  PrintCheck(arguments, report, unit);
-  return report.IsWatertight() ? 0 : kDefectFound;
+  const auto [unit, remark] = UnitOfInput(arguments, size);
+  if (!arguments.run.quiet) PrintSize(size, unit, remark);
+  return CheckMesh(mesh, unit, arguments.run.quiet);
 }
 
 void ChooseRadii(const MeshArguments& arguments, SkeletonGraph& skeleton) {
@@ -179,7 +172,7 @@ int MeshSkeleton(const MeshArguments& arguments) {
       fmt::print("  warning: {}\n", warning);
     }
   }
-  return arguments.check ? CheckOutput(arguments) : 0;
+  return arguments.check ? CheckMesh(ReadMesh(arguments.output), unit, arguments.run.quiet) : 0;
 }
 
 int RunMesh(const MeshArguments& arguments) {

@@ -162,8 +162,7 @@ std::vector<Ablation> OfColours() {
       {"silhouettes",
        {"silhouettes.max_frames=0"},
        "Every image shows a wire as wire; depth shows false links between wires side by side and "
-       "loses "
-       "wires along the line of sight.",
+       "loses wires along the line of sight.",
        {"silhouettes"}},
       {"thin by proof",
        {"evidence.min_probability=0"},

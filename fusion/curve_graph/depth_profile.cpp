@@ -24,7 +24,8 @@ constexpr double kStepFar = 0.005;  // 1/m
 constexpr double kSteep = 2;
 constexpr double kReach = 0.03;  // metres to a side: the widest wires, 12 mm, and their fattening
 constexpr int kMaxGapPx = 4;     // without a measurement; the shadow beside a wire may be wider
-constexpr double kMapStep = 3;
+// Chosen: of one edge, what is so many times farther along it than across is another curve.
+constexpr double kAlongPerAcross = 3;
 
 double DepthTolerance(double z) { return kToleranceNear + kToleranceFar * z * z; }
 double DepthStep(double z) { return kStepNear + kStepFar * z * z; }
@@ -137,7 +138,7 @@ bool CurveMap::IsOther(int u, int v, const CurvePlace& place, double distance) c
   constexpr double kSameWire = 0.004;
   if (distance < kSameWire) return false;
   if (other.edge != place.edge) return true;
-  return std::abs(other.arc_length - place.arc_length) > kMapStep * distance;
+  return std::abs(other.arc_length - place.arc_length) > kAlongPerAcross * distance;
 }
 
 DepthProfile LookAcross(const DepthImage& depth, const PinholeCamera& camera,

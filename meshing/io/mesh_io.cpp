@@ -102,6 +102,10 @@ MeshUnit DefaultUnit(const std::filesystem::path& path) {
   return UnitOf(FormatOf(path), path, std::nullopt);
 }
 
+std::optional<MeshUnit> OnlyUnit(const std::filesystem::path& path) {
+  return FormatOf(path).only_unit;
+}
+
 void CheckMeshFormat(const std::filesystem::path& path, std::optional<MeshUnit> unit) {
   UnitOf(FormatOf(path), path, unit);
 }

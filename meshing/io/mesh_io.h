@@ -23,6 +23,10 @@ struct MeshFileOptions {
 /// Throws Error(kUsage) for an extension that is none of WriteMesh's.
 MeshUnit DefaultUnit(const std::filesystem::path& path);
 
+/// The unit of a format that has but one; nothing of those whose files do not tell their unit.
+/// Throws like DefaultUnit.
+std::optional<MeshUnit> OnlyUnit(const std::filesystem::path& path);
+
 /// Throws Error(kUsage) where WriteMesh would refuse this file for its extension or unit, so that
 /// long work before it can be spared.
 void CheckMeshFormat(const std::filesystem::path& path, std::optional<MeshUnit> unit);

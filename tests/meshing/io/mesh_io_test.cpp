@@ -71,6 +71,8 @@ TEST_F(MeshIo, MillimetresScaleByAThousandAndStayWatertight) {
 TEST_F(MeshIo, ThreeMfIsInMillimetresOfSixDecimals) {
   const TriangleMesh mesh = LatticeMesh();
   EXPECT_EQ(DefaultUnit("a.3mf"), MeshUnit::kMillimetres);
+  EXPECT_EQ(OnlyUnit("a.3MF"), MeshUnit::kMillimetres);
+  EXPECT_EQ(OnlyUnit("a.stl"), std::nullopt);
   EXPECT_THROW(WriteMesh(folder_ / "a.3mf", mesh, {MeshUnit::kMetres}), Error);
   EXPECT_THROW(WriteMesh(folder_ / "a.glb", mesh, {MeshUnit::kMillimetres}), Error);
   WriteMesh(folder_ / "a.3mf", mesh, {});
