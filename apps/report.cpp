@@ -31,7 +31,7 @@ std::string DiameterText(const GraphFigures& figures) {
 std::string TrustText(const Trust& trust) { return trust.is_judged() ? TrustLines(trust) : ""; }
 
 constexpr const char* kNothingThinHints =
-    "  Thin parts show where they are 2 to 12 mm thick, 0.5 to 0.9 m away, some centimetres in\n"
+    "  Thin parts show where they are 2 to 12 mm thick, 0.5 to 0.7 m away, some centimetres in\n"
     "  front of other things, and not black to the infrared camera. `curvefusion check` tells\n"
     "  whether poses and depth unit fit; --save-stages keeps what every step found.\n";
 

@@ -100,7 +100,7 @@ const ReportPage = (() => {
       element("h2", {}, "Nothing thin was found"),
       element("p", {}, `The main reason: ${data.nothing_found}.`),
       left ? element("p", {}, left) : "",
-      element("p", {}, "Thin parts show where they are 2 to 12 mm thick, 0.5 to 0.9 m away, some " +
+      element("p", {}, "Thin parts show where they are 2 to 12 mm thick, 0.5 to 0.7 m away, some " +
         "centimetres in front of other things, and not black to the infrared camera. " +
         "“curvefusion check” tells whether the camera's poses and the unit of depth fit."));
   }

@@ -161,7 +161,7 @@ void ReportDepth(const Sequence& sequence, const DepthSurvey& depth, const Repor
     reporter.Warn("too-far",
                   fmt::format("nine tenths of the depths are beyond {:.2f} m, where a wire of 5 mm "
                               "covers {:.1f} px: thin wires have no depth there and will be "
-                              "missing; go to within 0.5 to 0.9 m",
+                              "missing; go to within 0.5 to 0.7 m",
                               depth.near, sequence.depth_camera.fx * kWire / depth.near));
   }
   if (depth.validity > 0 && depth.validity < kMinValidity) {
