@@ -43,6 +43,10 @@ constexpr int kMinStrips = 300;
 // Chosen: a spring whose turns hide one another (training spring 3) has .085 and comes from .64 to
 // .17 px; adjustments that do not fit have .04 and less (training rack 1 and spring 4).
 constexpr double kMinAcceptedShare = 0.05;
+// Chosen: or so many of the strips that are accepted at places where most images show one. Curves
+// that fit have .47 and more, but for close coils; those that do not .05 at most
+// (docs/lab_notebook.md).
+constexpr double kMinAgreedShare = 0.5;
 // Curves that fit come to .1; more is a wire taken for the next.
 constexpr double kMaxResidualPx = 0.4;
 // Chosen: above what fitted curves come to (.1 to .2). Those that lay on their strips before need
@@ -54,6 +58,8 @@ constexpr size_t kMinHeldOut = 300;  // places seen; fewer tell nothing
 // chosen after the values were seen: four adjustments that were good read .70 to .76 px before and
 // .74 to .83 after, so only gross failures are refused.
 constexpr double kMaxLoss = 1.25;
+// Chosen: less tells nothing, as depth images lie beside colour images by about as much each.
+constexpr double kDepthMiddlePx = 0.5;
 constexpr double kFarPx = 3;  // from depth; farther is another wire
 // How well an adjusted pose is known.
 constexpr double kPlaceSigma = 0.2 * kMillimetre;
@@ -66,19 +72,23 @@ double VertexStep(const SkeletonGraph& skeleton, double step) {
   return std::max(step, skeleton.TotalLength() / kMaxVertices);
 }
 
+bool Drifts(const Sequence& sequence, const AdjustmentStart& start) {
+  return IsVideo(sequence) && start.pose_errors == PoseErrors::kDrift;
+}
+
 CurvePoseProblem MakeProblem(const Sequence& sequence, const CurveVertices& curves,
-                             const std::vector<int>& indices,
-                             const std::vector<RigidTransform>& T_world_given, bool drifts) {
+                             const std::vector<int>& indices, const AdjustmentStart& start) {
   CurvePoseProblem problem;
   problem.color_camera = sequence.color_camera;
   problem.depth_camera = sequence.depth_camera;
   problem.T_color_depth = sequence.T_color_depth;
   problem.start.positions = curves.positions;
   problem.rows = curves.rows;
+  problem.pose_errors = start.pose_errors;
   for (size_t i = 0; i < indices.size(); ++i) {
-    problem.T_world_given.push_back(T_world_given[indices[i]]);
+    problem.T_world_given.push_back(start.T_world_given[indices[i]]);
     problem.start.T_camera_world.push_back(sequence.frames[indices[i]].T_world_camera.inverse());
-    if (drifts && i > 0) problem.gaps.push_back(indices[i] - indices[i - 1]);
+    if (Drifts(sequence, start) && i > 0) problem.gaps.push_back(indices[i] - indices[i - 1]);
   }
   return problem;
 }
@@ -115,6 +125,19 @@ double AcceptedShare(const std::vector<FrameStrips>& strips) {
                               [](const SeenStrip& seen) { return seen.strip.accepted; });
   }
   return all > 0 ? static_cast<double>(accepted) / static_cast<double>(all) : 0;
+}
+
+// Strips of wires are seen again and again in the same places, those of textures here and there.
+double AgreedShare(const std::vector<FrameStrips>& strips, size_t vertices) {
+  const std::vector<char> told = ToldByColour(strips, vertices);
+  size_t accepted = 0, agreed = 0;
+  for (const FrameStrips& frame : strips) {
+    for (const SeenStrip& seen : frame) {
+      accepted += seen.strip.accepted;
+      agreed += seen.strip.accepted && told[seen.vertex];
+    }
+  }
+  return accepted > 0 ? static_cast<double>(agreed) / static_cast<double>(accepted) : 0;
 }
 
 // What only few images show beside a curve is not its wire.
@@ -156,14 +179,22 @@ ColorShift UseDepth(const Sequence& sequence, const ColourFrames& frames,
   return gauge.color_shift;
 }
 
-// Runs all rounds from `state` on; how the colour images lie.
-ColorShift RunRounds(const Sequence& sequence, const CurveVertices& curves, ColourFrames& frames,
-                     const ColourAdjustmentOptions& options, WireDepth depth,
-                     CurvePoseProblem& problem, CurvePoseState& state, ColourAdjustment& result) {
+// Curves and poses, and how the colour images lie.
+struct Fit {
+  CurvePoseState state;
   ColorShift color_shift;
+};
+
+// Runs all rounds, from how likely pixels of `frames` are to show wire.
+Fit RunRounds(const Sequence& sequence, const CurveVertices& curves, CurvePoseProblem problem,
+              const ColourAdjustmentOptions& options, WireDepth depth, ColourFrames& frames,
+              ColourAdjustment& result) {
+  Fit fit{problem.start, {}};
+  CurvePoseState& state = fit.state;
+  ColorShift& color_shift = fit.color_shift;
   color_shift.of_frames_px.assign(frames.size(), Vec2::Zero());
   color_shift.frame_sigmas_px.assign(frames.size(), Vec2::Zero());
-  LearnColours(ExpectStrips(curves, problem, state), curves, frames);
+  result.color_shift_px.setZero();
   for (const AdjustmentRound& round : kRounds) {
     const std::vector<FrameStrips> strips =
         TrackCurves(curves, problem, state, frames, round.search_px);
@@ -183,10 +214,11 @@ ColorShift RunRounds(const Sequence& sequence, const CurveVertices& curves, Colo
     if (round.learns_colours) LearnColours(strips, curves, frames);
     result.strips = static_cast<int>(problem.strips.size());
     result.accepted_share = AcceptedShare(strips);
+    result.agreed_share = AgreedShare(strips, curves.positions.size());
     if (result.strips < kMinStrips) break;
   }
   result.residual_px = MedianResidual(problem, state);
-  return color_shift;
+  return fit;
 }
 
 // The adjustment fits all frames to one another; the first of a video anchor the world.
@@ -258,7 +290,9 @@ std::optional<double> DepthDisagreement(const Sequence& sequence, const CurveVer
 
 // Why an adjustment is not to be believed; empty where it is.
 std::string ReasonToSkip(const ColourAdjustment& result) {
-  if (result.strips < kMinStrips || result.accepted_share < kMinAcceptedShare) {
+  const bool is_seen =
+      result.accepted_share >= kMinAcceptedShare || result.agreed_share >= kMinAgreedShare;
+  if (result.strips < kMinStrips || !is_seen) {
     return fmt::format(
         "the wires' colour tells them from the background in {} places only ({:.0f} % of those "
         "looked at)",
@@ -306,9 +340,8 @@ bool CameNearer(const ColourAdjustment& adjusted) {
 }
 
 ColourAdjustment AdjustToColours(const SkeletonGraph& skeleton, const Sequence& sequence,
-                                 const std::vector<RigidTransform>& T_world_given,
-                                 const ColourAdjustmentOptions& options, WireDepth depth,
-                                 PoseErrors pose_errors) {
+                                 const AdjustmentStart& start,
+                                 const ColourAdjustmentOptions& options) {
   ColourAdjustment result;
   result.skeleton = skeleton;
   for (const SequenceFrame& frame : sequence.frames) {
@@ -324,12 +357,14 @@ ColourAdjustment AdjustToColours(const SkeletonGraph& skeleton, const Sequence& 
   }
   ColourFrames frames =
       LoadColourFrames(sequence, ChooseColourFrames(sequence, options.frame_stride));
-  const bool drifts = IsVideo(sequence) && pose_errors == PoseErrors::kDrift;
-  CurvePoseProblem problem = MakeProblem(sequence, curves, frames.indices, T_world_given, drifts);
-  problem.pose_errors = pose_errors;
-  CurvePoseState state = problem.start;
-  const ColorShift color_shift =
-      RunRounds(sequence, curves, frames, options, depth, problem, state, result);
+  const CurvePoseProblem problem = MakeProblem(sequence, curves, frames.indices, start);
+  const std::vector<FrameStrips> expected = ExpectStrips(curves, problem, problem.start);
+  LearnColours(expected, curves, frames);
+  Fit fit = RunRounds(sequence, curves, problem, options, start.depth, frames, result);
+  if (!ReasonToSkip(result).empty()) {
+    LookUpFirst(sequence, start.colours, MedianWidthPx(expected), frames);
+    fit = RunRounds(sequence, curves, problem, options, start.depth, frames, result);
+  }
   result.frames = std::move(frames.indices);
   result.posteriors = std::move(frames.posteriors);
   result.skipped = ReasonToSkip(result);
@@ -338,27 +373,28 @@ ColourAdjustment AdjustToColours(const SkeletonGraph& skeleton, const Sequence& 
     return result;
   }
   std::vector<RigidTransform> poses;
-  for (const RigidTransform& T_camera_world : state.T_camera_world) {
+  for (const RigidTransform& T_camera_world : fit.state.T_camera_world) {
     poses.push_back(T_camera_world.inverse());
   }
   CurveVertices moved = curves;
-  moved.positions = state.positions;
-  if (drifts) {
-    const RigidTransform T_anchored_world = Anchor(
-        T_world_given, result.frames, poses, sequence.color_camera, color_shift.frame_sigmas_px);
+  moved.positions = fit.state.positions;
+  if (Drifts(sequence, start)) {
+    const RigidTransform T_anchored_world =
+        Anchor(start.T_world_given, result.frames, poses, sequence.color_camera,
+               fit.color_shift.frame_sigmas_px);
     for (RigidTransform& pose : poses) pose = T_anchored_world * pose;
     for (Vec3& position : moved.positions) position = T_anchored_world * position;
   }
   std::vector<RigidTransform> T_world_adjusted =
-      InterpolateCorrections(T_world_given, result.frames, poses);
-  const std::vector<int> held_out = depth == WireDepth::kShown
+      InterpolateCorrections(start.T_world_given, result.frames, poses);
+  const std::vector<int> held_out = start.depth == WireDepth::kShown
                                         ? HeldOutFrames(sequence.frame_count(), result.frames)
                                         : std::vector<int>{};
   const auto before = DepthDisagreement(sequence, curves, curves.positions, result.T_world_camera,
                                         held_out, options.axis_depth);
   const auto after = DepthDisagreement(sequence, curves, moved.positions, T_world_adjusted,
                                        held_out, options.axis_depth);
-  if (before && after && *after > kMaxLoss * *before) {
+  if (before && after && *after > kMaxLoss * std::max(*before, kDepthMiddlePx)) {
     result.skipped = fmt::format(
         "depth images that were not used agree less with the curves: {:.2f} px before, {:.2f} "
         "after",
@@ -370,7 +406,7 @@ ColourAdjustment AdjustToColours(const SkeletonGraph& skeleton, const Sequence& 
   result.T_world_camera = std::move(T_world_adjusted);
   for (size_t i = 0; i < poses.size(); ++i) {
     result.T_world_camera[result.frames[i]] =
-        poses[i] * TurnLike(color_shift.of_frames_px[i], sequence.color_camera);
+        poses[i] * TurnLike(fit.color_shift.of_frames_px[i], sequence.color_camera);
   }
   return result;
 }

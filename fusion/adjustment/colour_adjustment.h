@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,15 @@ void VisitOptions(ColourAdjustmentOptions& options, OptionVisitor& visitor);
 /// Whether depth images show wires where they are. Where they do not, colour images alone count.
 enum class WireDepth { kShown, kNotShown };
 
+/// What an adjustment starts from.
+struct AdjustmentStart {
+  std::vector<RigidTransform> T_world_given;    ///< of all frames, as the tracker gave them
+  PoseErrors pose_errors = PoseErrors::kDrift;  ///< how these err
+  WireDepth depth = WireDepth::kShown;
+  /// The wires' colours as depth's thin pixels show them (WireColours); may be empty.
+  std::vector<uint8_t> colours = {};
+};
+
 /// What an adjustment came to. Where it could not help (`skipped` tells why), skeleton and poses
 /// are those that were given.
 struct ColourAdjustment {
@@ -38,10 +48,11 @@ struct ColourAdjustment {
   std::vector<PosteriorImage> posteriors;  ///< of each of them, as learned last
   int strips = 0;                          ///< accepted in the last round
   double accepted_share = 0;               ///< of the strips looked for
-  int depths = 0;                          ///< depth measurements that held the movement along rays
-  double depth_scatter = 0;                ///< of these about the curves, see DepthGauge
-  double start_residual_px = 0;            ///< median distance of curve and strip before
-  double residual_px = 0;                  ///< and after
+  double agreed_share = 0;       ///< of the accepted ones those at vertices that colour alone holds
+  int depths = 0;                ///< depth measurements that held the movement along rays
+  double depth_scatter = 0;      ///< of these about the curves, see DepthGauge
+  double start_residual_px = 0;  ///< median distance of curve and strip before
+  double residual_px = 0;        ///< and after
 };
 
 /// Whether curves came nearer to their strips; they do not where they lay on them before.
@@ -50,15 +61,14 @@ bool CameNearer(const ColourAdjustment& adjusted);
 /// Bundle adjustment of curves and camera poses: vertices every few millimetres along the edges,
 /// strips of wire colour found across them in the images of ChooseColourFrames (of vertices with
 /// few strips also single edges), and Gauss-Newton over all vertices and poses, six rounds with a
-/// shrinking search. `sequence` holds the poses that `skeleton` (with radii) was made with,
-/// `T_world_given` those of the tracker, which err as `pose_errors` says. Deviation: CurveFusion
-/// uses colour for ghosts and radii only; depth errs by several millimetres where colour edges are
-/// seen to a tenth of a pixel. Throws Error(kBadInput) for images that cannot be decoded. Cost: .1
-/// s a frame used for 3 m of wire.
+/// shrinking search. Where curves lie so far beside their strips that the colours learned at their
+/// places are the background's, that of which nothing came is done again from what images show
+/// without them (LookUpFirst). `sequence` holds the poses that `skeleton` (with radii) was made
+/// with. Deviation: CurveFusion uses colour for ghosts and radii only; depth errs by several
+/// millimetres where colour edges are seen to a tenth of a pixel. Throws Error(kBadInput) for
+/// images that cannot be decoded. Cost: .1 s a frame used for 3 m of wire.
 ColourAdjustment AdjustToColours(const SkeletonGraph& skeleton, const Sequence& sequence,
-                                 const std::vector<RigidTransform>& T_world_given,
-                                 const ColourAdjustmentOptions& options,
-                                 WireDepth depth = WireDepth::kShown,
-                                 PoseErrors pose_errors = PoseErrors::kDrift);
+                                 const AdjustmentStart& start,
+                                 const ColourAdjustmentOptions& options);
 
 }  // namespace curvefusion

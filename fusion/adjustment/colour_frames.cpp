@@ -6,9 +6,11 @@
 #include <utility>
 
 #include "capture/frame_stream.h"
+#include "fusion/appearance/local_contrast.h"
 #include "fusion/strips/edge_tracking.h"
 #include "kernel/parallel.h"
 #include "kernel/polyline.h"
+#include "kernel/quantile.h"
 
 namespace curvefusion {
 
@@ -245,6 +247,27 @@ std::vector<char> ToldByColour(const std::vector<FrameStrips>& strips, size_t ve
 
 std::vector<char> ShownByColour(const std::vector<FrameStrips>& strips, size_t vertices) {
   return AcceptedInShare(kShowingShare, strips, vertices);
+}
+
+double MedianWidthPx(const std::vector<FrameStrips>& strips) {
+  std::vector<double> widths_px;
+  for (const FrameStrips& frame : strips)
+    for (const SeenStrip& seen : frame) widths_px.push_back(seen.strip.width_px);
+  return widths_px.empty() ? 0 : Median(std::move(widths_px));
+}
+
+void LookUpFirst(const Sequence& sequence, const std::vector<uint8_t>& colours, double strip_px,
+                 ColourFrames& frames) {
+  frames.posteriors.clear();
+  ForEachFrame(
+      sequence, frames.indices, {.depth = false, .color = true}, [&](const DecodedFrame& frame) {
+        PosteriorImage& image =
+            frames.posteriors.emplace_back(LocalContrast(frame.color, strip_px));
+        if (colours.empty()) return;
+        const PosteriorImage coloured = ApplyPosterior(BinColours(frame.color), colours);
+        for (size_t i = 0; i < image.size(); ++i)
+          image.data()[i] = static_cast<uint8_t>((image.data()[i] + coloured.data()[i]) / 2);
+      });
 }
 
 void LearnColours(const std::vector<FrameStrips>& strips, const CurveVertices& curves,

@@ -62,6 +62,15 @@ std::vector<char> ToldByColour(const std::vector<FrameStrips>& strips, size_t ve
 /// thing, not of whatever lies behind.
 std::vector<char> ShownByColour(const std::vector<FrameStrips>& strips, size_t vertices);
 
+/// The width of the strips, pixels, in the median; 0 where there are none.
+double MedianWidthPx(const std::vector<FrameStrips>& strips);
+
+/// What images show before the wires' colours were learned, where places may be strips' widths off:
+/// the mean of their contrast (LocalContrast, for strips of this width) and of the posterior of
+/// `colours`, which may be empty. Decodes the images again.
+void LookUpFirst(const Sequence& sequence, const std::vector<uint8_t>& colours, double strip_px,
+                 ColourFrames& frames);
+
 /// Learns the colours of wire and background around the strips of all frames and looks them up in
 /// every image. Around vertices that colour does not tell (ToldByColour), where no other curve is
 /// near, what lies at the curve's own place is learned as well: a wire in the shade, of which no

@@ -131,7 +131,7 @@ std::vector<PlannedStage> BestStages(const Costs& costs, const RunSize& size) {
   Append(costs.ByColour(), size.by_colour ? 1 : 0, plan);
   Append({costs.Strips(), costs.Silhouettes(), costs.Radius(), costs.Evidence(), radii_again}, 1,
          plan);
-  double probability = size.by_colour ? 0 : 1;
+  double probability = 1;
   for (int round = 0; round < kColourRounds; ++round) {
     Append({costs.Wires(), costs.Radius()}, probability, plan);
     if (round >= size.rounds) probability *= AnotherRound(size);

@@ -14,6 +14,7 @@ void ReportAdjustment(const ColourAdjustment& adjusted, StageLog& log) {
   log.Count(stage, "frames", static_cast<double>(adjusted.frames.size()));
   log.Count(stage, "strips", adjusted.strips);
   log.Count(stage, "accepted share", adjusted.accepted_share);
+  log.Count(stage, "agreed share", adjusted.agreed_share);
   log.Count(stage, "depths", adjusted.depths);
   log.Count(stage, "scatter of depth", adjusted.depth_scatter);
   log.Count(stage, "residual before, px", adjusted.start_residual_px);
@@ -44,17 +45,19 @@ void AssignMeasuredRadii(double array_diameter, const RadiusOptions& options,
   AssignRadii(result.radii, result.skeleton);
 }
 
-std::optional<ColourAdjustment> AdjustCurvesAndPoses(const Sequence& given, WireDepth depth,
-                                                     PoseErrors pose_errors,
+std::vector<RigidTransform> FramePoses(const Sequence& sequence) {
+  std::vector<RigidTransform> poses;
+  for (const SequenceFrame& frame : sequence.frames) poses.push_back(frame.T_world_camera);
+  return poses;
+}
+
+std::optional<ColourAdjustment> AdjustCurvesAndPoses(const AdjustmentStart& start,
                                                      const ColourAdjustmentOptions& options,
                                                      const StageReporter& reporter,
                                                      Reconstruction& result) {
   if (!options.enabled || result.skeleton.empty()) return std::nullopt;
   const StageLog::Timer timer = reporter.Begin("colour adjustment");
-  std::vector<RigidTransform> T_world_given;
-  for (const SequenceFrame& frame : given.frames) T_world_given.push_back(frame.T_world_camera);
-  ColourAdjustment adjusted =
-      AdjustToColours(result.skeleton, result.sequence, T_world_given, options, depth, pose_errors);
+  ColourAdjustment adjusted = AdjustToColours(result.skeleton, result.sequence, start, options);
   result.skeleton = adjusted.skeleton;
   for (size_t i = 0; i < result.sequence.frames.size(); ++i) {
     result.sequence.frames[i].T_world_camera = adjusted.T_world_camera[i];

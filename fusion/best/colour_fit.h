@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "capture/sequence.h"
 #include "fusion/adjustment/colour_adjustment.h"
@@ -22,11 +23,12 @@ RadiusEstimate MeasureRadii(const SkeletonGraph& skeleton, const Sequence& seque
 void AssignMeasuredRadii(double array_diameter, const RadiusOptions& options,
                          const StageReporter& reporter, Reconstruction& result);
 
+/// The poses of all frames.
+std::vector<RigidTransform> FramePoses(const Sequence& sequence);
+
 /// Deviation: curves of known radius and poses of the result as exact as the colour images show
-/// them; `given` has the poses that errors are counted from. Nothing where nothing was
-/// changed. Throws like MeasureRadii.
-std::optional<ColourAdjustment> AdjustCurvesAndPoses(const Sequence& given, WireDepth depth,
-                                                     PoseErrors pose_errors,
+/// them. Nothing where nothing was changed. Throws like MeasureRadii.
+std::optional<ColourAdjustment> AdjustCurvesAndPoses(const AdjustmentStart& start,
                                                      const ColourAdjustmentOptions& options,
                                                      const StageReporter& reporter,
                                                      Reconstruction& result);

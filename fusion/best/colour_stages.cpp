@@ -158,7 +158,7 @@ void TellPlan(RunSize& size, const BestOptions& options, const StageReporter& re
 // until little is added: a new curve lies where places were found, some millimetres beside its
 // strips, and explains strips for which lines of sight had several places. Depth looks past most of
 // these wires: they have their proof from the images that show them.
-void CompleteByColour(const Sequence& given, std::optional<StripViews> strips,
+void CompleteByColour(const AdjustmentStart& start, std::optional<StripViews> strips,
                       double array_diameter, RunSize size, const BestOptions& options,
                       const StageReporter& reporter, Reconstruction& result) {
   for (int round = 0; round < kColourRounds; ++round) {
@@ -171,15 +171,15 @@ void CompleteByColour(const Sequence& given, std::optional<StripViews> strips,
     if (added != 0) AssignMeasuredRadii(array_diameter, options.radius, reporter, result);
     if (size.has_last_round) break;
     const auto before = result.trust;
-    const std::optional<ColourAdjustment> adjusted = AdjustCurvesAndPoses(
-        given, WireDepth::kShown, PoseErrors::kDrift, options.colour_adjustment, reporter, result);
+    const std::optional<ColourAdjustment> adjusted =
+        AdjustCurvesAndPoses(start, options.colour_adjustment, reporter, result);
     if (!adjusted) {
       result.trust = before;  // of the adjustment that stands
       break;
     }
     result.trust.residual_before_px = before.residual_before_px;
     strips = LookForStrips(*adjusted, reporter, result);
-    CorrectBySilhouettes(*adjusted, *strips, WireDepth::kShown, options, reporter, result);
+    CorrectBySilhouettes(*adjusted, *strips, start.depth, options, reporter, result);
     AssignMeasuredRadii(array_diameter, options.radius, reporter, result);
   }
   result.trust.wire_length = std::min(result.trust.wire_length, result.skeleton.TotalLength());
@@ -202,28 +202,29 @@ void RefineByColour(const Sequence& given, const SegmentationModel& model, RunSi
   const auto measure_radii = [&] {
     AssignMeasuredRadii(model.array_diameter, options.radius, reporter, result);
   };
-  WireDepth depth = WireDepth::kShown;
+  AdjustmentStart start = {FramePoses(given), PoseErrors::kDrift, WireDepth::kShown,
+                           model.colours.posterior};
   const auto keep_proven = [&](const std::string& name, double share) {
     const double min_probability = share * options.evidence.min_probability;
     // Depth that does not show wires says nothing for or against them.
-    const int depth_images = depth == WireDepth::kShown ? options.evidence.max_frames : 0;
+    const int depth_images = start.depth == WireDepth::kShown ? options.evidence.max_frames : 0;
     if (KeepProvenWires(name, min_probability, depth_images, reporter, result)) measure_radii();
   };
   TellPlan(size, options, reporter, result);
   measure_radii();
   // Nothing is to be added to what is hardly a wire.
   keep_proven("evidence_before_colour", kHardlyAWire);
-  std::optional<ColourAdjustment> adjusted = AdjustCurvesAndPoses(
-      given, depth, PoseErrors::kDrift, options.colour_adjustment, reporter, result);
+  std::optional<ColourAdjustment> adjusted =
+      AdjustCurvesAndPoses(start, options.colour_adjustment, reporter, result);
   if (UsesColourStart(options, adjusted, result)) {
     size.by_colour = true;
     TellPlan(size, options, reporter, result);
     const DepthCurves depth_curves = adjusted ? DepthCurves::kMisplaced : DepthCurves::kDoubtful;
-    std::optional<ColourAdjustment> from_colour =
+    std::optional<ColourCurves> from_colour =
         StartFromColour(given, model.colours, depth_curves, options, reporter, result);
     if (from_colour) {
-      adjusted = std::move(from_colour);
-      depth = WireDepth::kNotShown;
+      adjusted = std::move(from_colour->adjusted);
+      start = std::move(from_colour->start);
     } else {
       size.by_colour = false;
       TellPlan(size, options, reporter, result);
@@ -232,16 +233,15 @@ void RefineByColour(const Sequence& given, const SegmentationModel& model, RunSi
   std::optional<StripViews> strips;
   if (adjusted) {
     strips = LookForStrips(*adjusted, reporter, result);
-    CorrectBySilhouettes(*adjusted, *strips, depth, options, reporter, result);
+    CorrectBySilhouettes(*adjusted, *strips, start.depth, options, reporter, result);
   } else if (model.array_spacing > 0) {
     PruneUnadjusted(model.colours, options.silhouettes, reporter, result);
   }
   measure_radii();
   keep_proven("evidence", 1);
-  // Curves that came from colour alone are all that it shows.
-  if (adjusted && depth == WireDepth::kShown) {
+  if (adjusted) {
     adjusted.reset();  // its images are not needed any more
-    CompleteByColour(given, std::move(strips), model.array_diameter, size, options, reporter,
+    CompleteByColour(start, std::move(strips), model.array_diameter, size, options, reporter,
                      result);
     strips.reset();
   }

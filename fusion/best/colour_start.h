@@ -17,6 +17,12 @@ enum class DepthCurves {
   kMisplaced,  ///< depth was measured to scatter about the wires that images show
 };
 
+/// What colour images gave, and what it is to be adjusted from again.
+struct ColourCurves {
+  ColourAdjustment adjusted;
+  AdjustmentStart start;
+};
+
 /// Deviation: curves and poses from colour images alone, for cameras whose depth shows wires in
 /// wrong places. Depth still tells where the object is (result.points), what stands before or
 /// behind a place (FindColourCandidates), and by its thin pixels the wires' colours (`colours`).
@@ -30,13 +36,12 @@ enum class DepthCurves {
 /// Replaces curves, points, radii and poses of the result where the images show more metres of the
 /// new curves as wire than of those that were there, metres that they do not show taken off; where
 /// these are only doubtful, also more without taking any off: images that hardly show depth's
-/// curves may hardly show wires at all. With options.colour_start.always wherever there are any.
-/// Nothing otherwise. Throws Error(kBadInput) for an image that cannot be read. Costs about .1 s an
-/// image, at most 90 of them.
-std::optional<ColourAdjustment> StartFromColour(const Sequence& given, const WireColours& colours,
-                                                DepthCurves depth_curves,
-                                                const BestOptions& options,
-                                                const StageReporter& reporter,
-                                                Reconstruction& result);
+/// curves may hardly show wires at all. Most of the new curves must lie in pixels in which depth
+/// shows something thin, as wires do and what is painted on surfaces does not. With
+/// options.colour_start.always wherever there are any. Nothing otherwise. Throws Error(kBadInput)
+/// for an image that cannot be read. Costs about .1 s an image, at most 90 of them.
+std::optional<ColourCurves> StartFromColour(const Sequence& given, const WireColours& colours,
+                                            DepthCurves depth_curves, const BestOptions& options,
+                                            const StageReporter& reporter, Reconstruction& result);
 
 }  // namespace curvefusion

@@ -129,6 +129,29 @@ class ColourAdjustmentTest : public testing::Test {
     return sum / static_cast<double>(Offsets(skeleton).size());
   }
 
+  // The same after the motion along which all lie nearest: curves and poses may share one.
+  static double DistanceAsMoved(const SkeletonGraph& skeleton) {
+    const std::vector<RenderedWire> wires = Wires({});
+    const std::vector<EdgeId> edges = skeleton.Edges();
+    const std::vector<Vec3> offsets = Offsets(skeleton);
+    std::vector<Mat3> across;
+    for (size_t e = 0; e < edges.size(); ++e) {
+      const Vec3 axis = (wires[e].back - wires[e].front).normalized();
+      across.insert(across.end(), skeleton.edge(edges[e]).points.size(),
+                    Mat3::Identity() - axis * axis.transpose());
+    }
+    Mat3 matrix = Mat3::Zero();
+    Vec3 rhs = Vec3::Zero();
+    for (size_t i = 0; i < offsets.size(); ++i) {
+      matrix += across[i];
+      rhs += offsets[i];
+    }
+    const Vec3 motion = matrix.ldlt().solve(rhs);
+    double sum = 0;
+    for (size_t i = 0; i < offsets.size(); ++i) sum += (offsets[i] - across[i] * motion).norm();
+    return sum / static_cast<double>(offsets.size());
+  }
+
   static std::filesystem::path folder_;
 };
 std::filesystem::path ColourAdjustmentTest::folder_;
@@ -136,7 +159,7 @@ std::filesystem::path ColourAdjustmentTest::folder_;
 TEST_F(ColourAdjustmentTest, CurvesAndPosesFitTheImages) {
   const Sequence sequence = DriftedSequence("green");
   const ColourAdjustment adjusted =
-      AdjustToColours(WrongSkeleton(), sequence, Given(sequence), {.frame_stride = 1});
+      AdjustToColours(WrongSkeleton(), sequence, {Given(sequence)}, {.frame_stride = 1});
   EXPECT_EQ(adjusted.skipped, "");
   EXPECT_GT(adjusted.start_residual_px, 1);
   EXPECT_LT(adjusted.residual_px, 0.15);  // what the real cable is asked for
@@ -169,7 +192,7 @@ TEST_F(ColourAdjustmentTest, ColourImagesBesideTheirDepthImages) {
     drift << 0.0003 * i, -0.0003 * i, 0, 0, 0.0003 * i, 0.0003 * i;
     frame.T_world_camera = pose * RigidTransformOf(drift);
   }
-  const ColourAdjustment adjusted = AdjustToColours(WrongSkeleton(), sequence, Given(sequence),
+  const ColourAdjustment adjusted = AdjustToColours(WrongSkeleton(), sequence, {Given(sequence)},
                                                     {.frame_stride = 1, .axis_depth = 0});
   EXPECT_EQ(adjusted.skipped, "");
   EXPECT_NEAR((adjusted.color_shift_px - shift).norm(), 0, 0.25);
@@ -214,7 +237,7 @@ TEST_F(ColourAdjustmentTest, WhatDepthOfOtherFramesContradictsIsRefused) {
                       std::vector<double>(2, 0.5 * wire.diameter));
   }
   const ColourAdjustment adjusted =
-      AdjustToColours(skeleton, sequence, Given(sequence), {.frame_stride = 3, .axis_depth = 0});
+      AdjustToColours(skeleton, sequence, {Given(sequence)}, {.frame_stride = 3, .axis_depth = 0});
   EXPECT_NE(adjusted.skipped.find("depth images that were not used"), std::string::npos)
       << adjusted.skipped << adjusted.start_residual_px << " " << adjusted.residual_px;
   EXPECT_TRUE(adjusted.color_shift_px.isZero());
@@ -223,10 +246,40 @@ TEST_F(ColourAdjustmentTest, WhatDepthOfOtherFramesContradictsIsRefused) {
   }
 }
 
-TEST_F(ColourAdjustmentTest, WithoutContrastNothingChanges) {
+// 7 mm are 6 pixels, more than a strip is wide: at the curves' places is background, and what is
+// learned there tells it from nothing.
+TEST_F(ColourAdjustmentTest, CurvesBesideAllOfTheirStripsAreFoundByContrast) {
+  const Sequence sequence = DriftedSequence("green");
+  SkeletonGraph skeleton = WrongSkeleton();
+  for (const EdgeId edge : skeleton.Edges()) {
+    Polyline points = skeleton.edge(edge).points;
+    for (Vec3& p : points) p += Vec3(0.005, 0.005, 0);
+    skeleton.SetCurve(edge, points, skeleton.edge(edge).radii);
+  }
+  const ColourAdjustment adjusted =
+      AdjustToColours(skeleton, sequence, {Given(sequence)}, {.frame_stride = 1});
+  EXPECT_EQ(adjusted.skipped, "");
+  EXPECT_GT(adjusted.start_residual_px, 3);
+  EXPECT_LT(adjusted.residual_px, 0.15);
+  EXPECT_GT(adjusted.agreed_share, 0.9);
+  EXPECT_LT(DistanceAsMoved(adjusted.skeleton), 0.0007);
+}
+
+// Grey wires of the colours of their grey background still are darker than it on one side.
+TEST_F(ColourAdjustmentTest, WiresOfTheBackgroundsColoursAreFoundByContrast) {
   const Sequence sequence = DriftedSequence("grey");
   const ColourAdjustment adjusted =
-      AdjustToColours(WrongSkeleton(), sequence, Given(sequence), {.frame_stride = 1});
+      AdjustToColours(WrongSkeleton(), sequence, {Given(sequence)}, {.frame_stride = 1});
+  EXPECT_EQ(adjusted.skipped, "");
+  EXPECT_LT(adjusted.residual_px, 0.15);
+  EXPECT_LT(DistanceAsMoved(adjusted.skeleton), 0.001);  // 1.3 mm before
+}
+
+TEST_F(ColourAdjustmentTest, WithoutContrastNothingChanges) {
+  for (int i = 0; i < kFrames; ++i) WriteFrame(i, {}, "background");
+  const Sequence sequence = DriftedSequence("background");
+  const ColourAdjustment adjusted =
+      AdjustToColours(WrongSkeleton(), sequence, {Given(sequence)}, {.frame_stride = 1});
   EXPECT_NE(adjusted.skipped, "");
   for (int i = 0; i < kFrames; ++i) {
     EXPECT_EQ(adjusted.T_world_camera[i].matrix(), sequence.frames[i].T_world_camera.matrix());
@@ -237,10 +290,10 @@ TEST_F(ColourAdjustmentTest, WithoutContrastNothingChanges) {
 
 TEST_F(ColourAdjustmentTest, NoCurvesNoRadiiNoAdjustment) {
   const Sequence sequence = DriftedSequence("green");
-  EXPECT_NE(AdjustToColours({}, sequence, Given(sequence), {}).skipped, "");
+  EXPECT_NE(AdjustToColours({}, sequence, {Given(sequence)}, {}).skipped, "");
   SkeletonGraph without_radii;
   without_radii.AddPolyline({{0, 0, 0.5}, {0.1, 0, 0.5}});
-  EXPECT_NE(AdjustToColours(without_radii, sequence, Given(sequence), {}).skipped, "");
+  EXPECT_NE(AdjustToColours(without_radii, sequence, {Given(sequence)}, {}).skipped, "");
 }
 
 // Rungs every 14 mm, nowhere on the bar is 8.8 pixels from all of them, which a strip would need.
@@ -268,7 +321,7 @@ TEST_F(ColourAdjustmentTest, ABarWithARowOfWiresIsFoundByItsEdge) {
   }
   const auto mean_error = [&](bool edges) {
     const ColourAdjustment adjusted =
-        AdjustToColours(skeleton, sequence, Given(sequence), {.frame_stride = 1, .edges = edges});
+        AdjustToColours(skeleton, sequence, {Given(sequence)}, {.frame_stride = 1, .edges = edges});
     EXPECT_EQ(adjusted.skipped, "");
     double sum = 0;
     const Polyline& bar = adjusted.skeleton.edge(adjusted.skeleton.Edges().front()).points;
@@ -286,7 +339,7 @@ TEST_F(ColourAdjustmentTest, MuchWireHasVerticesFartherApart) {
   skeleton.SetCurve(skeleton.AddPolyline(unseen), unseen, {0.002, 0.002});
   const Sequence sequence = DriftedSequence("green");
   const ColourAdjustment adjusted =
-      AdjustToColours(skeleton, sequence, Given(sequence), {.frame_stride = 1});
+      AdjustToColours(skeleton, sequence, {Given(sequence)}, {.frame_stride = 1});
   EXPECT_EQ(adjusted.skipped, "");
   size_t points = 0;
   for (const EdgeId edge : adjusted.skeleton.Edges()) {
@@ -301,7 +354,7 @@ TEST_F(ColourAdjustmentTest, OfManyFramesTheFirstAndSomeOthersAreUsed) {
   Sequence many = few;
   while (many.frames.size() < 400) many.frames.push_back(few.frames[many.frames.size() % kFrames]);
   const ColourAdjustment adjusted =
-      AdjustToColours(WrongSkeleton(), many, Given(many), {.frame_stride = 1});
+      AdjustToColours(WrongSkeleton(), many, {Given(many)}, {.frame_stride = 1});
   EXPECT_EQ(adjusted.skipped, "");
   EXPECT_LT(adjusted.residual_px, 0.15);
   ASSERT_EQ(adjusted.frames.size(), 120u);
@@ -320,7 +373,7 @@ TEST_F(ColourAdjustmentTest, TheSameForAnyNumberOfThreads) {
   const Sequence sequence = DriftedSequence("green");
   const auto run = [&](int threads) {
     const ThreadLimit limit(threads);
-    return AdjustToColours(WrongSkeleton(), sequence, Given(sequence), {});
+    return AdjustToColours(WrongSkeleton(), sequence, {Given(sequence)}, {});
   };
   const ColourAdjustment one = run(1);
   const ColourAdjustment two = run(2);

@@ -45,19 +45,29 @@ WireColours ColoursOf(const Sequence& sequence) {
 class ColourStart : public testing::Test {
  protected:
   // Starts with curves of depth that are off by so much.
-  std::optional<ColourAdjustment> Start(double depth,
-                                        const BestOptions& options = DefaultBestOptions()) {
+  std::optional<ColourCurves> Start(double depth,
+                                    const BestOptions& options = DefaultBestOptions()) {
     result_.skeleton = WiresOffBy(depth);
+    AddPointsBehindWires(depth);
     return StartWithCurves(options, DepthCurves::kDoubtful);
   }
 
-  std::optional<ColourAdjustment> StartWithCurves(const BestOptions& options,
-                                                  DepthCurves depth_curves) {
-    result_.sequence = scan_.sequence();
-    for (const EdgeId id : result_.skeleton.Edges()) {
-      for (const Vec3& p : result_.skeleton.edge(id).points)
-        result_.points.Add(p, Vec3::UnitZ(), 1);
+  // What a camera sees that mixes wires with what is behind them.
+  void AddPointsBehindWires(double depth) {
+    for (const SequenceFrame& frame : scan_.sequence().frames) {
+      const Vec3 center = frame.T_world_camera.translation();
+      for (const Polyline& wire : kWires) {
+        for (const Vec3& p : Resample(wire, 0.004)) {
+          const Vec3 ray = (p - center).normalized();
+          result_.points.Add(p + depth * ray, ray, 1);
+        }
+      }
     }
+  }
+
+  std::optional<ColourCurves> StartWithCurves(const BestOptions& options,
+                                              DepthCurves depth_curves) {
+    result_.sequence = scan_.sequence();
     return StartFromColour(scan_.sequence(), ColoursOf(scan_.sequence()), depth_curves, options,
                            StageReporter{observer_, log_}, result_);
   }
@@ -89,6 +99,15 @@ TEST_F(ColourStart, FindsWiresThatDepthShowsInWrongPlaces) {
   EXPECT_EQ(result_.warnings.size(), 1u);
 }
 
+// Strips where depth shows nothing thin are painted on something.
+TEST_F(ColourStart, LeavesCurvesWhereDepthShowsNothingThinAtTheNewOnes) {
+  result_.skeleton = WiresOffBy(0.04);
+  for (const Vec3& p : Resample(kWires[0], 0.004)) result_.points.Add(p, Vec3::UnitZ(), 1);
+  for (const double x : {-0.1, 0.1}) result_.points.Add({x, x, 0}, Vec3::UnitZ(), 1);
+  EXPECT_FALSE(StartWithCurves(DefaultBestOptions(), DepthCurves::kDoubtful).has_value());
+  ASSERT_FALSE(log_.stages().empty());
+}
+
 TEST_F(ColourStart, LeavesCurvesThatTheImagesShow) {
   EXPECT_FALSE(Start(0).has_value());
   EXPECT_EQ(result_.skeleton.edge_count(), 3);
@@ -113,6 +132,7 @@ TEST_F(ColourStart, DoubtfulCurvesGiveWayOnlyWhereMoreIsShown) {
       const double x = -0.04 + 0.0015 * i;
       AddTestEdge(result_.skeleton, TestLine({x, 0.04, 0}, {x, 0.08, 0}));
     }
+    AddPointsBehindWires(0);
     return StartWithCurves(DefaultBestOptions(), depth_curves).has_value();
   };
   EXPECT_FALSE(with_what_nothing_shows(DepthCurves::kDoubtful));

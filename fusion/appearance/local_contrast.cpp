@@ -1,0 +1,47 @@
+#include "fusion/appearance/local_contrast.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+#include "kernel/quantile.h"
+
+namespace curvefusion {
+
+namespace {
+
+constexpr double kBlurPx = 0.8;
+constexpr double kBlurredPx =
+    4;                         // derived: 2 on either side, so that half of the window is beside it
+constexpr double kLeast = 10;  // grey levels; cameras' noise comes to 3
+constexpr double kOutstanding = 2.5;  // chosen: times the usual distance is as likely wire as not
+constexpr size_t kEvery = 17;         // so many-th pixel tells what is usual
+
+}  // namespace
+
+PosteriorImage LocalContrast(const ColorImage& image, double strip_px) {
+  const cv::Mat pixels(image.height(), image.width(), CV_8UC3, const_cast<Rgb*>(image.data()));
+  cv::Mat smooth, around;
+  cv::GaussianBlur(pixels, smooth, cv::Size(5, 5), kBlurPx);
+  const int reach = static_cast<int>(std::ceil(strip_px + kBlurredPx));
+  cv::medianBlur(smooth, around, 2 * reach + 1);
+  Image<float> distances(image.width(), image.height());
+  for (int v = 0; v < image.height(); ++v) {
+    const auto* colours = smooth.ptr<cv::Vec3b>(v);
+    const auto* usual = around.ptr<cv::Vec3b>(v);
+    for (int u = 0; u < image.width(); ++u)
+      distances(u, v) = static_cast<float>(cv::norm(cv::Vec3f(colours[u]) - cv::Vec3f(usual[u])));
+  }
+  std::vector<double> some;
+  for (size_t i = 0; i < distances.size(); i += kEvery) some.push_back(distances.data()[i]);
+  const double even = std::max(kLeast, kOutstanding * Median(std::move(some)));
+  PosteriorImage contrast(image.width(), image.height());
+  for (size_t i = 0; i < distances.size(); ++i) {
+    const double square = distances.data()[i] * distances.data()[i];
+    contrast.data()[i] = static_cast<uint8_t>(255 * square / (square + even * even));
+  }
+  return contrast;
+}
+
+}  // namespace curvefusion
