@@ -12,11 +12,14 @@ namespace curvefusion {
 namespace {
 
 constexpr double kBlurPx = 0.8;
-constexpr double kBlurredPx =
-    4;                         // derived: 2 on either side, so that half of the window is beside it
-constexpr double kLeast = 10;  // grey levels; cameras' noise comes to 3
-constexpr double kOutstanding = 2.5;  // chosen: times the usual distance is as likely wire as not
-constexpr size_t kEvery = 17;         // so many-th pixel tells what is usual
+// Derived: a strip is blurred by 2 px on either side and fills less than half of a window that
+// reaches this much farther than it is wide.
+constexpr double kBlurredPx = 4;
+constexpr double kWidestPx = 100;  // chosen: what is wider is nothing thin
+constexpr double kLeast = 10;      // grey levels; cameras' noise comes to 3
+// Chosen: so many times the usual distance is as likely wire as not.
+constexpr double kOutstanding = 2.5;
+constexpr size_t kEvery = 17;  // so many-th pixel tells what is usual
 
 }  // namespace
 
@@ -24,7 +27,7 @@ PosteriorImage LocalContrast(const ColorImage& image, double strip_px) {
   const cv::Mat pixels(image.height(), image.width(), CV_8UC3, const_cast<Rgb*>(image.data()));
   cv::Mat smooth, around;
   cv::GaussianBlur(pixels, smooth, cv::Size(5, 5), kBlurPx);
-  const int reach = static_cast<int>(std::ceil(strip_px + kBlurredPx));
+  const int reach = static_cast<int>(std::ceil(std::min(strip_px, kWidestPx) + kBlurredPx));
   cv::medianBlur(smooth, around, 2 * reach + 1);
   Image<float> distances(image.width(), image.height());
   for (int v = 0; v < image.height(); ++v) {

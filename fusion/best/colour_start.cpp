@@ -28,9 +28,9 @@ constexpr int kRounds = 2;            // chosen: the second has the poses of the
 constexpr double kStep = 0.003;       // metres, between the places that images are asked about
 constexpr double kShownAsWire = 0.9;  // of the images
 constexpr const char* kStage = "wires from colour";
-// Depth shows wires in wrong places, but in the right pixels. Measured on training scans: of the
-// curves from colour .84 and more lie where depth shows something thin, of those in rooms without
-// wires .42 at most (docs/lab_notebook.md).
+// Depth shows wires in wrong places, but in the right pixels. Chosen on four scans of wires, of
+// whose curves from colour .84 and more lie where depth shows something thin, and five rooms without
+// any, where .42 at most do (docs/lab_notebook.md).
 constexpr double kMinThinInDepth = 0.6;
 constexpr int kThinImages = 20;    // chosen: enough for a share
 constexpr double kThinCellPx = 8;  // chosen: of images 640 pixels wide
