@@ -1,6 +1,5 @@
 #include "fusion/segmentation/colour_verification.h"
 
-#include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
@@ -58,7 +57,7 @@ void VisitOptions(ColourEdgeOptions& options, OptionVisitor& visitor) {
       options.high_threshold);
   visitor.Visit({"tolerance_px", "px", 0, 10,
                  "A point within this distance of an edge lies on it; covers blur and "
-                 "colour-to-depth registration. Pixels of the depth image where these are larger."},
+                 "colour-to-depth registration."},
                 options.tolerance_px);
 }
 
@@ -77,9 +76,7 @@ MaskImage ColourEdges(const ColorImage& color, const ColourEdgeOptions& options)
 MaskImage MaskPixelsOnEdges(const MaskImage& mask, const DepthImage& depth, const MaskImage& edges,
                             const PinholeCamera& depth_camera, const PinholeCamera& color_camera,
                             const RigidTransform& T_color_depth, const ColourEdgeOptions& options) {
-  // Where a depth pixel covers several pixels of the colour image, its place is as uncertain.
-  const double px_per_depth_px = std::max(1.0, color_camera.fx / depth_camera.fx);
-  const MaskImage near_edges = Dilated(edges, options.tolerance_px * px_per_depth_px);
+  const MaskImage near_edges = Dilated(edges, options.tolerance_px);
   MaskImage on_edge(depth.width(), depth.height(), 0);
   ParallelFor(0, depth.height(), kRowsPerChunk, [&](int64_t row) {
     const int v = static_cast<int>(row);

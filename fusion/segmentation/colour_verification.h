@@ -19,8 +19,7 @@ void VisitOptions(ColourEdgeOptions& options, OptionVisitor& visitor);
 MaskImage ColourEdges(const ColorImage& color, const ColourEdgeOptions& options);
 
 /// 1 at every pixel of `mask` (a mask of the depth image) whose point projects within tolerance_px
-/// of a colour edge; where pixels of the depth image are larger than those of the colour image,
-/// tolerance_px counts these.
+/// of a colour edge.
 MaskImage MaskPixelsOnEdges(const MaskImage& mask, const DepthImage& depth, const MaskImage& edges,
                             const PinholeCamera& depth_camera, const PinholeCamera& color_camera,
                             const RigidTransform& T_color_depth, const ColourEdgeOptions& options);

@@ -49,22 +49,6 @@ TEST(MaskPixelsOnEdges, FollowsTheRegistration) {
   EXPECT_EQ(shifted(35, 24), 1);
 }
 
-// A pixel of depth covers four by four of the colour image: so far an edge may lie beside its
-// middle.
-TEST(MaskPixelsOnEdges, ATolerableDistanceIsOneOfDepthPixels) {
-  MaskImage edges(256, 192, 0);
-  edges(162, 98) = 1;  // in the middle of depth pixel (40, 24)
-  const DepthImage depth(64, 48, 0.6f);
-  const MaskImage all(64, 48, 1);
-  ColourEdgeOptions options;
-  options.tolerance_px = 2;
-  const MaskImage on_edge = MaskPixelsOnEdges(all, depth, edges, kCamera, kCamera.Scaled(4),
-                                              RigidTransform::Identity(), options);
-  EXPECT_EQ(on_edge(40, 24), 1);
-  EXPECT_EQ(on_edge(42, 24), 1);
-  EXPECT_EQ(on_edge(43, 24), 0);
-}
-
 TEST(MaskPixelsOnEdges, OnlyMaskPixelsCount) {
   const MaskImage edges(64, 48, 1), none(64, 48, 0);
   const DepthImage depth(64, 48, 0.6f);
