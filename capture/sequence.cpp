@@ -51,6 +51,12 @@ Sequence OpenSequence(const std::filesystem::path& folder, PoseUse use) {
   return sequence;
 }
 
+std::vector<RigidTransform> CameraPoses(const Sequence& sequence) {
+  std::vector<RigidTransform> poses;
+  for (const SequenceFrame& frame : sequence.frames) poses.push_back(frame.T_world_camera);
+  return poses;
+}
+
 double StepBetweenFrames(const Sequence& sequence, double share) {
   std::vector<double> steps;
   for (size_t i = 1; i < sequence.frames.size(); ++i) {

@@ -60,6 +60,9 @@ enum class PoseUse {
 /// would spoil a reconstruction; capture/check.h finds all of them. Well under a second.
 Sequence OpenSequence(const std::filesystem::path& folder, PoseUse use = PoseUse::kNeeded);
 
+/// The poses of the cameras of all frames.
+std::vector<RigidTransform> CameraPoses(const Sequence& sequence);
+
 /// How far, in metres, the camera moves at most from frame to frame in this share of the steps;
 /// infinity where there is only one frame.
 double StepBetweenFrames(const Sequence& sequence, double share);

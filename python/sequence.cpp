@@ -28,9 +28,7 @@ py::array CameraMatrix(const PinholeCamera& camera) {
 
 py::object Poses(const Sequence& sequence) {
   if (!sequence.has_poses) return py::none();
-  std::vector<RigidTransform> poses;
-  for (const SequenceFrame& frame : sequence.frames) poses.push_back(frame.T_world_camera);
-  return Matrices(poses);
+  return Matrices(CameraPoses(sequence));
 }
 
 py::array Timestamps(const Sequence& sequence) {

@@ -198,8 +198,7 @@ Figures DepthFigures(const Sequence& sequence) {
 
 Figures DisagreementFigures(const Sequence& sequence, const PoseErrorModel* errors, uint64_t seed) {
   constexpr uint64_t kDraws = 20;
-  std::vector<RigidTransform> poses;
-  for (const SequenceFrame& frame : sequence.frames) poses.push_back(frame.T_world_camera);
+  const std::vector<RigidTransform> poses = CameraPoses(sequence);
   Disagreement disagreement(sequence, PairsOf(sequence.frame_count()));
   if (errors == nullptr) disagreement.Add(poses);
   for (uint64_t draw = 0; errors != nullptr && draw < kDraws; ++draw) {

@@ -306,6 +306,20 @@ std::string ReasonToSkip(const ColourAdjustment& result) {
   return {};
 }
 
+// From the colours at the curves' places; where curves lie beside their strips, and these are the
+// background's, from what images show without them.
+Fit FitToColours(const Sequence& sequence, const CurveVertices& curves,
+                 const AdjustmentStart& start, const ColourAdjustmentOptions& options,
+                 ColourFrames& frames, ColourAdjustment& result) {
+  const CurvePoseProblem problem = MakeProblem(sequence, curves, frames.indices, start);
+  const std::vector<FrameStrips> expected = ExpectStrips(curves, problem, problem.start);
+  LearnColours(expected, curves, frames);
+  const Fit fit = RunRounds(sequence, curves, problem, options, start.depth, frames, result);
+  if (ReasonToSkip(result).empty()) return fit;
+  LookUpFirst(sequence, start.colours, MedianWidthPx(expected), frames);
+  return RunRounds(sequence, curves, problem, options, start.depth, frames, result);
+}
+
 }  // namespace
 
 void VisitOptions(ColourAdjustmentOptions& options, OptionVisitor& visitor) {
@@ -344,9 +358,7 @@ ColourAdjustment AdjustToColours(const SkeletonGraph& skeleton, const Sequence& 
                                  const ColourAdjustmentOptions& options) {
   ColourAdjustment result;
   result.skeleton = skeleton;
-  for (const SequenceFrame& frame : sequence.frames) {
-    result.T_world_camera.push_back(frame.T_world_camera);
-  }
+  result.T_world_camera = CameraPoses(sequence);
   const double step = VertexStep(skeleton, options.vertex_step);
   const CurveVertices curves = SampleVertices(skeleton, step, kCornerAngle);
   const bool has_radii = std::all_of(curves.radii.begin(), curves.radii.end(),
@@ -357,14 +369,7 @@ ColourAdjustment AdjustToColours(const SkeletonGraph& skeleton, const Sequence& 
   }
   ColourFrames frames =
       LoadColourFrames(sequence, ChooseColourFrames(sequence, options.frame_stride));
-  const CurvePoseProblem problem = MakeProblem(sequence, curves, frames.indices, start);
-  const std::vector<FrameStrips> expected = ExpectStrips(curves, problem, problem.start);
-  LearnColours(expected, curves, frames);
-  Fit fit = RunRounds(sequence, curves, problem, options, start.depth, frames, result);
-  if (!ReasonToSkip(result).empty()) {
-    LookUpFirst(sequence, start.colours, MedianWidthPx(expected), frames);
-    fit = RunRounds(sequence, curves, problem, options, start.depth, frames, result);
-  }
+  const Fit fit = FitToColours(sequence, curves, start, options, frames, result);
   result.frames = std::move(frames.indices);
   result.posteriors = std::move(frames.posteriors);
   result.skipped = ReasonToSkip(result);

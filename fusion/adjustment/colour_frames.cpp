@@ -264,7 +264,8 @@ void LookUpFirst(const Sequence& sequence, const std::vector<uint8_t>& colours, 
         PosteriorImage& image =
             frames.posteriors.emplace_back(LocalContrast(frame.color, strip_px));
         if (colours.empty()) return;
-        const PosteriorImage coloured = ApplyPosterior(BinColours(frame.color), colours);
+        const ColourBins& bins = frames.bins[frames.posteriors.size() - 1];
+        const PosteriorImage coloured = ApplyPosterior(bins, colours);
         for (size_t i = 0; i < image.size(); ++i)
           image.data()[i] = static_cast<uint8_t>((image.data()[i] + coloured.data()[i]) / 2);
       });

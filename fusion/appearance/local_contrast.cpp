@@ -11,7 +11,7 @@ namespace curvefusion {
 
 namespace {
 
-constexpr double kBlurPx = 0.8;
+constexpr double kBlurPx = 0.8;  // chosen: as for strips (strip_middles.cpp)
 // Derived: a strip is blurred by 2 px on either side and fills less than half of a window that
 // reaches this much farther than it is wide.
 constexpr double kBlurredPx = 4;

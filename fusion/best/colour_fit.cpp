@@ -45,12 +45,6 @@ void AssignMeasuredRadii(double array_diameter, const RadiusOptions& options,
   AssignRadii(result.radii, result.skeleton);
 }
 
-std::vector<RigidTransform> FramePoses(const Sequence& sequence) {
-  std::vector<RigidTransform> poses;
-  for (const SequenceFrame& frame : sequence.frames) poses.push_back(frame.T_world_camera);
-  return poses;
-}
-
 std::optional<ColourAdjustment> AdjustCurvesAndPoses(const AdjustmentStart& start,
                                                      const ColourAdjustmentOptions& options,
                                                      const StageReporter& reporter,

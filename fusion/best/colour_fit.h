@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include "capture/sequence.h"
 #include "fusion/adjustment/colour_adjustment.h"
@@ -22,9 +21,6 @@ RadiusEstimate MeasureRadii(const SkeletonGraph& skeleton, const Sequence& seque
 /// Measures the radii of the result's curves and sets them. Throws like MeasureRadii.
 void AssignMeasuredRadii(double array_diameter, const RadiusOptions& options,
                          const StageReporter& reporter, Reconstruction& result);
-
-/// The poses of all frames.
-std::vector<RigidTransform> FramePoses(const Sequence& sequence);
 
 /// Deviation: curves of known radius and poses of the result as exact as the colour images show
 /// them. Nothing where nothing was changed. Throws like MeasureRadii.

@@ -202,7 +202,7 @@ void RefineByColour(const Sequence& given, const SegmentationModel& model, RunSi
   const auto measure_radii = [&] {
     AssignMeasuredRadii(model.array_diameter, options.radius, reporter, result);
   };
-  AdjustmentStart start = {FramePoses(given), PoseErrors::kDrift, WireDepth::kShown,
+  AdjustmentStart start = {CameraPoses(given), PoseErrors::kDrift, WireDepth::kShown,
                            model.colours.posterior};
   const auto keep_proven = [&](const std::string& name, double share) {
     const double min_probability = share * options.evidence.min_probability;

@@ -29,8 +29,8 @@ constexpr double kStep = 0.003;       // metres, between the places that images 
 constexpr double kShownAsWire = 0.9;  // of the images
 constexpr const char* kStage = "wires from colour";
 // Depth shows wires in wrong places, but in the right pixels. Chosen on four scans of wires, of
-// whose curves from colour .84 and more lie where depth shows something thin, and five rooms without
-// any, where .42 at most do (docs/lab_notebook.md).
+// whose curves from colour .84 and more lie where depth shows something thin, and five rooms
+// without any, where .42 at most do (docs/lab_notebook.md).
 constexpr double kMinThinInDepth = 0.6;
 constexpr int kThinImages = 20;    // chosen: enough for a share
 constexpr double kThinCellPx = 8;  // chosen: of images 640 pixels wide
@@ -164,14 +164,12 @@ void ContractPlacesThatImagesAgreeOn(const WireImages& images, const Eigen::Alig
 }
 
 // Curves and poses from colour, in rounds; the last `images` have the colours learned.
-std::optional<ColourCurves> FitCurvesOfColour(const Sequence& sequence, PoseErrors pose_errors,
-                                              const WireColours& colours,
+std::optional<ColourCurves> FitCurvesOfColour(const Sequence& sequence,
+                                              const AdjustmentStart& start,
                                               const Eigen::AlignedBox3d& around,
                                               const BestOptions& options,
                                               const StageReporter& reporter, WireImages& images,
                                               Reconstruction& colour) {
-  const AdjustmentStart start = {FramePoses(sequence), pose_errors, WireDepth::kNotShown,
-                                 colours.posterior};
   colour.sequence = sequence;
   std::optional<ColourCurves> fitted;
   for (int round = 0; round < kRounds; ++round) {
@@ -203,13 +201,16 @@ std::optional<ColourCurves> StartFromColour(const Sequence& given, const WireCol
   std::optional<ColourCurves> fitted;
   // A camera before a plane and wires alone may slip along it: curves then fit no image.
   bool is_held = true;
+  const auto fit = [&](const Sequence& poses, PoseErrors errors) {
+    const AdjustmentStart start = {CameraPoses(poses), errors, WireDepth::kNotShown,
+                                   colours.posterior};
+    return FitCurvesOfColour(poses, start, around, options, reporter, images, colour);
+  };
   if (const std::optional<Sequence> held = HoldToSurfaces(given, reporter))
-    fitted = FitCurvesOfColour(*held, PoseErrors::kJitter, colours, around, options, reporter,
-                               images, colour);
+    fitted = fit(*held, PoseErrors::kJitter);
   if (!fitted) {
     is_held = false;
-    fitted = FitCurvesOfColour(given, PoseErrors::kDrift, colours, around, options, reporter,
-                               images, colour);
+    fitted = fit(given, PoseErrors::kDrift);
   }
   if (!fitted) return std::nullopt;
   const ShownCurves before = CountShown(

@@ -79,12 +79,6 @@ class ColourAdjustmentTest : public testing::Test {
     return sequence;
   }
 
-  static std::vector<RigidTransform> Given(const Sequence& sequence) {
-    std::vector<RigidTransform> given;
-    for (const SequenceFrame& frame : sequence.frames) given.push_back(frame.T_world_camera);
-    return given;
-  }
-
   // The wires' axes, bent by up to 2 mm.
   static SkeletonGraph WrongSkeleton() {
     SkeletonGraph skeleton;
@@ -159,7 +153,7 @@ std::filesystem::path ColourAdjustmentTest::folder_;
 TEST_F(ColourAdjustmentTest, CurvesAndPosesFitTheImages) {
   const Sequence sequence = DriftedSequence("green");
   const ColourAdjustment adjusted =
-      AdjustToColours(WrongSkeleton(), sequence, {Given(sequence)}, {.frame_stride = 1});
+      AdjustToColours(WrongSkeleton(), sequence, {CameraPoses(sequence)}, {.frame_stride = 1});
   EXPECT_EQ(adjusted.skipped, "");
   EXPECT_GT(adjusted.start_residual_px, 1);
   EXPECT_LT(adjusted.residual_px, 0.15);  // what the real cable is asked for
@@ -192,8 +186,8 @@ TEST_F(ColourAdjustmentTest, ColourImagesBesideTheirDepthImages) {
     drift << 0.0003 * i, -0.0003 * i, 0, 0, 0.0003 * i, 0.0003 * i;
     frame.T_world_camera = pose * RigidTransformOf(drift);
   }
-  const ColourAdjustment adjusted = AdjustToColours(WrongSkeleton(), sequence, {Given(sequence)},
-                                                    {.frame_stride = 1, .axis_depth = 0});
+  const ColourAdjustment adjusted = AdjustToColours(
+      WrongSkeleton(), sequence, {CameraPoses(sequence)}, {.frame_stride = 1, .axis_depth = 0});
   EXPECT_EQ(adjusted.skipped, "");
   EXPECT_NEAR((adjusted.color_shift_px - shift).norm(), 0, 0.25);
   // Half a pixel is .6 mm.
@@ -236,8 +230,8 @@ TEST_F(ColourAdjustmentTest, WhatDepthOfOtherFramesContradictsIsRefused) {
     skeleton.SetCurve(skeleton.AddPolyline(points), points,
                       std::vector<double>(2, 0.5 * wire.diameter));
   }
-  const ColourAdjustment adjusted =
-      AdjustToColours(skeleton, sequence, {Given(sequence)}, {.frame_stride = 3, .axis_depth = 0});
+  const ColourAdjustment adjusted = AdjustToColours(skeleton, sequence, {CameraPoses(sequence)},
+                                                    {.frame_stride = 3, .axis_depth = 0});
   EXPECT_NE(adjusted.skipped.find("depth images that were not used"), std::string::npos)
       << adjusted.skipped << adjusted.start_residual_px << " " << adjusted.residual_px;
   EXPECT_TRUE(adjusted.color_shift_px.isZero());
@@ -257,7 +251,7 @@ TEST_F(ColourAdjustmentTest, CurvesBesideAllOfTheirStripsAreFoundByContrast) {
     skeleton.SetCurve(edge, points, skeleton.edge(edge).radii);
   }
   const ColourAdjustment adjusted =
-      AdjustToColours(skeleton, sequence, {Given(sequence)}, {.frame_stride = 1});
+      AdjustToColours(skeleton, sequence, {CameraPoses(sequence)}, {.frame_stride = 1});
   EXPECT_EQ(adjusted.skipped, "");
   EXPECT_GT(adjusted.start_residual_px, 3);
   EXPECT_LT(adjusted.residual_px, 0.15);
@@ -269,7 +263,7 @@ TEST_F(ColourAdjustmentTest, CurvesBesideAllOfTheirStripsAreFoundByContrast) {
 TEST_F(ColourAdjustmentTest, WiresOfTheBackgroundsColoursAreFoundByContrast) {
   const Sequence sequence = DriftedSequence("grey");
   const ColourAdjustment adjusted =
-      AdjustToColours(WrongSkeleton(), sequence, {Given(sequence)}, {.frame_stride = 1});
+      AdjustToColours(WrongSkeleton(), sequence, {CameraPoses(sequence)}, {.frame_stride = 1});
   EXPECT_EQ(adjusted.skipped, "");
   EXPECT_LT(adjusted.residual_px, 0.15);
   EXPECT_LT(DistanceAsMoved(adjusted.skeleton), 0.001);  // 1.3 mm before
@@ -279,7 +273,7 @@ TEST_F(ColourAdjustmentTest, WithoutContrastNothingChanges) {
   for (int i = 0; i < kFrames; ++i) WriteFrame(i, {}, "background");
   const Sequence sequence = DriftedSequence("background");
   const ColourAdjustment adjusted =
-      AdjustToColours(WrongSkeleton(), sequence, {Given(sequence)}, {.frame_stride = 1});
+      AdjustToColours(WrongSkeleton(), sequence, {CameraPoses(sequence)}, {.frame_stride = 1});
   EXPECT_NE(adjusted.skipped, "");
   for (int i = 0; i < kFrames; ++i) {
     EXPECT_EQ(adjusted.T_world_camera[i].matrix(), sequence.frames[i].T_world_camera.matrix());
@@ -290,10 +284,10 @@ TEST_F(ColourAdjustmentTest, WithoutContrastNothingChanges) {
 
 TEST_F(ColourAdjustmentTest, NoCurvesNoRadiiNoAdjustment) {
   const Sequence sequence = DriftedSequence("green");
-  EXPECT_NE(AdjustToColours({}, sequence, {Given(sequence)}, {}).skipped, "");
+  EXPECT_NE(AdjustToColours({}, sequence, {CameraPoses(sequence)}, {}).skipped, "");
   SkeletonGraph without_radii;
   without_radii.AddPolyline({{0, 0, 0.5}, {0.1, 0, 0.5}});
-  EXPECT_NE(AdjustToColours(without_radii, sequence, {Given(sequence)}, {}).skipped, "");
+  EXPECT_NE(AdjustToColours(without_radii, sequence, {CameraPoses(sequence)}, {}).skipped, "");
 }
 
 // Rungs every 14 mm, nowhere on the bar is 8.8 pixels from all of them, which a strip would need.
@@ -320,8 +314,8 @@ TEST_F(ColourAdjustmentTest, ABarWithARowOfWiresIsFoundByItsEdge) {
     skeleton.SetCurve(skeleton.AddPolyline(points), points, radii);
   }
   const auto mean_error = [&](bool edges) {
-    const ColourAdjustment adjusted =
-        AdjustToColours(skeleton, sequence, {Given(sequence)}, {.frame_stride = 1, .edges = edges});
+    const ColourAdjustment adjusted = AdjustToColours(skeleton, sequence, {CameraPoses(sequence)},
+                                                      {.frame_stride = 1, .edges = edges});
     EXPECT_EQ(adjusted.skipped, "");
     double sum = 0;
     const Polyline& bar = adjusted.skeleton.edge(adjusted.skeleton.Edges().front()).points;
@@ -339,7 +333,7 @@ TEST_F(ColourAdjustmentTest, MuchWireHasVerticesFartherApart) {
   skeleton.SetCurve(skeleton.AddPolyline(unseen), unseen, {0.002, 0.002});
   const Sequence sequence = DriftedSequence("green");
   const ColourAdjustment adjusted =
-      AdjustToColours(skeleton, sequence, {Given(sequence)}, {.frame_stride = 1});
+      AdjustToColours(skeleton, sequence, {CameraPoses(sequence)}, {.frame_stride = 1});
   EXPECT_EQ(adjusted.skipped, "");
   size_t points = 0;
   for (const EdgeId edge : adjusted.skeleton.Edges()) {
@@ -354,7 +348,7 @@ TEST_F(ColourAdjustmentTest, OfManyFramesTheFirstAndSomeOthersAreUsed) {
   Sequence many = few;
   while (many.frames.size() < 400) many.frames.push_back(few.frames[many.frames.size() % kFrames]);
   const ColourAdjustment adjusted =
-      AdjustToColours(WrongSkeleton(), many, {Given(many)}, {.frame_stride = 1});
+      AdjustToColours(WrongSkeleton(), many, {CameraPoses(many)}, {.frame_stride = 1});
   EXPECT_EQ(adjusted.skipped, "");
   EXPECT_LT(adjusted.residual_px, 0.15);
   ASSERT_EQ(adjusted.frames.size(), 120u);
@@ -373,7 +367,7 @@ TEST_F(ColourAdjustmentTest, TheSameForAnyNumberOfThreads) {
   const Sequence sequence = DriftedSequence("green");
   const auto run = [&](int threads) {
     const ThreadLimit limit(threads);
-    return AdjustToColours(WrongSkeleton(), sequence, {Given(sequence)}, {});
+    return AdjustToColours(WrongSkeleton(), sequence, {CameraPoses(sequence)}, {});
   };
   const ColourAdjustment one = run(1);
   const ColourAdjustment two = run(2);

@@ -105,7 +105,12 @@ TEST_F(ColourStart, LeavesCurvesWhereDepthShowsNothingThinAtTheNewOnes) {
   for (const Vec3& p : Resample(kWires[0], 0.004)) result_.points.Add(p, Vec3::UnitZ(), 1);
   for (const double x : {-0.1, 0.1}) result_.points.Add({x, x, 0}, Vec3::UnitZ(), 1);
   EXPECT_FALSE(StartWithCurves(DefaultBestOptions(), DepthCurves::kDoubtful).has_value());
-  ASSERT_FALSE(log_.stages().empty());
+  double share = 0;
+  for (const StageReport& stage : log_.stages())
+    for (const auto& [what, value] : stage.counts)
+      if (what == "share thin in depth") share = value;
+  EXPECT_GT(share, 0.1);
+  EXPECT_LT(share, 0.6);
 }
 
 TEST_F(ColourStart, LeavesCurvesThatTheImagesShow) {
