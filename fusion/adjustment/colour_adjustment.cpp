@@ -117,29 +117,6 @@ double MedianResidual(const CurvePoseProblem& problem, const CurvePoseState& sta
   return residuals.empty() ? 0 : Median(std::move(residuals));
 }
 
-double AcceptedShare(const std::vector<FrameStrips>& strips) {
-  size_t all = 0, accepted = 0;
-  for (const FrameStrips& frame : strips) {
-    all += frame.size();
-    accepted += std::count_if(frame.begin(), frame.end(),
-                              [](const SeenStrip& seen) { return seen.strip.accepted; });
-  }
-  return all > 0 ? static_cast<double>(accepted) / static_cast<double>(all) : 0;
-}
-
-// Strips of wires are seen again and again in the same places, those of textures here and there.
-double AgreedShare(const std::vector<FrameStrips>& strips, size_t vertices) {
-  const std::vector<char> told = ToldByColour(strips, vertices);
-  size_t accepted = 0, agreed = 0;
-  for (const FrameStrips& frame : strips) {
-    for (const SeenStrip& seen : frame) {
-      accepted += seen.strip.accepted;
-      agreed += seen.strip.accepted && told[seen.vertex];
-    }
-  }
-  return accepted > 0 ? static_cast<double>(agreed) / static_cast<double>(accepted) : 0;
-}
-
 // What only few images show beside a curve is not its wire.
 std::vector<FrameStrips> WhereImagesAgree(std::vector<FrameStrips> strips, size_t vertices) {
   const std::vector<char> shown = ShownByColour(strips, vertices);

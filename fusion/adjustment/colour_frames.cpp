@@ -271,6 +271,28 @@ void LookUpFirst(const Sequence& sequence, const std::vector<uint8_t>& colours, 
       });
 }
 
+double AcceptedShare(const std::vector<FrameStrips>& strips) {
+  size_t all = 0, accepted = 0;
+  for (const FrameStrips& frame : strips) {
+    all += frame.size();
+    accepted += std::count_if(frame.begin(), frame.end(),
+                              [](const SeenStrip& seen) { return seen.strip.accepted; });
+  }
+  return all > 0 ? static_cast<double>(accepted) / static_cast<double>(all) : 0;
+}
+
+double AgreedShare(const std::vector<FrameStrips>& strips, size_t vertices) {
+  const std::vector<char> told = ToldByColour(strips, vertices);
+  size_t accepted = 0, agreed = 0;
+  for (const FrameStrips& frame : strips) {
+    for (const SeenStrip& seen : frame) {
+      accepted += seen.strip.accepted;
+      agreed += seen.strip.accepted && told[seen.vertex];
+    }
+  }
+  return accepted > 0 ? static_cast<double>(agreed) / static_cast<double>(accepted) : 0;
+}
+
 void LearnColours(const std::vector<FrameStrips>& strips, const CurveVertices& curves,
                   ColourFrames& frames) {
   const std::vector<char> told = ToldByColour(strips, curves.positions.size());

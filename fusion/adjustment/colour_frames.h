@@ -62,6 +62,13 @@ std::vector<char> ToldByColour(const std::vector<FrameStrips>& strips, size_t ve
 /// thing, not of whatever lies behind.
 std::vector<char> ShownByColour(const std::vector<FrameStrips>& strips, size_t vertices);
 
+/// The share of the strips that are accepted.
+double AcceptedShare(const std::vector<FrameStrips>& strips);
+
+/// The share of the accepted strips that are at vertices that colour alone holds (ToldByColour):
+/// strips of wires are seen again and again in the same places, those of textures here and there.
+double AgreedShare(const std::vector<FrameStrips>& strips, size_t vertices);
+
 /// The width of the strips, pixels, in the median; 0 where there are none.
 double MedianWidthPx(const std::vector<FrameStrips>& strips);
 
