@@ -192,6 +192,8 @@ Json TrustJson(const Trust& trust) {
           {"depth_share", trust.depth_share},
           {"colour_share", trust.colour_share},
           {"adjusted_to_colour", trust.adjusted},
+          {"from_colour_alone", trust.from_colour},
+          {"depth_scatter", trust.depth_scatter},
           {"residual_before_px", PixelsJson(trust.residual_before_px)},
           {"residual_px", PixelsJson(trust.residual_px)},
           {"pose_shift_mm", trust.pose_shift / kMillimetre},

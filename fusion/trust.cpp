@@ -21,6 +21,9 @@ constexpr double kStripReach = 0.015;
 // Of the length. Chosen: results of 18 scans of wires have .63 and more, what is left of two rooms
 // .32 and .57 (docs/lab_notebook.md).
 constexpr double kMinWireShare = 0.55;
+// Of the length of curves from colour alone that lies near a strip. Chosen: a wire cube has .67, a
+// table's legs of which nothing came out right .05 (docs/lab_notebook.md).
+constexpr double kMinColourShare = 0.2;
 
 using PlacesOfEdge = std::map<EdgeId, std::vector<double>>;
 
@@ -102,6 +105,19 @@ std::vector<std::string> Doubts(const Trust& trust) {
         "wire. Scan the object from nearer and from more sides ({:.2f} m of curve, a diameter was "
         "measured on {:.0f} %)",
         100 * trust.wire_length / trust.length, trust.length, 100 * trust.measured_share));
+  }
+  if (trust.length > 0 && trust.from_colour && trust.colour_share < kMinColourShare) {
+    doubts.push_back(fmt::format(
+        "do not trust this result: its curves come from the colour images alone, and these show a "
+        "strip along {:.0f} % of them only. Scan from more sides, in more light",
+        100 * trust.colour_share));
+  }
+  if (trust.length > 0 && !trust.from_colour && trust.depth_scatter > kWrongScatter) {
+    doubts.push_back(fmt::format(
+        "do not trust where these curves lie: depth scatters {:.1f} times as much about them as "
+        "about a surface, as that of time-of-flight cameras does about thin wires, and the colour "
+        "images alone gave no better ones. Scan longer and from more sides",
+        trust.depth_scatter));
   }
   return doubts;
 }

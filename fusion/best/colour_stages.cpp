@@ -28,9 +28,6 @@ constexpr const char* kImagesDoNotTell =
     "skipped: the images do not show the curves as wire throughout";
 // Chosen: before poses and curves are adjusted to colours more is given the benefit of the doubt.
 constexpr double kHardlyAWire = 0.4;  // times evidence.min_probability
-// Measured (docs/wires_from_colour.md): 1.7 to 4.7 where depth shows wires in their places, 5.7 and
-// more with time of flight.
-constexpr double kWrongScatter = 5;
 constexpr double kLittle = 0.01;  // of the length; less is not worth another round
 
 // Thin by proof: what is a wire with less than `min_probability` leaves the result, by so many

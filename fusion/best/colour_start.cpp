@@ -229,6 +229,7 @@ std::optional<ColourCurves> StartFromColour(const Sequence& given, const WireCol
   result.radii = std::move(colour.radii);
   result.uncertain = {};
   result.trust = colour.trust;
+  result.trust.from_colour = true;
   result.warnings.push_back(fmt::format(
       "the curves come from the colour images alone, and their scale from {}: the images show "
       "{:.2f} m of them as wire, and {:.2f} of {:.2f} m of depth's",
