@@ -1,7 +1,5 @@
 #include "fusion/best/best_pipeline.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <optional>
 #include <string>
@@ -19,113 +17,11 @@
 #include "fusion/registration/ray_noise.h"
 #include "fusion/stage_progress.h"
 #include "fusion/stage_reporter.h"
-#include "fusion/volume/volume_fusion.h"
 #include "kernel/parallel.h"
 
 namespace curvefusion {
 
 namespace {
-
-// Bundles segmented at the same time, at most: much of a bundle is done one step after the other.
-constexpr size_t kBundlesAtOnce = 4;
-// What frames saw takes up to 110 MB: all points of the first 100 to 400 frames.
-constexpr size_t kMaxFramePoints = 2'000'000;
-
-// "Removing large surfaces" needs a model of them: all frames in one volume.
-TsdfVolume FuseVolumeOfRun(const Sequence& sequence, const BestOptions& options,
-                           const StageReporter& reporter) {
-  const StageLog::Timer timer(reporter.log, "volume");
-  const int stride = options.volume_stride;
-  const int64_t frames = (sequence.frame_count() + stride - 1) / stride;
-  StageProgress progress(reporter.observer, "volume", frames);
-  TsdfVolume volume =
-      FuseVolume(sequence, options.volume, stride, [&progress] { progress.Advance(); });
-  reporter.observer.OnVolume(volume);
-  reporter.log.Count("volume", "frames", static_cast<double>(frames));
-  reporter.log.Count("volume", "blocks", static_cast<double>(volume.block_count()));
-  reporter.log.Count("volume", "bytes", static_cast<double>(volume.memory_bytes()));
-  return volume;
-}
-
-// What was found thin, in the world frame.
-struct SegmentedScan {
-  std::vector<ObservedPoints> bundles;
-  FramePoints frames{kMaxFramePoints};  // what each frame saw of its bundle's points
-  std::vector<int> bundle_of_frame;
-  double points = 0;  // of all bundles
-  PointFunnel funnel;
-};
-
-void AddBundle(const SegmentedBundle& bundle, SegmentedScan& scan, PipelineObserver& observer) {
-  const std::string name = fmt::format("bundle_{:03}", scan.bundles.size());
-  observer.OnPoints(name + "_difference_set",
-                    Transformed(bundle.difference_set, bundle.T_world_bundle));
-  for (const ObservedPoints& frame : bundle.frames) {
-    scan.frames.Add(Transformed(frame, bundle.T_world_bundle));
-    scan.bundle_of_frame.push_back(static_cast<int>(scan.bundles.size()));
-  }
-  scan.points += static_cast<double>(bundle.points.size());
-  scan.funnel.Add(bundle.funnel);
-  scan.bundles.push_back(Transformed(bundle.points, bundle.T_world_bundle));
-  observer.OnPoints(name + "_points", scan.bundles.back());
-}
-
-SegmentationModel LearnSegmentationOfRun(const Sequence& sequence, const TsdfVolume& volume,
-                                         const SegmentationOptions& options,
-                                         const StageReporter& reporter) {
-  const StageLog::Timer timer(reporter.log, "segmentation");
-  reporter.observer.OnProgress("surfaces and colours", 0, 1);
-  SegmentationModel model = LearnSegmentation(sequence, volume, options);
-  reporter.log.Count("segmentation", "spacing in wire arrays, mm",
-                     model.array_spacing / kMillimetre);
-  reporter.log.Count("segmentation", "frame stride", model.frame_stride);
-  return model;
-}
-
-using FrameRanges = std::vector<std::pair<int, int>>;
-
-int64_t FramesToSegment(const FrameRanges& ranges, int frame_stride) {
-  int64_t frames = 0;
-  for (const auto& [first, last] : ranges)
-    frames += (last - first + frame_stride - 1) / frame_stride;
-  return frames;
-}
-
-SegmentedScan SegmentBundles(const Sequence& sequence, const TsdfVolume& volume,
-                             const SegmentationModel& model, const BestOptions& options,
-                             const StageReporter& reporter) {
-  const StageLog::Timer timer(reporter.log, "segmentation");
-  const FrameRanges ranges =
-      SplitIntoBundles(sequence.frame_count(), options.segmentation.bundle.frames);
-  StageProgress progress(reporter.observer, "segmentation",
-                         FramesToSegment(ranges, model.frame_stride));
-  SegmentedScan scan;
-  // About as many each time, so that no bundle is left to itself in the end.
-  const size_t times = (ranges.size() + kBundlesAtOnce - 1) / kBundlesAtOnce;
-  size_t candidates = 0, begin = 0;
-  for (size_t left = times; left > 0; --left) {
-    std::vector<SegmentedBundle> bundles((ranges.size() - begin + left - 1) / left);
-    ParallelFor(0, static_cast<int64_t>(bundles.size()), 1, [&](int64_t i) {
-      const auto& [first, last] = ranges[begin + static_cast<size_t>(i)];
-      bundles[i] = SegmentBundle(sequence, first, last, volume, model, options.segmentation,
-                                 [&progress] { progress.Advance(); });
-    });
-    for (const SegmentedBundle& bundle : bundles) {
-      candidates += bundle.difference_set.size();
-      AddBundle(bundle, scan, reporter.observer);
-    }
-    begin += bundles.size();
-    // As if the rest held as many.
-    const double points = scan.points * sequence.frame_count() / ranges[begin - 1].second;
-    reporter.observer.OnPlan(PlanBest(sequence, options, {.points = points}));
-  }
-  reporter.log.Count("segmentation", "bundles", static_cast<double>(scan.bundles.size()));
-  reporter.log.Count("segmentation", "candidates", static_cast<double>(candidates));
-  reporter.log.Count("segmentation", "points", scan.points);
-  reporter.log.Count("segmentation", "frame point stride",
-                     static_cast<double>(scan.frames.stride()));
-  return scan;
-}
 
 // `ridge` holds the ridges of the points where they are known already.
 SkeletonGraph Contract(const ObservedPoints& points, const std::optional<RidgePoints>& ridge,
@@ -146,9 +42,8 @@ struct RegisteredBundles {
 };
 
 // Registers every bundle to the curves of those before it.
-RegisteredBundles RegisterBundles(const SegmentedScan& scan, double array_spacing,
-                                  const RidgeProjectionOptions& ridges, const BestOptions& options,
-                                  const StageReporter& reporter) {
+RegisteredBundles RegisterBundles(const SegmentedScan& scan, const RidgeProjectionOptions& ridges,
+                                  const BestOptions& options, const StageReporter& reporter) {
   const StageLog::Timer timer(reporter.log, "registration");
   StageProgress progress(reporter.observer, "bundle registration",
                          static_cast<int64_t>(scan.bundles.size()));
@@ -163,7 +58,7 @@ RegisteredBundles RegisterBundles(const SegmentedScan& scan, double array_spacin
     T_registered_bundle.push_back(carried
                                       .AddBundle(scan.bundles[i], ridge_of_bundle[i],
                                                  ridges.spacing, options.registration,
-                                                 array_spacing)
+                                                 scan.wires.array_spacing)
                                       .T_target_source);
     progress.Advance();
   }
@@ -223,23 +118,22 @@ ObservedPoints LargestBundle(const SegmentedScan& scan) {
 // Bundles, then single frames, are registered to the curves they see; their points
 // are carried along and contracted once. Where noise blurs the curves, single frames would be
 // registered to noise: they keep the poses of their bundles.
-void ContractCarriedPoints(SegmentedScan scan, const SegmentationModel& model,
-                           const BestOptions& options, const StageReporter& reporter,
-                           Reconstruction& result) {
-  const ContractionSpace space = {Magnification(model.array_spacing, options.resolved_spacing),
+void ContractCarriedPoints(SegmentedScan scan, const BestOptions& options,
+                           const StageReporter& reporter, Reconstruction& result) {
+  const ContractionSpace space = {Magnification(scan.wires.array_spacing, options.resolved_spacing),
                                   RayNoiseRatio(LargestBundle(scan), options.min_linearity)};
   const RidgeProjectionOptions ridges =
       ForCloseWires(options.ridge.projection, space.magnification);
-  const RegisteredBundles bundles =
-      RegisterBundles(scan, model.array_spacing, ridges, options, reporter);
+  const RegisteredBundles bundles = RegisterBundles(scan, ridges, options, reporter);
   scan.bundles.clear();
   SkeletonGraph first =
       Contract(bundles.points, bundles.ridge, "registered_bundles", space, options.ridge, reporter);
   RunSize size = {.points = scan.points};
   size.SetCurves(first);
   reporter.observer.OnPlan(PlanBest(result.sequence, options, size));
-  AssignRadii(MeasureRadii(first, result.sequence, model.array_diameter, options.radius, reporter),
-              first);
+  AssignRadii(
+      MeasureRadii(first, result.sequence, scan.wires.array_diameter, options.radius, reporter),
+      first);
   if (space.ray_noise_ratio > 1) {
     CorrectPoses(bundles.T_registered_frame, result.sequence);
     result.points = AxisCorrection(first, options.axis_depth).Apply(bundles.points);
@@ -255,26 +149,40 @@ void ContractCarriedPoints(SegmentedScan scan, const SegmentationModel& model,
       Contract(result.points, std::nullopt, "registered_frames", space, options.ridge, reporter);
 }
 
-// Everything after the volume.
-Reconstruction ReconstructThinParts(const TsdfVolume& volume, const Sequence& sequence,
+// What is thin, then all that is made of it.
+Reconstruction ReconstructThinParts(const BundleSource& source, const Sequence& sequence,
                                     const BestOptions& options, const StageReporter& reporter) {
   Reconstruction result;
   result.sequence = sequence;
   result.warnings = sequence.warnings;
-  const SegmentationModel model =
-      LearnSegmentationOfRun(sequence, volume, options.segmentation, reporter);
-  SegmentedScan scan = SegmentBundles(sequence, volume, model, options, reporter);
+  SegmentedScan scan = GatherBundles(source, sequence, options, reporter);
+  const LearnedWires wires = scan.wires;
   const RunSize size = {.points = scan.points};
   result.funnel.points = scan.funnel;
-  ContractCarriedPoints(std::move(scan), model, options, reporter, result);
+  ContractCarriedPoints(std::move(scan), options, reporter, result);
   result.funnel.curves.contracted = result.skeleton.TotalLength();
-  RefineByColour(sequence, model, size, options, reporter, result);
+  RefineByColour(sequence, wires, size, options, reporter, result);
   result.funnel.curves.curves = result.skeleton.TotalLength();
   result.trust = MeasureTrust(sequence, result);
   const std::string places = PlacesWarning(result.trust);
   if (options.colour_adjustment.enabled && !places.empty()) result.warnings.push_back(places);
   result.stages = reporter.log.stages();
   return result;
+}
+
+void CountVolume(const VolumeFigures& figures, StageLog& log) {
+  log.Count("volume", "frames", static_cast<double>(figures.frames));
+  log.Count("volume", "blocks", static_cast<double>(figures.blocks));
+  log.Count("volume", "bytes", static_cast<double>(figures.bytes));
+}
+
+// The sink, and the figures of the volume into the log.
+BundleSink CountingVolume(const BundleSink& sink, StageLog& log) {
+  return {[&](const LearnedScan& learned) {
+            CountVolume(learned.volume, log);
+            sink.on_learned(learned);
+          },
+          sink.on_bundle};
 }
 
 }  // namespace
@@ -286,8 +194,12 @@ Reconstruction ReconstructBest(const Sequence& sequence, const BestOptions& give
   observer.OnPlan(PlanBest(sequence, options, {}));
   StageLog log;
   const StageReporter reporter{observer, log};
-  const TsdfVolume volume = FuseVolumeOfRun(sequence, options, reporter);
-  Reconstruction result = ReconstructThinParts(volume, sequence, options, reporter);
+  const BundleSource source = [&](const BundleSink& sink) {
+    const TsdfVolume volume = FuseVolumeOfRun(sequence, options, reporter);
+    SegmentBundles(sequence, volume, AllBundles(sequence, options), options, reporter,
+                   CountingVolume(sink, log));
+  };
+  Reconstruction result = ReconstructThinParts(source, sequence, options, reporter);
   if (!useless_colour.empty()) result.warnings.push_back(useless_colour);
   return result;
 }
@@ -296,7 +208,42 @@ Reconstruction ReconstructBestAgainst(const TsdfVolume& volume, const Sequence& 
                                       const BestOptions& options, PipelineObserver& observer) {
   observer.OnPlan(PlanBest(sequence, options, {}));
   StageLog log;
-  return ReconstructThinParts(volume, sequence, options, StageReporter{observer, log});
+  const StageReporter reporter{observer, log};
+  const BundleSource source = [&](const BundleSink& sink) {
+    SegmentBundles(sequence, volume, AllBundles(sequence, options), options, reporter, sink);
+  };
+  return ReconstructThinParts(source, sequence, options, reporter);
+}
+
+void SegmentBest(const Sequence& sequence, const BestOptions& given, BundleRange range,
+                 const BundleSink& sink, PipelineObserver& observer) {
+  BestOptions options = given;
+  SwitchOffUselessColour(sequence, options);
+  const double share =
+      static_cast<double>(range.last - range.first) / AllBundles(sequence, options).last;
+  observer.OnPlan(PlanSegmentation(sequence, options, share));
+  StageLog log;
+  const StageReporter reporter{observer, log};
+  const TsdfVolume volume = FuseVolumeOfRun(sequence, options, reporter);
+  SegmentBundles(sequence, volume, range, options, reporter, sink);
+}
+
+Reconstruction ReconstructBestFrom(const BundleSource& shards, const Sequence& sequence,
+                                   const BestOptions& given, PipelineObserver& observer,
+                                   bool fuse_volume) {
+  BestOptions options = given;
+  const std::string useless_colour = SwitchOffUselessColour(sequence, options);
+  observer.OnPlan(PlanBest(sequence, options, {}));
+  StageLog log;
+  const StageReporter reporter{observer, log};
+  if (fuse_volume) FuseVolumeOfRun(sequence, options, reporter);
+  const BundleSource source = [&](const BundleSink& sink) {
+    const StageLog::Timer timer = reporter.Begin("segmentation");
+    shards(CountingVolume(sink, log));
+  };
+  Reconstruction result = ReconstructThinParts(source, sequence, options, reporter);
+  if (!useless_colour.empty()) result.warnings.push_back(useless_colour);
+  return result;
 }
 
 }  // namespace curvefusion

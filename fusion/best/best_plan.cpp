@@ -155,4 +155,14 @@ std::vector<PlannedStage> PlanBest(const Sequence& sequence, const BestOptions& 
   return BestStages(Costs(AmountsOf(sequence, options, size)), size);
 }
 
+std::vector<PlannedStage> PlanSegmentation(const Sequence& sequence, const BestOptions& options,
+                                           double share) {
+  std::vector<PlannedStage> stages = Costs(AmountsOf(sequence, options, {})).UntilContracted();
+  const auto last = std::find_if(stages.begin(), stages.end(),
+                                 [](const auto& stage) { return stage.name == "segmentation"; });
+  last->cost *= share;
+  stages.erase(last + 1, stages.end());
+  return stages;
+}
+
 }  // namespace curvefusion

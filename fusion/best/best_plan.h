@@ -34,4 +34,8 @@ struct RunSize {
 std::vector<PlannedStage> PlanBest(const Sequence& sequence, const BestOptions& options,
                                    const RunSize& size);
 
+/// The stages of SegmentBest, which segments this share of all bundles.
+std::vector<PlannedStage> PlanSegmentation(const Sequence& sequence, const BestOptions& options,
+                                           double share);
+
 }  // namespace curvefusion

@@ -193,14 +193,14 @@ void LookForEvidence(const ViewEvidenceOptions& options, const StageReporter& re
 
 }  // namespace
 
-void RefineByColour(const Sequence& given, const SegmentationModel& model, RunSize size,
+void RefineByColour(const Sequence& given, const LearnedWires& wires, RunSize size,
                     const BestOptions& options, const StageReporter& reporter,
                     Reconstruction& result) {
   const auto measure_radii = [&] {
-    AssignMeasuredRadii(model.array_diameter, options.radius, reporter, result);
+    AssignMeasuredRadii(wires.array_diameter, options.radius, reporter, result);
   };
   AdjustmentStart start = {CameraPoses(given), PoseErrors::kDrift, WireDepth::kShown,
-                           model.colours.posterior};
+                           wires.colours.posterior};
   const auto keep_proven = [&](const std::string& name, double share) {
     const double min_probability = share * options.evidence.min_probability;
     // Depth that does not show wires says nothing for or against them.
@@ -218,7 +218,7 @@ void RefineByColour(const Sequence& given, const SegmentationModel& model, RunSi
     TellPlan(size, options, reporter, result);
     const DepthCurves depth_curves = adjusted ? DepthCurves::kMisplaced : DepthCurves::kDoubtful;
     std::optional<ColourCurves> from_colour =
-        StartFromColour(given, model.colours, depth_curves, options, reporter, result);
+        StartFromColour(given, wires.colours, depth_curves, options, reporter, result);
     if (from_colour) {
       adjusted = std::move(from_colour->adjusted);
       start = std::move(from_colour->start);
@@ -231,14 +231,14 @@ void RefineByColour(const Sequence& given, const SegmentationModel& model, RunSi
   if (adjusted) {
     strips = LookForStrips(*adjusted, reporter, result);
     CorrectBySilhouettes(*adjusted, *strips, start.depth, options, reporter, result);
-  } else if (model.array_spacing > 0) {
-    PruneUnadjusted(model.colours, options.silhouettes, reporter, result);
+  } else if (wires.array_spacing > 0) {
+    PruneUnadjusted(wires.colours, options.silhouettes, reporter, result);
   }
   measure_radii();
   keep_proven("evidence", 1);
   if (adjusted) {
     adjusted.reset();  // its images are not needed any more
-    CompleteByColour(start, std::move(strips), model.array_diameter, size, options, reporter,
+    CompleteByColour(start, std::move(strips), wires.array_diameter, size, options, reporter,
                      result);
     strips.reset();
   }

@@ -3,8 +3,8 @@
 #include "capture/sequence.h"
 #include "fusion/best/best_options.h"
 #include "fusion/best/best_plan.h"
+#include "fusion/best/bundle_segmentation.h"
 #include "fusion/reconstruction.h"
-#include "fusion/segmentation/segmentation.h"
 #include "fusion/stage_reporter.h"
 #include "fusion/strips/radius.h"
 #include "graph/skeleton_graph.h"
@@ -13,10 +13,10 @@ namespace curvefusion {
 
 /// What colour images tell of contracted curves: radii, wires that depth has missed, exact curves
 /// and poses, which curves are false or missing, and where they were seen. `given` are the poses of
-/// the input, which the adjustment's drift is counted from; `model` what the segmentation learned
+/// the input, which the adjustment's drift is counted from; `wires` what the segmentation learned
 /// of close wires and of colours; `size` what the run has found, for its plan. Throws like
 /// MeasureRadii.
-void RefineByColour(const Sequence& given, const SegmentationModel& model, RunSize size,
+void RefineByColour(const Sequence& given, const LearnedWires& wires, RunSize size,
                     const BestOptions& options, const StageReporter& reporter,
                     Reconstruction& result);
 
