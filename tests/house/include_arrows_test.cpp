@@ -82,6 +82,7 @@ const std::map<std::string, std::map<std::string, std::set<std::string>>> kRooms
       {"best",
        {"", "adjustment", "appearance", "curve_graph", "registration", "segmentation",
         "silhouettes", "strips", "tracking", "volume"}},
+      {"shards", {"appearance", "best"}},
       {"solid_parts", {"volume"}},
       {"live", {"best", "registration", "segmentation", "volume"}},
       {"", {"best", "curve_graph", "paper", "silhouettes", "strips", "volume"}}}},
