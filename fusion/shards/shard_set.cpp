@@ -108,8 +108,8 @@ ShardHeader ShardOf(const Sequence& sequence, const BestOptions& options, ShardN
   const int count = static_cast<int>(bundles.size());
   if (shard.count > count) {
     throw Error(ErrorKind::kUsage,
-                fmt::format("--shard {}/{}: {} frames are {} bundles of {}, and a shard has at "
-                            "least one; make at most {} shards",
+                fmt::format("--shard {}/{}: a shard has at least one bundle, and {} frames are {} "
+                            "(of {} frames); N can be at most {}",
                             shard.number, shard.count, sequence.frame_count(), count,
                             options.segmentation.bundle.frames, count));
   }

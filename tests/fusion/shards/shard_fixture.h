@@ -63,8 +63,8 @@ class ShardFixture : public testing::Test {
     for (int i = 0; i < frames; ++i) {
       bundle.frames.push_back(SomePoints(static_cast<size_t>(i % 3), random));
     }
-    bundle.T_world_bundle = Eigen::Translation3d(1.0 / 3, 2, 3) *
-                            Eigen::AngleAxisd(0.3, Vec3(1, 2, 3).normalized());
+    bundle.T_world_bundle =
+        Eigen::Translation3d(1.0 / 3, 2, 3) * Eigen::AngleAxisd(0.3, Vec3(1, 2, 3).normalized());
     bundle.funnel = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 0.1};
     return bundle;
   }

@@ -46,8 +46,10 @@ TEST_F(ShardSet, SharesCoverAllBundlesEvenly) {
       ASSERT_EQ(bundle, bundles);
       ASSERT_EQ(frame, frames);
     }
-    EXPECT_THAT(Refusal([&] { ShardOf(sequence_, options, {1, bundles + 1}); }),
-                HasSubstr("make at most " + std::to_string(bundles)));
+    EXPECT_THAT(Refusal([&] {
+                  ShardOf(sequence_, options, {1, bundles + 1});
+                }),
+                HasSubstr("N can be at most " + std::to_string(bundles)));
   }
 }
 
@@ -58,10 +60,9 @@ TEST_F(ShardSet, GivesAllBundlesInTheirOrder) {
   const std::vector<Shard> shards = OpenShards({folder_}, identity_);
   int learned = 0;
   std::vector<size_t> frames;
-  BundlesOf(shards, sequence_)({[&](const LearnedScan&) { ++learned; },
-                                [&](const SegmentedBundle& bundle) {
-                                  frames.push_back(bundle.frames.size());
-                                }});
+  BundlesOf(shards, sequence_)(
+      {[&](const LearnedScan&) { ++learned; },
+       [&](const SegmentedBundle& bundle) { frames.push_back(bundle.frames.size()); }});
   EXPECT_EQ(learned, 1);
   EXPECT_EQ(frames, (std::vector<size_t>{30, 30, 40}));
 
@@ -74,7 +75,8 @@ TEST_F(ShardSet, MissingAndDoubleShardsAreNamed) {
   Write({1, 3});
   EXPECT_THAT(OpeningRefused(), HasSubstr("2 of 3 shards are missing: 2/3, 3/3"));
   Write({3, 3});
-  EXPECT_THAT(OpeningRefused(), HasSubstr("missing: 2/3; make each with `reconstruct --shard 2/3`"));
+  EXPECT_THAT(OpeningRefused(),
+              HasSubstr("missing: 2/3; make each with `reconstruct --shard 2/3`"));
   Write({3, 3}, "again.cfshard");
   EXPECT_THAT(OpeningRefused(), AllOf(HasSubstr("again.cfshard"), HasSubstr("both shard 3 of 3")));
   fs::remove(folder_ / "again.cfshard");
