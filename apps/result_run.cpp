@@ -16,6 +16,7 @@
 #include "capture/content/colour_findings.h"
 #include "capture/trajectory.h"
 #include "experiments/pictures/png.h"
+#include "experiments/shard_run.h"
 #include "fusion/tracking/tracked_poses.h"
 #include "graph/io/graph_io.h"
 #include "kernel/atomic_file.h"
@@ -114,6 +115,13 @@ void WriteResult(RunRecord& record, const ResultRun& run, const ResultFolder& ou
                                            (output.path() / "skeleton.json").string()));
 }
 
+Reconstruction ReconstructAs(const ResultRun& run, const Sequence& sequence,
+                             RunObserver& observer) {
+  if (run.shards.empty()) return Reconstruct(sequence, run.config.pipeline, observer);
+  return ReconstructFromShards(run.shards, sequence, run.config, observer,
+                               !run.stages.volume.empty());
+}
+
 }  // namespace
 
 int ReconstructInto(const ResultFolder& output, Sequence sequence, const ResultRun& run,
@@ -122,7 +130,7 @@ int ReconstructInto(const ResultFolder& output, Sequence sequence, const ResultR
   const std::optional<TrackingResult> tracking =
       FindPoses(sequence, InterruptibleProgress(printer));
   RunObserver observer(printer, run.stages);
-  const Reconstruction reconstruction = Reconstruct(sequence, run.config.pipeline, observer);
+  const Reconstruction reconstruction = ReconstructAs(run, sequence, observer);
   printer.Report(kWritingStage, 0, 1);
   ThrowIfCancelled();
 

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <chrono>
+#include <vector>
 
 #include "apps/progress_printer.h"
 #include "apps/result_folder.h"
 #include "apps/run_observer.h"
 #include "capture/sequence.h"
 #include "experiments/config.h"
+#include "fusion/shards/shard_file.h"
 
 namespace curvefusion {
 
@@ -18,6 +20,7 @@ struct ResultRun {
   bool quiet = false;
   std::chrono::steady_clock::time_point start;  ///< of the command, for its report
   bool hybrid = false;                          ///< write hybrid.ply and .stl as well
+  std::vector<Shard> shards = {};               ///< all of it (OpenShards), where it was split
 };
 
 /// Finds what the sequence lacks (poses, the colour camera), reconstructs it and writes all files

@@ -5,11 +5,15 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "apps/commands/command.h"
 #include "apps/commands/config_arguments.h"
 #include "apps/output_guard.h"
 #include "apps/result_run.h"
+#include "apps/shard_result.h"
+#include "experiments/shard_run.h"
+#include "kernel/error.h"
 #include "kernel/free_space.h"
 
 namespace curvefusion {
@@ -27,6 +31,8 @@ struct ReconstructArguments {
   StageOutputs stages;
   std::string colour_camera = "auto";
   bool hybrid = false;
+  std::string shard;             // "2/4"
+  std::vector<fs::path> shards;  // to be merged
   RunOptions run;
 };
 
@@ -51,24 +57,67 @@ void RequireRoom(const ReconstructArguments& arguments, const Sequence& sequence
   if (!stages.volume.empty()) RequireFreeSpace(stages.volume, kFiles);
 }
 
+// The result, and all that is written beside it, is made by the run that merges.
+void RequireShardsPossible(const ReconstructArguments& arguments, const Config& config) {
+  if (!arguments.shards.empty() || !arguments.shard.empty()) OptionsOfShards(config);
+  if (arguments.shard.empty()) return;
+  ParseShard(arguments.shard);
+  const StageOutputs& stages = arguments.stages;
+  const char* other = !arguments.shards.empty() ? "--merge"
+                      : arguments.hybrid        ? "--hybrid"
+                      : !stages.folder.empty()  ? "--save-stages"
+                      : !stages.volume.empty()  ? "--save-volume"
+                                                : nullptr;
+  if (other == nullptr) return;
+  throw Error(ErrorKind::kUsage, std::string("--shard writes one shard alone: give ") + other +
+                                     " to the run that merges all of them");
+}
+
+int RunShard(const ReconstructArguments& arguments, const ShardedRun& run, Sequence sequence) {
+  RequireOutside(arguments.sequence, arguments.output);
+  ProgressPrinter printer = MakeProgressPrinter(arguments.run.quiet);
+  return WriteShardInto(arguments.output, std::move(sequence),
+                        {run, ParseShard(arguments.shard), arguments.force, arguments.run.quiet},
+                        printer);
+}
+
+std::vector<Shard> ShardsToMerge(const ReconstructArguments& arguments, const ShardedRun& run,
+                                 const Sequence& sequence) {
+  if (arguments.shards.empty()) return {};
+  return OpenShards(arguments.shards, IdentityOf(sequence, run));
+}
+
 int RunReconstruct(const ReconstructArguments& arguments) {
   const auto start = std::chrono::steady_clock::now();
   const Config config = ReadConfig(Sources(arguments.config));
+  const ShardedRun sharded = {config, arguments.colour_camera == "auto", arguments.track};
+  RequireShardsPossible(arguments, config);
   LimitThreads(arguments.run);
   Sequence sequence =
       OpenSequence(arguments.sequence, arguments.track ? PoseUse::kIgnored : PoseUse::kIfGiven);
+  if (!arguments.shard.empty()) return RunShard(arguments, sharded, std::move(sequence));
   RequireInputStays(arguments);
   RequireRoom(arguments, sequence);
-  const ResultFolder output(arguments.output, {arguments.stages.folder, arguments.stages.volume},
-                            arguments.force);
+  std::vector<Shard> shards = ShardsToMerge(arguments, sharded, sequence);
+  std::vector<fs::path> extras = {arguments.stages.folder, arguments.stages.volume};
+  for (const Shard& shard : shards) extras.push_back(shard.file);
+  const ResultFolder output(arguments.output, extras, arguments.force);
   ProgressPrinter printer = MakeProgressPrinter(arguments.run.quiet);
-  const ResultRun run{config,
-                      arguments.colour_camera == "auto",
-                      arguments.stages,
-                      arguments.run.quiet,
-                      start,
-                      arguments.hybrid};
+  const ResultRun run{config, sharded.fit_colour_camera, arguments.stages, arguments.run.quiet,
+                      start,  arguments.hybrid,          std::move(shards)};
   return ReconstructInto(output, std::move(sequence), run, printer);
+}
+
+void AddShardOptions(CLI::App& command, ReconstructArguments& arguments) {
+  command.add_option("--shard", arguments.shard,
+                     "i/N, such as 2/4: do the part of the work that several machines can share, "
+                     "for one of N parts of the scan, and write OUTPUT/shard_i_of_N.cfshard; one "
+                     "that is there is not made again without --force");
+  command
+      .add_option("--merge", arguments.shards,
+                  "The N files that --shard has written, or their folder: the same result as "
+                  "without them, from the same scan and settings")
+      ->expected(1, -1);
 }
 
 }  // namespace
@@ -108,12 +157,16 @@ void AddReconstructCommand(CLI::App& app, int& exit_code) {
                       "Folder for the points and curves of every step, as PLY");
   command->add_option("--save-volume", arguments->stages.volume,
                       "Mesh file for the surface of large objects: .ply, .obj, .stl, .glb or .3mf");
+  AddShardOptions(*command, *arguments);
   command->footer(
       "Example:\n  curvefusion reconstruct scan -o result\n"
       "  curvefusion reconstruct scan -o result --profile paper --set volume.voxel_size=0.01\n"
       "  curvefusion reconstruct scan -o result --track\n"
       "  curvefusion reconstruct scan -o result --hybrid\n"
-      "  curvefusion reconstruct scan -o result --save-stages result/stages");
+      "  curvefusion reconstruct scan -o result --save-stages result/stages\n"
+      "  curvefusion reconstruct scan -o shards --shard 1/2\n"
+      "  curvefusion reconstruct scan -o shards --shard 2/2\n"
+      "  curvefusion reconstruct scan -o result --merge shards");
   command->callback([arguments, &exit_code] { exit_code = RunReconstruct(*arguments); });
 }
 

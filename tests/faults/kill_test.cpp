@@ -15,7 +15,7 @@ constexpr uint32_t kSeed = 3;
 
 struct KilledCommand {
   std::string name;
-  int kills;       // of `./run faults`; 1,000 together
+  int kills;       // of `./run faults`; 1,100 together
   int some_kills;  // of ctest
 };
 
@@ -55,6 +55,7 @@ TEST_P(KillTest, LeavesNothingCorrupt) {
 const auto kName = [](const auto& parameter) { return parameter.param.name; };
 INSTANTIATE_TEST_SUITE_P(Commands, KillTest,
                          testing::Values(KilledCommand{"reconstruct", 550, 6},
+                                         KilledCommand{"shard", 100, 4},
                                          KilledCommand{"simulate", 150, 4},
                                          KilledCommand{"contract", 150, 4},
                                          KilledCommand{"mesh_ply", 150, 4}),

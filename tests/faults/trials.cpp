@@ -83,6 +83,8 @@ Files WithoutEmptyFolder(const Files& found, const Files& before) {
 std::vector<WritingCommand> WritingCommands() {
   std::vector<WritingCommand> commands = {
       {"reconstruct", {"reconstruct", "@/scan", "-o", "out", "--threads", "1"}},
+      {"shard",
+       {"reconstruct", "@/scan", "-o", "out", "--shard", "1/1", "--force", "--threads", "1"}},
       {"live", {"live", "@/scan", "-o", "out", "--rate", "1000", "--threads", "1"}},
       {"simulate",
        {"simulate", "@/object.json", "-o", "out", "--frames", "1", "--threads", "1", "--sensor",
