@@ -32,6 +32,8 @@ struct SweepArguments {
   std::vector<fs::path> paths;  // a study file, sweeps, a cell's folder, or the settings of a scan
   fs::path output;
   fs::path scan;
+  std::string shard;  // "2/4"
+  int merge = 0;      // shards
   std::vector<fs::path> caches;
   std::string figure = "F2 aligned";
   std::string setting;
@@ -154,12 +156,23 @@ int FindBest(const SweepArguments& arguments) {
   return 0;
 }
 
+int RunCellShard(const SweepArguments& arguments, const SweepCell& cell) {
+  ProgressPrinter printer = MakeProgressPrinter(arguments.run.quiet);
+  const std::string why =
+      MeasureCellShard(cell, arguments.scan, arguments.output, ParseShard(arguments.shard),
+                       InterruptibleProgress(printer));
+  printer.Finish();
+  if (!why.empty()) fmt::print(stderr, "curvefusion: cell {} is not split: {}\n", cell.key, why);
+  return 0;  // the cell is measured whole
+}
+
 int RunCell(const SweepArguments& arguments) {
   LimitThreads(arguments.run);
   const SweepCell cell = ReadParams(arguments.paths[0] / "params.toml");
+  if (!arguments.shard.empty()) return RunCellShard(arguments, cell);
   ProgressPrinter printer = MakeProgressPrinter(arguments.run.quiet);
-  const CellOutcome outcome =
-      MeasureCell(cell, arguments.scan, arguments.output, InterruptibleProgress(printer));
+  const CellOutcome outcome = MeasureCell(cell, arguments.scan, arguments.output,
+                                          InterruptibleProgress(printer), arguments.merge);
   printer.Finish();
   if (!outcome.message.empty()) {
     fmt::print(stderr, "curvefusion: cell {} failed: {}\n", cell.key, outcome.message);
@@ -261,6 +274,12 @@ void AddSweepCommand(CLI::App& app, int& exit_code) {
   AddRunnerOptions(*command, *arguments);
   AddJudgingOptions(*command, *arguments);
   command->add_option("--scan", arguments->scan, "With cell: the folder of its scan");
+  command->add_option("--shard", arguments->shard,
+                      "With cell: i/N, one shard of it alone, which goes beside the result");
+  command
+      ->add_option("--merge", arguments->merge,
+                   "With cell: put its N shards together, if all are there")
+      ->check(CLI::Range(1, 1000));
   AddRunOptions(*command, arguments->run);
   command->footer(
       "Actions:\n"

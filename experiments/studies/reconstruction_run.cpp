@@ -2,6 +2,7 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <chrono>
 
 #include "capture/content/colour_findings.h"
@@ -84,12 +85,22 @@ void AddContractionCost(const std::vector<StageReport>& stages, const Cost& cost
 }
 
 RunOutcome ReconstructAndEvaluate(const RunInput& input) {
+  return ReconstructAndEvaluateBy(
+      [&](const Sequence& sequence, PipelineObserver& observer) {
+        return Reconstruct(sequence, input.study_case.config.pipeline, observer);
+      },
+      {}, input);
+}
+
+RunOutcome ReconstructAndEvaluateBy(const ReconstructionMethod& method, const Cost& before,
+                                    const RunInput& input) {
   Sequence sequence = OpenSequence(input.scan);
   UseFittedColourCamera(sequence);  // as the command does
   InterruptibleObserver observer(input.progress);
   Reconstruction result;
-  const Cost cost =
-      CostOf([&] { result = Reconstruct(sequence, input.study_case.config.pipeline, observer); });
+  const Cost own = CostOf([&] { result = method(sequence, observer); });
+  const Cost cost = {before.seconds + own.seconds, before.cpu_seconds + own.cpu_seconds,
+                     std::max(before.peak_memory, own.peak_memory)};
   RunOutcome outcome = EvaluateAndKeep(result.skeleton, input);
   AddCost(cost, sequence.frame_count(), outcome.figures);
   AddContractionCost(result.stages, cost, sequence.frame_count(), outcome.figures);

@@ -50,4 +50,11 @@ RunOutcome EvaluateAndKeep(const SkeletonGraph& skeleton, const RunInput& input)
 /// The whole method on the case's scan: EvaluateAndKeep and what it cost.
 RunOutcome ReconstructAndEvaluate(const RunInput& input);
 
+/// Reconstruct, or what takes its place.
+using ReconstructionMethod = std::function<Reconstruction(const Sequence&, PipelineObserver&)>;
+
+/// The same by another method, for which so much was spent elsewhere beforehand.
+RunOutcome ReconstructAndEvaluateBy(const ReconstructionMethod& method, const Cost& before,
+                                    const RunInput& input);
+
 }  // namespace curvefusion

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <new>
+#include <system_error>
 
 #include "experiments/simulation/scan_settings.h"
 #include "experiments/studies/provenance.h"
@@ -35,11 +36,17 @@ bool IsLasting(const Error& error) {
   return error.kind() == ErrorKind::kBadInput || error.kind() == ErrorKind::kUsage;
 }
 
-StudyRun Measured(const StudyCase& study_case, const fs::path& scan, const fs::path& folder,
-                  const Progress& progress) {
+void RequireScanOf(const SweepCell& cell, const fs::path& scan) {
+  if (fs::absolute(scan).lexically_normal().filename() == cell.scan) return;
+  throw Error(ErrorKind::kUsage,
+              scan.string() + ": is not the scan of the cell, which is " + cell.scan);
+}
+
+StudyRun Measured(const StudyCase& study_case, const CaseMeasurement& measure,
+                  const RunInput& input) {
   StudyRun run{study_case.labels, study_case.seed, "failed", "", ThisProgram().revision, {}, {}};
   try {
-    const RunOutcome outcome = ReconstructAndEvaluate({study_case, scan, folder, progress});
+    const RunOutcome outcome = measure(input);
     run.outcome = outcome.found ? "done" : "nothing found";
     run.figures = outcome.figures;
     std::erase_if(run.figures, [](const auto& f) { return !std::isfinite(f.second); });
@@ -82,20 +89,39 @@ RunOutcome RunAsCell(const RunInput& input, const CacheFolders& folders) {
 }  // namespace
 
 CellOutcome MeasureCell(const SweepCell& cell, const fs::path& scan, const fs::path& result,
-                        const Progress& progress) {
+                        const Progress& progress, int shards) {
   if (const auto earlier = ReadRunFile(result)) {
     return {earlier->run.outcome, earlier->run.message};
   }
-  if (fs::absolute(scan).lexically_normal().filename() != cell.scan) {
-    throw Error(ErrorKind::kUsage,
-                scan.string() + ": is not the scan of the cell, which is " + cell.scan);
-  }
+  RequireScanOf(cell, scan);
   RequireFreeSpace(result, kCellBytes);
   PartialFolder partial(result);
-  const StudyRun run = Measured(CaseOf(cell), scan, partial.path(), progress);
+  const StudyCase study_case = CaseOf(cell);
+  const CaseMeasurement measure = [&](const RunInput& input) {
+    return shards > 0 ? MergeAndEvaluate(input, CellShards(result), shards)
+                      : ReconstructAndEvaluate(input);
+  };
+  const StudyRun run = Measured(study_case, measure, {study_case, scan, partial.path(), progress});
   WriteRunFile(partial.path(), {run, CellSettings(cell)});
   if (!ReadRunFile(result)) partial.Finish();
+  std::error_code stays;
+  fs::remove_all(CellShards(result), stays);
   return {run.outcome, run.message};
+}
+
+std::string MeasureCellShard(const SweepCell& cell, const fs::path& scan, const fs::path& result,
+                             ShardNumber shard, const Progress& progress) {
+  if (ReadRunFile(result)) return {};
+  RequireScanOf(cell, scan);
+  RequireFreeSpace(result, kCellBytes);
+  const StudyCase study_case = CaseOf(cell);
+  try {
+    MeasureShard({study_case, scan, CellShards(result), progress}, shard);
+  } catch (const Error& error) {
+    if (!IsLasting(error)) throw;
+    return error.what();
+  }
+  return {};
 }
 
 CaseMeasurement MeasurementByCells(const CacheFolders& folders) {

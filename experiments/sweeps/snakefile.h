@@ -35,15 +35,24 @@ def scan_of(scan):
 
 
 SCAN = {c["cell"]: c["scan"] for c in PLAN["cells"]}
+SHARDS = PLAN["shards"]
+SPLIT = {c["cell"] for c in PLAN["cells"] if SHARDS > 1 and c["profile"] == "best"}
+NUMBERS = range(1, SHARDS + 1)
 TODO = [cell for cell in SCAN if not (result_of(cell) / "run.json").exists()]
 MISSING = {s for s in SCAN.values() if not (scan_of(s) / "truth/settings.json").exists()}
-for name in [*(f"cell_{cell}" for cell in TODO), *(f"scan_{scan}" for scan in MISSING)]:
+TODO_SHARDS = [f"shard_{cell}_{number}" for cell in TODO if cell in SPLIT for number in NUMBERS]
+for name in [*(f"cell_{cell}" for cell in TODO), *TODO_SHARDS, *(f"scan_{scan}" for scan in MISSING)]:
     Path("markers", name).unlink(missing_ok=True)  # of something that was removed since
 
 
 def scan_marker(wildcards):
     scan = SCAN[wildcards.cell]
     return f"markers/scan_{scan}" if scan in MISSING else []
+
+
+def shard_markers(wildcards):
+    cell = wildcards.cell
+    return [f"markers/shard_{cell}_{number}" for number in NUMBERS] if cell in SPLIT else []
 
 
 localrules: collect, cells
@@ -68,17 +77,32 @@ rule simulate:
            " -o {params.folder:q} --threads {threads} --quiet"
 
 
-rule measure:
+rule shard:
     input: scan_marker
-    output: touch("markers/cell_{cell}")
+    output: touch("markers/shard_{cell}_{number}")
     params:
         scan=lambda wildcards: str(scan_of(SCAN[wildcards.cell])),
         result=lambda wildcards: str(result_of(wildcards.cell)),
+    wildcard_constraints: cell="[0-9a-f]+", number="[0-9]+"
     threads: PLAN["threads"]
     resources: mem_mb=PLAN["memory_mb"]
     retries: 1
     shell: COMMAND + " sweep cell cells/{wildcards.cell} --scan {params.scan:q}"
-           " -o {params.result:q} --threads {threads} --quiet"
+           " -o {params.result:q} --shard {wildcards.number}/{SHARDS} --threads {threads} --quiet"
+
+
+rule measure:
+    input: scan_marker, shard_markers
+    output: touch("markers/cell_{cell}")
+    params:
+        scan=lambda wildcards: str(scan_of(SCAN[wildcards.cell])),
+        result=lambda wildcards: str(result_of(wildcards.cell)),
+        merge=lambda wildcards: f"--merge {SHARDS}" if wildcards.cell in SPLIT else "",
+    threads: PLAN["threads"]
+    resources: mem_mb=PLAN["memory_mb"]
+    retries: 1
+    shell: COMMAND + " sweep cell cells/{wildcards.cell} --scan {params.scan:q}"
+           " -o {params.result:q} {params.merge} --threads {threads} --quiet"
 )";
 
 }  // namespace curvefusion

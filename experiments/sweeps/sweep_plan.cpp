@@ -44,6 +44,7 @@ std::string PlanText(const SweepPlan& plan, const fs::path& program) {
                {"program", program.string()},
                {"threads", plan.threads},
                {"memory_mb", plan.memory_mb},
+               {"shards", plan.shards},
                {"caches", caches},
                {"cells", cells}})
              .dump(1) +
@@ -70,6 +71,7 @@ SweepPlan ParsedPlan(const Json& json, const fs::path& folder) {
   json.at("method").get_to(plan.method);
   json.at("threads").get_to(plan.threads);
   json.at("memory_mb").get_to(plan.memory_mb);
+  plan.shards = json.value("shards", 1);
   for (const Json& cache : json.at("caches")) plan.caches.emplace_back(cache.get<std::string>());
   for (const Json& cell : json.at("cells")) plan.cells.push_back(ParsedCell(cell));
   return plan;
@@ -82,7 +84,8 @@ SweepPlan WriteSweepPlan(const fs::path& study, const fs::path& folder,
   const SweepRequest request = ReadSweepRequest(study);
   const std::string study_text = ReadFile(study);
   const SweepCells cells = CellsOf(request);
-  SweepPlan plan{{folder, {}}, MethodVersion(), request.threads, request.memory_mb, cells.cells};
+  SweepPlan plan{{folder, {}},      MethodVersion(), request.threads,
+                 request.memory_mb, request.shards,  cells.cells};
   for (const fs::path& cache : caches) plan.caches.push_back(fs::absolute(cache));
   for (const SweepCell& cell : plan.cells) WriteCell(folder, cell);
   fs::create_directories(folder / "scans");

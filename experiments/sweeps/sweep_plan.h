@@ -14,6 +14,7 @@ struct SweepPlan : CacheFolders {
   std::string method;  ///< the version that its keys are true for
   int threads = 1;     ///< of a cell
   int memory_mb = 0;   ///< of a cell at most
+  int shards = 1;      ///< that a cell of the best profile is split into
   std::vector<SweepCell> cells;
 };
 

@@ -228,6 +228,7 @@ SweepRequest RequestOf(StudyTable study) {
   AddListed(study, request.points);
   AddSamples(study.Table("sample"), request.profiles.front(), request.points);
   study.ReadInteger("threads", 1, 1024, request.threads);
+  study.ReadInteger("shards", 1, 1000, request.shards);
   study.ReadInteger("memory_mb", 1, 10'000'000, request.memory_mb);
   study.RefuseOtherKeys();
   if (request.points.size() > 1) RefuseTuningOn(request.split, study);

@@ -21,6 +21,7 @@ struct SweepRequest {
   int frames = 0;  ///< of objects, otherwise 150; of families at most, otherwise as drawn
   std::vector<SettingPoint> points = {{}};  ///< the first is the profile as it is
   int threads = 1;                          ///< of a cell
+  int shards = 1;                           ///< of a cell of the best profile
   int memory_mb = 2000;                     ///< that a cell may need, for whoever places it
 };
 
