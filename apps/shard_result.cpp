@@ -32,8 +32,6 @@ bool IsFinished(const fs::path& file, ShardNumber shard, const ShardIdentity& id
 
 int WriteShardInto(const fs::path& folder, Sequence sequence, const ShardResult& result,
                    ProgressPrinter& printer) {
-  // Measured (cage, 150 frames): 51 kB a frame; the double for larger objects.
-  constexpr std::uintmax_t kShardOfFrame = 100'000;
   const ShardedRun& run = result.run;
   const fs::path file = folder / ShardName(result.shard);
   const ShardIdentity identity = IdentityOf(sequence, run);
@@ -44,7 +42,7 @@ int WriteShardInto(const fs::path& folder, Sequence sequence, const ShardResult&
     return 0;
   }
   const auto frames = static_cast<std::uintmax_t>(sequence.frame_count() / result.shard.count);
-  RequireFreeSpace(folder, kShardOfFrame * frames);
+  RequireFreeSpace(folder, kShardBytesOfFrame * frames);
   if (run.fit_colour_camera) UseFittedColourCamera(sequence);
   FindPoses(sequence, InterruptibleProgress(printer));
   RunObserver observer(printer, {});

@@ -113,7 +113,6 @@ std::string MeasureCellShard(const SweepCell& cell, const fs::path& scan, const 
                              ShardNumber shard, const Progress& progress) {
   if (ReadRunFile(result)) return {};
   RequireScanOf(cell, scan);
-  RequireFreeSpace(result, kCellBytes);
   const StudyCase study_case = CaseOf(cell);
   try {
     MeasureShard({study_case, scan, CellShards(result), progress}, shard);

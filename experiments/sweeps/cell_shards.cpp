@@ -8,7 +8,7 @@
 #include "capture/content/colour_findings.h"
 #include "experiments/studies/reconstruction_run.h"
 #include "kernel/atomic_file.h"
-#include "kernel/error.h"
+#include "kernel/free_space.h"
 #include "kernel/json_input.h"
 #include "kernel/text_input.h"
 
@@ -54,6 +54,8 @@ void MeasureShard(const RunInput& input, ShardNumber shard) {
   const fs::path file = input.folder / ShardName(shard);
   const fs::path cost_file = CostFile(input.folder, shard);
   if (ReadCost(cost_file) && !WhyNotShard(file, shard, identity)) return;
+  RequireFreeSpace(input.folder, kShardBytesOfFrame * static_cast<std::uintmax_t>(
+                                                          sequence.frame_count() / shard.count));
   fs::create_directories(input.folder);
   UseFittedColourCamera(sequence);  // as ReconstructAndEvaluate does
   InterruptibleObserver observer(input.progress);
