@@ -35,8 +35,8 @@ constexpr const char* kNothingThinHints =
     "  front of other things, and not black to the infrared camera. `curvefusion check` tells\n"
     "  whether poses and depth unit fit; --save-stages keeps what every step found.\n";
 
-std::string NothingThinText(const Funnel& funnel) {
-  return fmt::format("Found nothing thin: {}.\n{}", WhyNothing(funnel), kNothingThinHints);
+std::string NothingThinText(const Reconstruction& reconstruction) {
+  return fmt::format("Found nothing thin: {}.\n{}", WhyNothing(reconstruction), kNothingThinHints);
 }
 
 }  // namespace
@@ -51,7 +51,7 @@ std::string Summary(const RunRecord& record, const std::filesystem::path& folder
                     const std::filesystem::path& page, const std::filesystem::path& report) {
   const SkeletonGraph& skeleton = record.reconstruction.skeleton;
   std::string text = skeleton.empty()
-                         ? NothingThinText(record.reconstruction.funnel)
+                         ? NothingThinText(record.reconstruction)
                          : fmt::format("Found {}\n{}", FiguresLine(MeasureGraph(skeleton)),
                                        TrustText(record.reconstruction.trust));
   text += UncertainLine(record.reconstruction.uncertain.lengths);

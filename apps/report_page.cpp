@@ -68,7 +68,7 @@ Json PageData(const RunRecord& record, const PagePictures& pictures,
           {"title", folder.has_filename() ? folder.filename().string()
                                           : folder.parent_path().filename().string()},
           {"nothing_found",
-           reconstruction.skeleton.empty() ? Json(WhyNothing(reconstruction.funnel)) : Json()},
+           reconstruction.skeleton.empty() ? Json(WhyNothing(reconstruction)) : Json()},
           {"report", ReportData(record)},
           {"tolerance_mm", tolerance / kMillimetre},
           {"up", VectorJson(axes.row(1))},

@@ -124,4 +124,9 @@ std::string WhyNothing(const Funnel& funnel) {
   return LostCurves(funnel.curves);
 }
 
+std::string WhyNothing(const Reconstruction& reconstruction) {
+  if (reconstruction.depth.use != "none") return WhyNothing(reconstruction.funnel);
+  return "the colour images agree on no curve that what they show beside it proves to be a wire";
+}
+
 }  // namespace curvefusion

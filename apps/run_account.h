@@ -3,6 +3,7 @@
 #include <string>
 
 #include "fusion/funnel.h"
+#include "fusion/reconstruction.h"
 #include "fusion/trust.h"
 
 namespace curvefusion {
@@ -16,5 +17,8 @@ std::string UncertainLine(const UnprovenLengths& lengths);
 /// Which rule took most where nothing remained, a sentence: "34,017 of 34,063 candidates fell to
 /// the colour check".
 std::string WhyNothing(const Funnel& funnel);
+
+/// The same of a run whose curves may come from colour images alone.
+std::string WhyNothing(const Reconstruction& reconstruction);
 
 }  // namespace curvefusion

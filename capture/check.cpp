@@ -44,15 +44,19 @@ void CollectDefect(const ImageHeader& header, const Decode& decode, FrameCheck& 
   }
 }
 
-FrameCheck CheckFrame(const Sequence& sequence, const SequenceFrame& frame) {
-  FrameCheck check;
-  const auto decode_depth = [&] {
+void CheckDepth(const Sequence& sequence, const SequenceFrame& frame, FrameCheck& check) {
+  const auto decode = [&] {
     const Image<uint16_t> raw = DecodeDepthImage(frame.depth_path, frame.depth_part);
     check.depth_thumbnail = ShrunkDepth(sequence, raw);
     check.depth.Add(MetricDepth(raw, sequence.depth_scale, sequence.invalid_depth));
   };
   const ImageHeader depth = ReadImageHeader(frame.depth_path, frame.depth_part);
-  if (depth.bits == 16) CollectDefect(depth, decode_depth, check);
+  if (depth.bits == 16) CollectDefect(depth, decode, check);
+}
+
+FrameCheck CheckFrame(const Sequence& sequence, const SequenceFrame& frame) {
+  FrameCheck check;
+  if (sequence.has_depth) CheckDepth(sequence, frame, check);
   const auto decode_color = [&] {
     check.grey_thumbnail =
         ShrunkColor(sequence, DecodeColorImage(frame.color_path, frame.color_part, &check.remark));
@@ -114,7 +118,7 @@ std::optional<Sequence> TryReadSequence(const std::filesystem::path& folder,
                                         const FindingHandler& on_finding) {
   std::string message;
   try {
-    return ReadSequence(folder, PoseUse::kIfGiven, on_finding);
+    return ReadSequence(folder, PoseUse::kIfGiven, DepthUse::kIfGiven, on_finding);
   } catch (const Error& error) {
     message = error.what();
   }
@@ -134,7 +138,7 @@ void ReportMissingPoses(const Sequence& sequence, const FindingHandler& on_findi
 // Where most frames of a TUM sequence have no pose, the clocks may be far apart.
 GeometryReport CheckPoses(const Sequence& sequence, const Thumbnails& thumbnails,
                           const FindingHandler& on_finding) {
-  if (!sequence.has_poses) return {};
+  if (!sequence.has_poses || !sequence.has_depth) return {};
   if (sequence.format == "tum" && sequence.frames_without_pose > sequence.frame_count()) {
     const Sequence images = ReadTumImages(sequence.folder, [](const CheckFinding&) {});
     GeometryReport report = CheckClocks(images, on_finding);
@@ -146,10 +150,11 @@ GeometryReport CheckPoses(const Sequence& sequence, const Thumbnails& thumbnails
 void Summarize(const Sequence& sequence, CheckReport& report) {
   report.format = sequence.format;
   report.has_poses = sequence.has_poses;
+  report.has_depth = sequence.has_depth;
   report.frames = sequence.frame_count();
   report.frames_without_pose = sequence.frames_without_pose;
   report.frames_without_partner = sequence.frames_without_partner;
-  report.depth_scale = sequence.depth_scale;
+  report.depth_scale = sequence.has_depth ? sequence.depth_scale : 0;
   report.trajectory_length = TrajectoryLength(sequence);
   if (sequence.format == "tum" && !sequence.frames.empty()) {
     report.duration = sequence.frames.back().timestamp - sequence.frames.front().timestamp;
@@ -182,8 +187,10 @@ CheckReport CheckSequence(const std::filesystem::path& folder, const Progress& p
     const bool is_explained = report.geometry.correction.has_value();
     if (has_samples && !is_explained) ReportDepthScale(*sequence, depth, collect);
     if (!report.has_errors()) {
-      report.colour_camera = FitColourCamera(*sequence, {});
-      ReportColourCamera(*sequence, report.colour_camera, collect);
+      if (sequence->has_depth) {
+        report.colour_camera = FitColourCamera(*sequence, {});
+        ReportColourCamera(*sequence, report.colour_camera, collect);
+      }
       ReportSuitability(*sequence, depth, SurveyColour(*sequence, kSurveyFrames), collect);
     }
   }

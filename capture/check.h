@@ -17,6 +17,7 @@ struct CheckReport {
   std::vector<CheckFinding> findings;  ///< errors first
   std::string format;                  ///< as Sequence::format; empty where it is unknown
   bool has_poses = true;               ///< otherwise nothing is said of the camera's path
+  bool has_depth = true;               ///< otherwise nothing is said of depth
   int frames = 0;                      ///< with both images, and a pose where there are any
   int frames_without_pose = 0;         ///< dropped
   int frames_without_partner = 0;      ///< colour or depth images without the other, dropped

@@ -20,6 +20,7 @@ Json FiguresJson(const CheckReport& report) {
   const ImageSizes& sizes = report.image_sizes;
   return {{"frames", report.frames},
           {"has_poses", report.has_poses},
+          {"has_depth", report.has_depth},
           {"frames_without_pose", report.frames_without_pose},
           {"frames_without_partner", report.frames_without_partner},
           {"depth_size", SizeJson(sizes.depth_width, sizes.depth_height)},

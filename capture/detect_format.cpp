@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "capture/readers/containers.h"
@@ -25,7 +26,8 @@ namespace fs = std::filesystem;
 constexpr size_t kMaxProposals = 3;  // chosen: a message of one line
 
 bool LooksLikeTum(const fs::path& folder) {
-  return fs::exists(folder / "depth.txt") || fs::exists(folder / "associations.txt");
+  return fs::exists(folder / "depth.txt") || fs::exists(folder / "associations.txt") ||
+         (fs::exists(folder / "rgb.txt") && HasTumTrajectory(folder));
 }
 
 bool HasTrajectoryLog(const fs::path& folder) { return fs::exists(folder / "trajectory.log"); }
@@ -174,6 +176,44 @@ void ReportDroppedFrames(const Sequence& sequence, const FindingHandler& on_find
   }
 }
 
+// Lists of images may name depth that was never copied.
+bool HasDepthFiles(const Sequence& sequence) {
+  return sequence.has_depth &&
+         (sequence.frames.empty() || sequence.IsRecording() ||
+          std::any_of(sequence.frames.begin(), sequence.frames.end(),
+                      [](const SequenceFrame& frame) { return fs::exists(frame.depth_path); }));
+}
+
+// Leaves depth out where it is not there or not to be used. Throws where it is needed.
+void UseDepth(DepthUse use, Sequence& sequence, const FindingHandler& on_finding) {
+  const std::string folder = sequence.folder.string();
+  if (use == DepthUse::kNeeded && sequence.has_depth) return;
+  if (use == DepthUse::kNeeded) {
+    throw Error(ErrorKind::kBadInput,
+                fmt::format("{}: has no depth images; give a 16-bit PNG for every colour image "
+                            "(docs/formats_input.md), or let `curvefusion reconstruct` make curves "
+                            "from colour images and poses alone (--depth auto or none)",
+                            folder));
+  }
+  const bool is_given = HasDepthFiles(sequence);
+  if (use == DepthUse::kIfGiven && is_given) return;
+  if (!sequence.has_poses) {
+    throw Error(ErrorKind::kBadInput,
+                fmt::format("{}: neither depth images nor camera poses are there to go by; give "
+                            "poses, as COLMAP's model (sparse/0) or nerfstudio's transforms.json "
+                            "beside the colour images, or depth images, by which the camera is "
+                            "tracked",
+                            folder));
+  }
+  sequence = WithoutDepth(std::move(sequence));
+  if (is_given) return;
+  on_finding({Severity::kWarning,
+              fmt::format("{}: has no depth images: curves come from colour images alone, and "
+                          "their scale is that of the poses, which must be in metres",
+                          folder),
+              "no-depth"});
+}
+
 // Throws for a file that is no recording.
 void RequireRecording(const fs::path& file) {
   const std::string obstacle = ReadingObstacle(file);
@@ -208,16 +248,18 @@ void RequireReadable(const fs::path& path) {
 
 }  // namespace
 
-Sequence ReadSequence(const fs::path& folder, PoseUse use, const FindingHandler& on_finding) {
+Sequence ReadSequence(const fs::path& folder, PoseUse poses, DepthUse depth,
+                      const FindingHandler& on_finding) {
   RequireReadable(folder);
   const Format* format = FormatOf(folder);
   if (format == nullptr) FailUnknownFormat(folder);
   const bool with_poses =
-      use == PoseUse::kNeeded || (use == PoseUse::kIfGiven && format->has_poses(folder));
+      poses == PoseUse::kNeeded || (poses == PoseUse::kIfGiven && format->has_poses(folder));
   Sequence sequence = (with_poses ? format->read : format->read_images)(folder, on_finding);
   sequence.has_poses = with_poses;
   sequence.format = format->name;
   sequence.folder = folder;
+  UseDepth(depth, sequence, on_finding);
   ReportDroppedFrames(sequence, on_finding);
   return sequence;
 }

@@ -9,9 +9,9 @@ namespace curvefusion {
 
 /// Detects the format of a folder or a recording and reads everything but the images. Reports the
 /// defects that leave something to go on with, also: no frame left (error), frames dropped
-/// (warning). Throws Error(kBadInput) where the format is unknown or a file is missing that the
-/// format needs.
-Sequence ReadSequence(const std::filesystem::path& folder, PoseUse use,
+/// (warning). Throws Error(kBadInput) where the format is unknown, a file is missing that the
+/// format needs, or there are neither depth images nor poses.
+Sequence ReadSequence(const std::filesystem::path& folder, PoseUse poses, DepthUse depth,
                       const FindingHandler& on_finding);
 
 }  // namespace curvefusion

@@ -87,7 +87,7 @@ ImageSizes SurveyImages(const Sequence& sequence, const FindingHandler& on_findi
   ImageHeader depth;
   ImageHeader color;
   for (const SequenceFrame& frame : sequence.frames) {
-    Examine(frame.depth_path, frame.depth_part, true, depth, defects);
+    if (sequence.has_depth) Examine(frame.depth_path, frame.depth_part, true, depth, defects);
     Examine(frame.color_path, frame.color_part, false, color, defects);
   }
   ReportDefects(defects, on_finding);

@@ -38,15 +38,24 @@ void RequirePlausibleDepth(const Sequence& sequence, const FindingHandler& on_fi
 
 }  // namespace
 
-Sequence OpenSequence(const std::filesystem::path& folder, PoseUse use) {
+Sequence WithoutDepth(Sequence sequence) {
+  sequence.has_depth = false;
+  for (SequenceFrame& frame : sequence.frames) {
+    frame.depth_path.clear();
+    frame.depth_part = {};
+  }
+  return sequence;
+}
+
+Sequence OpenSequence(const std::filesystem::path& folder, PoseUse poses, DepthUse depth) {
   std::vector<std::string> warnings;
   const FindingHandler throw_errors = [&warnings](const CheckFinding& finding) {
     if (finding.severity == Severity::kError) throw Error(ErrorKind::kBadInput, finding.message);
     warnings.push_back(finding.message);
   };
-  Sequence sequence = ReadSequence(folder, use, throw_errors);
+  Sequence sequence = ReadSequence(folder, poses, depth, throw_errors);
   SurveyImages(sequence, throw_errors);
-  RequirePlausibleDepth(sequence, throw_errors);
+  if (sequence.has_depth) RequirePlausibleDepth(sequence, throw_errors);
   sequence.warnings = std::move(warnings);
   return sequence;
 }
@@ -71,6 +80,8 @@ double StepBetweenFrames(const Sequence& sequence, double share) {
 bool IsVideo(const Sequence& sequence) { return StepBetweenFrames(sequence, 0.75) < kVideoStep; }
 
 DepthImage LoadDepth(const Sequence& sequence, int frame) {
+  const PinholeCamera& camera = sequence.depth_camera;
+  if (!sequence.has_depth) return {camera.width, camera.height};
   const SequenceFrame& entry = sequence.frames.at(static_cast<size_t>(frame));
   const Image<uint16_t> raw = DecodeDepthImage(entry.depth_path, entry.depth_part);
   RequireSize(sequence, ImageName(entry.depth_path, entry.depth_part), raw.width(), raw.height(),

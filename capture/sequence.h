@@ -25,7 +25,8 @@ struct SequenceFrame {
   ImagePart depth_part;
 };
 
-/// An RGB-D sequence whose images are decoded when asked for. Open it with OpenSequence.
+/// An RGB-D sequence whose images are decoded when asked for; it may have colour images and poses
+/// only. Open it with OpenSequence.
 struct Sequence {
   std::string format;            ///< its name in docs/formats_input.md, such as "tum"
   std::filesystem::path folder;  ///< or the file of a recording
@@ -37,6 +38,7 @@ struct Sequence {
   double depth_scale = 5000;          ///< depth units per metre
   int invalid_depth = 0;              ///< raw value that means "no measurement", besides 0
   std::vector<SequenceFrame> frames;  ///< ordered, all with both images
+  bool has_depth = true;              ///< otherwise frames have colour only, and no depth is read
   bool has_poses = true;              ///< otherwise T_world_camera of the frames is meaningless
   int frames_without_pose = 0;        ///< dropped when opening
   int frames_without_partner = 0;     ///< colour or depth images without the other, dropped
@@ -44,7 +46,7 @@ struct Sequence {
 
   int frame_count() const { return static_cast<int>(frames.size()); }
   /// Whether the images are parts of a file.
-  bool IsRecording() const { return !frames.empty() && !frames[0].depth_part.IsWholeFile(); }
+  bool IsRecording() const { return !frames.empty() && !frames[0].color_part.IsWholeFile(); }
 };
 
 /// What becomes of the poses of a sequence.
@@ -54,11 +56,22 @@ enum class PoseUse {
   kIgnored,  ///< every frame with both images is there, Sequence::has_poses is false
 };
 
+/// What becomes of the depth images of a sequence.
+enum class DepthUse {
+  kNeeded,   ///< a sequence without any is bad input
+  kIfGiven,  ///< the same, but where there are none at all the sequence is opened without
+  kIgnored,  ///< none is opened, Sequence::has_depth is false
+};
+
+/// The sequence as if it had colour images and poses only.
+Sequence WithoutDepth(Sequence sequence);
+
 /// Detects the format of a folder or a recording in one file (docs/formats_input.md) and reads
 /// everything but the images, of which it looks at the headers and at the depths of a few frames.
 /// Throws Error(kBadInput) naming file, line or frame, value and remedy at the first defect that
 /// would spoil a reconstruction; capture/check.h finds all of them. Well under a second.
-Sequence OpenSequence(const std::filesystem::path& folder, PoseUse use = PoseUse::kNeeded);
+Sequence OpenSequence(const std::filesystem::path& folder, PoseUse poses = PoseUse::kNeeded,
+                      DepthUse depth = DepthUse::kNeeded);
 
 /// The poses of the cameras of all frames.
 std::vector<RigidTransform> CameraPoses(const Sequence& sequence);
@@ -71,8 +84,9 @@ double StepBetweenFrames(const Sequence& sequence, double share);
 /// camera. Otherwise its frames are separate views.
 bool IsVideo(const Sequence& sequence);
 
-/// Decodes one depth image to metres and undoes the lens distortion. Thread-safe. Throws
-/// Error(kBadInput) for a missing, truncated, 8-bit or wrongly sized image.
+/// Decodes one depth image to metres and undoes the lens distortion; one without any measurement
+/// where the sequence has no depth. Thread-safe. Throws Error(kBadInput) for a missing, truncated,
+/// 8-bit or wrongly sized image.
 DepthImage LoadDepth(const Sequence& sequence, int frame);
 
 /// Decodes one colour image and undoes the lens distortion. Thread-safe. Throws like LoadDepth.

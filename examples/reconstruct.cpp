@@ -1,12 +1,12 @@
 // reconstruct SCAN CONFIG.toml SKELETON.json: the whole method, with settings from a file.
-#include <cstdio>
-
 #include <curvefusion/check.h>
 #include <curvefusion/config.h>
 #include <curvefusion/error.h>
 #include <curvefusion/reconstruct.h>
 #include <curvefusion/sequence.h>
 #include <curvefusion/skeleton_io.h>
+
+#include <cstdio>
 
 using namespace curvefusion;
 
@@ -20,7 +20,7 @@ class Printer : public PipelineObserver {
 int main(int argc, char** argv) try {
   if (argc != 4) throw Error(ErrorKind::kUsage, "usage: reconstruct SCAN CONFIG SKELETON");
   const Config config = ReadConfig({.profile = {}, .file = argv[2], .assignments = {}});
-  Sequence sequence = OpenSequence(argv[1], PoseUse::kIfGiven);
+  Sequence sequence = OpenSequence(argv[1], PoseUse::kIfGiven, DepthUse::kIfGiven);
   UseFittedColourCamera(sequence);  // only where colour lies beside depth
   FindPoses(sequence, NoProgress);  // looks at those that are there, or tracks the camera
   Printer printer;

@@ -165,6 +165,17 @@ class OptionReader : public OptionVisitor {
     value = *node->value<bool>();
   }
 
+  void VisitChoice(const OptionInfo& info, const std::vector<std::string>& words,
+                   int& value) override {
+    const toml::node* node = Find(info);
+    if (node == nullptr) return;
+    const std::string wanted = fmt::format("one of {}", fmt::join(words, ", "));
+    if (!node->is_string()) ThrowWrongType(info, *node, wanted.c_str());
+    const auto word = std::find(words.begin(), words.end(), *node->value<std::string>());
+    if (word == words.end()) ThrowWrongType(info, *node, wanted.c_str());
+    value = static_cast<int>(word - words.begin());
+  }
+
  private:
   const toml::node* Find(const OptionInfo& info) const {
     return table_ == nullptr ? nullptr : table_->get(info.name);
@@ -236,6 +247,8 @@ std::string TomlNumber(double value) {
   return number.find_first_of(".en") == std::string::npos ? number + ".0" : number;
 }
 
+std::string TomlText(const std::string& word) { return fmt::format("\"{}\"", word); }
+
 // All options with their values, in the order they are visited.
 class ValueCollector : public OptionVisitor {
  public:
@@ -243,6 +256,10 @@ class ValueCollector : public OptionVisitor {
   void Visit(const OptionInfo& info, double& value) override { Add(info, TomlNumber(value)); }
   void Visit(const OptionInfo& info, int& value) override { Add(info, std::to_string(value)); }
   void Visit(const OptionInfo& info, bool& value) override { Add(info, value ? "true" : "false"); }
+  void VisitChoice(const OptionInfo& info, const std::vector<std::string>& words,
+                   int& value) override {
+    Add(info, TomlText(words[static_cast<size_t>(value)]));
+  }
   const std::vector<OptionValue>& values() const { return values_; }
 
  private:
@@ -274,6 +291,11 @@ class TomlWriter : public OptionVisitor {
   }
   void Visit(const OptionInfo& info, bool& value) override {
     Write(info, value ? "true" : "false", "true or false");
+  }
+  void VisitChoice(const OptionInfo& info, const std::vector<std::string>& words,
+                   int& value) override {
+    Write(info, TomlText(words[static_cast<size_t>(value)]),
+          fmt::format("{}", fmt::join(words, ", ")));
   }
   const std::string& text() const { return text_; }
 

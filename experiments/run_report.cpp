@@ -73,6 +73,12 @@ Json PosesJson(const RunRecord& record) {
   return {{"from", "tracking"}, {"keyframes", record.tracking->keyframes}, {"lost", lost}};
 }
 
+// What depth images were used for, and why; null for profiles that do not choose.
+Json DepthJson(const DepthAccount& depth) {
+  if (depth.use.empty()) return nullptr;
+  return {{"use", depth.use}, {"why", depth.why}};
+}
+
 Json DiameterJson(double radius) {
   return radius > 0 ? Json(2 * radius / kMillimetre) : Json(nullptr);
 }
@@ -193,7 +199,6 @@ Json TrustJson(const Trust& trust) {
           {"colour_share", trust.colour_share},
           {"adjusted_to_colour", trust.adjusted},
           {"from_colour_alone", trust.from_colour},
-          {"depth_scatter", trust.depth_scatter},
           {"residual_before_px", PixelsJson(trust.residual_before_px)},
           {"residual_px", PixelsJson(trust.residual_px)},
           {"pose_shift_mm", trust.pose_shift / kMillimetre},
@@ -232,6 +237,7 @@ Json ReportData(const RunRecord& record) {
       {"sequence", SequenceJson(record.sequence)},
       {"cameras", CamerasJson(record)},
       {"poses", PosesJson(record)},
+      {"depth", DepthJson(reconstruction.depth)},
       {"seconds", record.seconds},
       {"seconds_per_30_frames",
        frames > 0 ? Json(record.seconds * kBundle / frames) : Json(nullptr)},

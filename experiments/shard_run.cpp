@@ -15,7 +15,12 @@ namespace curvefusion {
 namespace fs = std::filesystem;
 
 const BestOptions& OptionsOfShards(const Config& config) {
-  if (const auto* best = std::get_if<BestOptions>(&config.pipeline)) return *best;
+  if (const auto* best = std::get_if<BestOptions>(&config.pipeline)) {
+    if (best->depth.use != DepthRole::kNone) return *best;
+    throw Error(ErrorKind::kUsage,
+                "depth.use=none: shards are segmented in depth images; leave --shard and --merge "
+                "out, or use depth");
+  }
   throw Error(
       ErrorKind::kUsage,
       "--profile paper: its bundles are fused one by one and cannot be split; leave --shard "

@@ -21,7 +21,8 @@ struct ShardedRun {
   bool track = false;             ///< poses are tracked even where the scan has some
 };
 
-/// The options of a run that can be split. Throws Error(kUsage) for the paper profile.
+/// The options of a run that can be split. Throws Error(kUsage) for the paper profile and for runs
+/// that use no depth.
 const BestOptions& OptionsOfShards(const Config& config);
 
 /// What all shards of a run of this program on this scan have in common; the sequence is as it was

@@ -2,6 +2,7 @@
 
 #include "fusion/best/best_pipeline.h"
 #include "fusion/paper/paper_pipeline.h"
+#include "kernel/error.h"
 
 namespace curvefusion {
 
@@ -19,8 +20,22 @@ const TsdfOptions& VolumeOptions(const PipelineOptions& options) {
                     options);
 }
 
+DepthUse DepthUseOf(const PipelineOptions& options) {
+  const auto* best = std::get_if<BestOptions>(&options);
+  if (best == nullptr) return DepthUse::kNeeded;
+  if (best->depth.use == DepthRole::kAuto) return DepthUse::kIfGiven;
+  return best->depth.use == DepthRole::kNone ? DepthUse::kIgnored : DepthUse::kNeeded;
+}
+
 Reconstruction Reconstruct(const Sequence& sequence, const PipelineOptions& options,
                            PipelineObserver& observer) {
+  if (!sequence.has_depth && DepthUseOf(options) == DepthUse::kNeeded) {
+    throw Error(
+        ErrorKind::kBadInput,
+        sequence.folder.string() +
+            ": has no depth images, from which curves are to be made; take the best profile "
+            "with depth.use = \"auto\" or \"none\"");
+  }
   if (const auto* paper = std::get_if<PaperOptions>(&options)) {
     return ReconstructPaper(sequence, *paper, observer);
   }

@@ -27,9 +27,12 @@ void VisitOptions(PipelineOptions& options, OptionVisitor& visitor);
 /// The options of VolumeFusion, which both profiles have.
 const TsdfOptions& VolumeOptions(const PipelineOptions& options);
 
+/// What becomes of the depth images of a sequence that is opened for this.
+DepthUse DepthUseOf(const PipelineOptions& options);
+
 /// The whole method of a profile. `sequence` must have poses (FindPoses makes them where they are
 /// missing); the result is in its world frame. A plain PipelineObserver ignores all events. Throws
-/// Error for input that cannot be read.
+/// Error for input that cannot be read, and for a sequence without depth where DepthUseOf needs it.
 Reconstruction Reconstruct(const Sequence& sequence, const PipelineOptions& options,
                            PipelineObserver& observer);
 

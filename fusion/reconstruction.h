@@ -40,6 +40,12 @@ class PipelineObserver {
   virtual void OnVolume(const TsdfVolume& /*volume*/) {}
 };
 
+/// What depth images were used for.
+struct DepthAccount {
+  std::string use;  ///< "wires", "background" or "none"; empty where it is not told
+  std::string why;
+};
+
 /// The outcome of a run. An empty skeleton means: nothing thin was found, an expected outcome.
 struct Reconstruction {
   /// The curves, world frame, with a radius (metres) at every point, or with none where no diameter
@@ -58,6 +64,7 @@ struct Reconstruction {
   std::vector<StageReport> stages;
   Funnel funnel;                      ///< what each rule took
   Trust trust;                        ///< how far the result may be trusted
+  DepthAccount depth;                 ///< what depth was used for; the best profile only
   std::vector<std::string> warnings;  ///< what the user should know, a sentence each
 };
 

@@ -112,13 +112,6 @@ std::vector<std::string> Doubts(const Trust& trust) {
         "strip along {:.0f} % of them only. Scan from more sides, in more light",
         100 * trust.colour_share));
   }
-  if (trust.length > 0 && !trust.from_colour && trust.depth_scatter > kWrongScatter) {
-    doubts.push_back(fmt::format(
-        "do not trust where these curves lie: depth scatters {:.1f} times as much about them as "
-        "about a surface, as that of time-of-flight cameras does about thin wires, and the colour "
-        "images alone gave no better ones. Scan longer and from more sides",
-        trust.depth_scatter));
-  }
   return doubts;
 }
 

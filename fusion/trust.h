@@ -8,11 +8,6 @@ namespace curvefusion {
 struct Sequence;
 struct Reconstruction;
 
-/// Depth that scatters more about adjusted curves, in standard deviations of a plane's as far away,
-/// shows wires in wrong places. Measured (docs/wires_from_colour.md): 1.7 to 4.7 where it shows
-/// them in their places, 5.3 and more with time of flight.
-inline constexpr double kWrongScatter = 5;
-
 /// How far a result may be trusted. Shares are of the length of its curves.
 struct Trust {
   double length = 0;          ///< metres
@@ -22,7 +17,6 @@ struct Trust {
   double colour_share = 0;    ///< near a strip that colour images show
   bool adjusted = false;      ///< whether curves and poses were adjusted to colours
   bool from_colour = false;   ///< whether the curves come from colour images alone
-  double depth_scatter = 0;   ///< about adjusted curves, see DepthGauge; 0 = unknown
   double residual_before_px =
       0;                      ///< of curves in colour images, before the adjustment; 0 = unknown
   double residual_px = 0;     ///< after it; 0 = unknown

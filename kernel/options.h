@@ -28,6 +28,11 @@ class OptionVisitor {
   virtual void Visit(const OptionInfo& info, double& value) = 0;
   virtual void Visit(const OptionInfo& info, int& value) = 0;
   virtual void Visit(const OptionInfo& info, bool& value) = 0;
+  /// One of several words, of which `value` is the place.
+  virtual void VisitChoice(const OptionInfo& info, const std::vector<std::string>& /*words*/,
+                           int& value) {
+    Visit(info, value);
+  }
 };
 
 /// The name out of `known` with the least edit distance to `name`; empty where `known` is.

@@ -106,7 +106,9 @@ Result ReconstructIn(const py::object& source, const std::string& profile, const
   }
   Result result;
   RunInterruptibly(progress, [&](const Progress& inner) {
-    if (!is_open) sequence = OpenSequence(folder, PoseUse::kIfGiven);
+    const DepthUse depth = DepthUseOf(config.pipeline);
+    if (!is_open) sequence = OpenSequence(folder, PoseUse::kIfGiven, depth);
+    if (depth == DepthUse::kIgnored) sequence = WithoutDepth(std::move(sequence));
     result = Run(std::move(sequence), config, inner);
   });
   return result;
@@ -144,7 +146,9 @@ py::object EvaluateIn(const SkeletonGraph& skeleton, const py::object& truth,
 constexpr const char* kReconstructDocs = R"(Turn an RGB-D sequence into a curve skeleton.
 
 What `curvefusion reconstruct` does, without its files: where colour lies beside depth
-the colour camera is fitted, where there are no poses the camera is tracked.
+the colour camera is fitted, where there are no poses the camera is tracked. What
+depth images are used for is the setting "depth.use": with "none", colour images and
+poses alone.
 
 Parameters
 ----------

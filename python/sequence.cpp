@@ -80,7 +80,7 @@ py::array Color(const Sequence& sequence, int frame) {
 }
 
 Sequence Open(const std::filesystem::path& folder) {
-  return Interruptible([&] { return OpenSequence(folder, PoseUse::kIfGiven); });
+  return Interruptible([&] { return OpenSequence(folder, PoseUse::kIfGiven, DepthUse::kIfGiven); });
 }
 
 py::object Check(const std::filesystem::path& folder, const py::object& progress) {
@@ -112,7 +112,8 @@ frame : int
 Returns
 -------
 (H, W) float32 array
-    Depth along the optical axis in metres; 0 = no measurement.
+    Depth along the optical axis in metres; 0 = no measurement, as everywhere where
+    the sequence has no depth.
 
 Raises
 ------
@@ -156,6 +157,8 @@ void BindSequenceClass(py::module_& module) {
       .def_property_readonly(
           "T_color_depth", [](const Sequence& s) { return Matrix(s.T_color_depth); },
           "(4, 4) float64: depth camera to colour camera, metres.")
+      .def_readonly("has_depth", &Sequence::has_depth,
+                    "Whether there are depth images; otherwise colour images and poses only.")
       .def_property_readonly("poses", &Poses,
                              "(N, 4, 4) float64: depth camera to world, metres; None where the "
                              "sequence has none.")
@@ -170,7 +173,7 @@ void BindSequenceClass(py::module_& module) {
 constexpr const char* kReadDocs = R"(Open an RGB-D sequence; its layout is recognised.
 
 Frames without a pose are left out; where there are no poses at all, the sequence
-is opened without.
+is opened without. So it is where there are no depth images at all, but poses.
 
 Parameters
 ----------

@@ -31,9 +31,13 @@ void PrintFigures(const CheckReport& report) {
   if (report.frames == 0) return;
   fmt::print("frames       {} ({} without pose, {} without partner)\n", report.frames,
              report.frames_without_pose, report.frames_without_partner);
-  fmt::print("depth        {} x {}, {:g} units per metre, {:.0f} % valid, median {:.2f} m\n",
-             sizes.depth_width, sizes.depth_height, report.depth_scale, 100 * report.depth_validity,
-             report.median_depth);
+  if (report.has_depth) {
+    fmt::print("depth        {} x {}, {:g} units per metre, {:.0f} % valid, median {:.2f} m\n",
+               sizes.depth_width, sizes.depth_height, report.depth_scale,
+               100 * report.depth_validity, report.median_depth);
+  } else {
+    fmt::print("depth        none\n");
+  }
   fmt::print("colour       {} x {}\n", sizes.color_width, sizes.color_height);
   if (report.colour_camera.measured) {
     fmt::print(

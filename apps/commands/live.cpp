@@ -54,10 +54,16 @@ struct LiveArguments {
 
 const BestOptions& BestOf(const Config& config) {
   const auto* options = std::get_if<BestOptions>(&config.pipeline);
-  if (options != nullptr) return *options;
-  throw Error(ErrorKind::kUsage,
-              "live shows what the best profile finds: leave out --profile paper, and give the "
-              "scan to reconstruct afterwards");
+  if (options == nullptr) {
+    throw Error(ErrorKind::kUsage,
+                "live shows what the best profile finds: leave out --profile paper, and give the "
+                "scan to reconstruct afterwards");
+  }
+  if (options->depth.use == DepthRole::kNone) {
+    throw Error(ErrorKind::kUsage,
+                "live shows what depth images tell: depth.use=none is for reconstruct");
+  }
+  return *options;
 }
 
 PoseUse PosesFor(const LiveArguments& arguments) {

@@ -28,6 +28,7 @@ struct ReconstructArguments {
   ConfigArguments config;
   bool force = false;
   bool track = false;
+  std::string depth;  // empty: as the config says
   StageOutputs stages;
   std::string colour_camera = "auto";
   bool hybrid = false;
@@ -87,14 +88,38 @@ std::vector<Shard> ShardsToMerge(const ReconstructArguments& arguments, const Sh
   return OpenShards(arguments.shards, IdentityOf(sequence, run));
 }
 
+// --depth is one more setting.
+ConfigSources SourcesOf(const ReconstructArguments& arguments) {
+  ConfigSources sources = Sources(arguments.config);
+  if (!arguments.depth.empty()) sources.assignments.push_back("depth.use=" + arguments.depth);
+  return sources;
+}
+
+void RequireDepth(const ReconstructArguments& arguments, const Sequence& sequence) {
+  if (sequence.has_depth) return;
+  const bool is_split = !arguments.shard.empty() || !arguments.shards.empty();
+  if (is_split) {
+    throw Error(ErrorKind::kUsage,
+                "--shard and --merge split the segmentation of depth images, which are not there "
+                "or not to be used; leave them out");
+  }
+  if (arguments.hybrid) {
+    throw Error(ErrorKind::kUsage,
+                "--hybrid makes solid parts from depth images, which are not there or not to be "
+                "used; leave it out");
+  }
+}
+
 int RunReconstruct(const ReconstructArguments& arguments) {
   const auto start = std::chrono::steady_clock::now();
-  const Config config = ReadConfig(Sources(arguments.config));
+  const Config config = ReadConfig(SourcesOf(arguments));
   const ShardedRun sharded = {config, arguments.colour_camera == "auto", arguments.track};
   RequireShardsPossible(arguments, config);
   LimitThreads(arguments.run);
   Sequence sequence =
-      OpenSequence(arguments.sequence, arguments.track ? PoseUse::kIgnored : PoseUse::kIfGiven);
+      OpenSequence(arguments.sequence, arguments.track ? PoseUse::kIgnored : PoseUse::kIfGiven,
+                   DepthUseOf(config.pipeline));
+  RequireDepth(arguments, sequence);
   if (!arguments.shard.empty()) return RunShard(arguments, sharded, std::move(sequence));
   RequireInputStays(arguments);
   RequireRoom(arguments, sequence);
@@ -142,6 +167,13 @@ void AddReconstructCommand(CLI::App& app, int& exit_code) {
                     "Find the camera poses by tracking (see track) even where the sequence has "
                     "some; without poses this is done anyway");
   command
+      ->add_option("--depth", arguments->depth,
+                   "What depth images are used for, short for --set depth.use=...; wires: curves "
+                   "come from depth; background: surfaces and scale, curves come from colour; "
+                   "none: nothing, curves come from colour and scale from the poses (for scans of "
+                   "colour images and poses); auto (default): wires, or what shows them better")
+      ->check(CLI::IsMember({"auto", "wires", "background", "none"}));
+  command
       ->add_option("--colour-camera", arguments->colour_camera,
                    "auto: a colour camera fitted to the images where colour edges lie far from "
                    "depth edges; given: always that of the intrinsics")
@@ -163,6 +195,7 @@ void AddReconstructCommand(CLI::App& app, int& exit_code) {
       "  curvefusion reconstruct scan -o result --profile paper --set volume.voxel_size=0.01\n"
       "  curvefusion reconstruct scan -o result --track\n"
       "  curvefusion reconstruct scan -o result --hybrid\n"
+      "  curvefusion reconstruct photos -o result --depth none\n"
       "  curvefusion reconstruct scan -o result --save-stages result/stages\n"
       "  curvefusion reconstruct scan -o shards --shard 1/2\n"
       "  curvefusion reconstruct scan -o shards --shard 2/2\n"

@@ -261,8 +261,14 @@ const ReportPage = (() => {
       (poses.lost.length ? `; ${counted(poses.lost.length, "frame")} could not be placed` : "");
   }
 
+  const DEPTH_USES = {
+    wires: "the curves",
+    background: "surfaces and scale; curves come from colour",
+    none: "nothing; curves come from colour, scale from the poses",
+  };
+
   function showScan(data) {
-    const { sequence, cameras, poses } = data.report;
+    const { sequence, cameras, poses, depth } = data.report;
     const dropped = [
       [sequence.frames_without_pose, "without a pose"],
       [sequence.frames_without_partner, "with a colour or depth image only"],
@@ -272,6 +278,7 @@ const ReportPage = (() => {
       ["Layout", sequence.format],
       ["Frames", grouped(sequence.frames) + (dropped.length ? `; left out: ${dropped.join(", ")}` : "")],
       ["Poses", posesText(poses)],
+      ...(depth ? [["Depth used for", `${DEPTH_USES[depth.use]} (${depth.why})`]] : []),
       ["Depth camera", cameraText(cameras.depth)],
       ["Colour camera", cameraText(cameras.color) +
         (cameras.color_from === "fit" ? " (fitted to the images)" : "")],

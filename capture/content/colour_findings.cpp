@@ -48,6 +48,7 @@ void ReportColourCamera(const Sequence& sequence, const ColourCameraFit& fit,
 }
 
 bool UseFittedColourCamera(Sequence& sequence) {
+  if (!sequence.has_depth) return false;
   const ColourCameraFit fit = FitColourCamera(sequence, {});
   if (!fit.IsMisregistered()) return false;
   sequence.color_camera = fit.color_camera;

@@ -217,14 +217,16 @@ void ReportColour(const ColourSurvey& colour, const Reporter& reporter) {
 void ReportSuitability(const Sequence& sequence, const DepthSurvey& depth,
                        const ColourSurvey& colour, const FindingHandler& on_finding) {
   const Reporter reporter(sequence, on_finding);
-  ReportCamera(sequence.depth_camera, "depth", reporter);
-  ReportDistortion(sequence.depth_camera, sequence.depth_distortion, "depth", reporter);
-  if (!AreSame(sequence.depth_camera, sequence.color_camera)) {
+  if (sequence.has_depth) {
+    ReportCamera(sequence.depth_camera, "depth", reporter);
+    ReportDistortion(sequence.depth_camera, sequence.depth_distortion, "depth", reporter);
+  }
+  if (!sequence.has_depth || !AreSame(sequence.depth_camera, sequence.color_camera)) {
     ReportCamera(sequence.color_camera, "colour", reporter);
     ReportDistortion(sequence.color_camera, sequence.color_distortion, "colour", reporter);
   }
   ReportPath(sequence, depth.median, reporter);
-  ReportDepth(sequence, depth, reporter);
+  if (sequence.has_depth) ReportDepth(sequence, depth, reporter);
   ReportColour(colour, reporter);
 }
 

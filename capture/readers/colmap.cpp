@@ -340,12 +340,14 @@ void AddImages(const ColmapModel& model, const fs::path& folder, const std::stri
     const fs::path depth = (folder / "depth" / image.name).replace_extension(".png");
     const auto pose = with_poses ? PoseOf(image, where, on_finding) : RigidTransform::Identity();
     std::error_code unreadable;  // such as a name that is too long
-    if (!fs::exists(depth, unreadable) || !fs::exists(color, unreadable)) {
+    const bool has_depth = !sequence.has_depth || fs::exists(depth, unreadable);
+    if (!has_depth || !fs::exists(color, unreadable)) {
       ++sequence.frames_without_partner;
     } else if (!pose) {
       ++sequence.frames_without_pose;
     } else {
-      sequence.frames.push_back({FrameName(color), 0, *pose, color, depth});
+      sequence.frames.push_back(
+          {FrameName(color), 0, *pose, color, sequence.has_depth ? depth : fs::path()});
     }
   }
   NumberByColorPath(sequence);
@@ -354,23 +356,23 @@ void AddImages(const ColmapModel& model, const fs::path& folder, const std::stri
 Sequence ReadWith(const fs::path& folder, bool with_poses, const FindingHandler& on_finding) {
   const fs::path model_folder = ModelFolder(folder);
   const std::string where = model_folder.string();
-  for (const fs::path& images : {ColorFolder(folder), folder / "depth"}) {
-    if (fs::is_directory(images)) continue;
+  if (!fs::is_directory(ColorFolder(folder))) {
     Fail(fmt::format(
-        "{}: is missing; a COLMAP model needs the colour images in images/ and for each "
-        "a 16-bit depth image of the same name, as PNG in mm, in depth/",
-        images.string()));
+        "{}: is missing; a COLMAP model needs the colour images in images/ and, where there is "
+        "depth, for each a 16-bit depth image of the same name, as PNG in mm, in depth/",
+        ColorFolder(folder).string()));
   }
   const ColmapModel model = ReadModel(model_folder);
   Sequence sequence;
   sequence.depth_scale = kMillimetreUnits;
+  sequence.has_depth = fs::is_directory(folder / "depth");
   UseCamera(CameraOf(model, where), where, sequence);
   AddImages(model, folder, where, with_poses, on_finding, sequence);
   sequence.depth_camera =
-      sequence.frames.empty()
+      sequence.frames.empty() || !sequence.has_depth
           ? sequence.color_camera
           : RegisteredDepthCamera(sequence.color_camera, sequence.frames.front().depth_path);
-  if (with_poses) {
+  if (with_poses && sequence.has_depth) {
     on_finding({Severity::kWarning,
                 fmt::format("{}: COLMAP does not know the scale of its poses, depth is in metres; "
                             "`curvefusion check` compares them, and `check --repair DIR` writes a "

@@ -60,6 +60,19 @@ bool ComesBefore(const std::string& a, const std::string& b) {
   return a < b;  // "01" and "1"
 }
 
+void AddColorFrames(const NumberedImages& color, const PoseLookup& find_pose, Sequence& sequence) {
+  sequence.has_depth = false;
+  int rank = 0;
+  for (const auto& [number, path] : color) {
+    const auto pose = find_pose(rank++, path);
+    if (pose) {
+      sequence.frames.push_back({FrameName(path), static_cast<double>(number), *pose, path, {}});
+    } else {
+      ++sequence.frames_without_pose;
+    }
+  }
+}
+
 }  // namespace
 
 NumberedImages ImagesByFrameNumber(const std::filesystem::path& folder, const std::string& kind) {
@@ -98,12 +111,18 @@ void UseIntrinsics(const Intrinsics& intrinsics, double default_depth_scale, Seq
   sequence.depth_scale = intrinsics.depth_scale.value_or(default_depth_scale);
 }
 
-std::optional<RigidTransform> NoPose(int /*rank*/, const std::filesystem::path& /*depth_path*/) {
+std::optional<RigidTransform> NoPose(int /*rank*/, const std::filesystem::path& /*image*/) {
   return RigidTransform::Identity();
+}
+
+NumberedImages DepthByFrameNumber(const std::filesystem::path& folder) {
+  if (!std::filesystem::is_directory(folder / "depth")) return {};
+  return ImagesByFrameNumber(folder / "depth");
 }
 
 void AddFrames(NumberedImages color, const NumberedImages& depth, const PoseLookup& find_pose,
                Sequence& sequence) {
+  if (depth.empty()) return AddColorFrames(color, find_pose, sequence);
   int rank = 0;
   for (const auto& [number, depth_path] : depth) {
     const auto partner = color.extract(number);

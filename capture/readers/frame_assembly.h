@@ -29,15 +29,21 @@ std::filesystem::path ColorFolder(const std::filesystem::path& folder);
 /// intrinsics do not say.
 void UseIntrinsics(const Intrinsics& intrinsics, double default_depth_scale, Sequence& sequence);
 
-/// Finds the pose of the `rank`-th depth image (counted from 0), or nothing.
+/// Finds the pose of the `rank`-th depth image (counted from 0), or nothing. Where there is no
+/// depth, of the colour image.
 using PoseLookup =
-    std::function<std::optional<RigidTransform>(int rank, const std::filesystem::path& depth_path)>;
+    std::function<std::optional<RigidTransform>(int rank, const std::filesystem::path& image)>;
 
 /// For sequences whose poses are not asked for: the identity for all.
-std::optional<RigidTransform> NoPose(int rank, const std::filesystem::path& depth_path);
+std::optional<RigidTransform> NoPose(int rank, const std::filesystem::path& image);
+
+/// The images of depth/ in a folder; none where it is not there.
+NumberedImages DepthByFrameNumber(const std::filesystem::path& folder);
 
 /// Appends a frame for every depth image that has a colour image of the same number and a pose;
-/// counts the others as dropped. Frames are named after the depth image up to its first dot.
+/// counts the others as dropped. Frames are named after the depth image up to its first dot. Where
+/// there is no depth at all, Sequence::has_depth is false from then on, and every colour image with
+/// a pose is a frame.
 void AddFrames(NumberedImages color, const NumberedImages& depth, const PoseLookup& find_pose,
                Sequence& sequence);
 

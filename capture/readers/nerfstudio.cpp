@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -116,6 +117,13 @@ std::optional<RigidTransform> PoseOf(const json& frame, const std::string& where
   return RigidFromMatrix(matrix, where + ": transform_matrix", on_finding);
 }
 
+// Whether no frame names a depth image.
+bool HasColorOnly(const json& frames) {
+  return std::none_of(frames.begin(), frames.end(), [](const json& frame) {
+    return frame.contains("depth_file_path") || frame.contains("depth_path");
+  });
+}
+
 double DepthScale(const json& top, const std::string& where) {
   for (const char* key : {"depth_unit_scale_factor", "integer_depth_scale"}) {
     if (!top.contains(key)) continue;
@@ -180,6 +188,7 @@ Sequence ReadWith(const fs::path& folder, bool with_poses, const FindingHandler&
   Sequence sequence;
   sequence.depth_scale = DepthScale(top, path.string());
   WarnOfScale(top, path.string(), on_finding);
+  sequence.has_depth = !HasColorOnly(top["frames"]);
   std::optional<Lens> lens;
   for (size_t i = 0; i < top["frames"].size(); ++i) {
     const json& frame = top["frames"][i];
@@ -189,7 +198,7 @@ Sequence ReadWith(const fs::path& folder, bool with_poses, const FindingHandler&
     if (!lens) lens = own;
     RequireSameLens(*lens, own, where);
     const fs::path color = ColorPath(folder, frame, where);
-    const fs::path depth = DepthPath(folder, frame, where);
+    const fs::path depth = sequence.has_depth ? DepthPath(folder, frame, where) : fs::path();
     const auto pose = with_poses ? PoseOf(frame, where, on_finding) : RigidTransform::Identity();
     if (pose) {
       sequence.frames.push_back({FrameName(color), 0, *pose, color, depth});
@@ -201,7 +210,7 @@ Sequence ReadWith(const fs::path& folder, bool with_poses, const FindingHandler&
   sequence.color_camera = lens->camera;
   sequence.color_distortion = sequence.depth_distortion = lens->distortion;
   sequence.depth_camera =
-      sequence.frames.empty()
+      sequence.frames.empty() || !sequence.has_depth
           ? lens->camera
           : RegisteredDepthCamera(lens->camera, sequence.frames.front().depth_path);
   return sequence;

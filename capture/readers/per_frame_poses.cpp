@@ -12,16 +12,16 @@ Sequence ReadWith(const std::filesystem::path& folder, const PoseLookup& find_po
                   const FindingHandler& on_finding) {
   Sequence sequence;
   UseIntrinsics(ReadIntrinsics(folder / "intrinsics.json", on_finding), kMillimetreUnits, sequence);
-  AddFrames(ImagesByFrameNumber(ColorFolder(folder)), ImagesByFrameNumber(folder / "depth"),
-            find_pose, sequence);
+  AddFrames(ImagesByFrameNumber(ColorFolder(folder)), DepthByFrameNumber(folder), find_pose,
+            sequence);
   return sequence;
 }
 
 }  // namespace
 
 Sequence ReadPerFramePoses(const std::filesystem::path& folder, const FindingHandler& on_finding) {
-  const auto find_pose = [&](int, const std::filesystem::path& depth_path) {
-    const std::filesystem::path path = folder / "pose" / (FrameName(depth_path) + ".txt");
+  const auto find_pose = [&](int, const std::filesystem::path& image) {
+    const std::filesystem::path path = folder / "pose" / (FrameName(image) + ".txt");
     if (!std::filesystem::exists(path)) return std::optional<RigidTransform>();
     return ReadPoseMatrix(path, on_finding);
   };

@@ -65,8 +65,8 @@ Sequence ReadWith(const std::filesystem::path& folder, const PoseLookup& find_po
   Sequence sequence;
   UseIntrinsics(ReadRedwoodIntrinsics(folder / "intrinsic.json", on_finding), kMillimetreUnits,
                 sequence);
-  AddFrames(ImagesByFrameNumber(ColorFolder(folder)), ImagesByFrameNumber(folder / "depth"),
-            find_pose, sequence);
+  AddFrames(ImagesByFrameNumber(ColorFolder(folder)), DepthByFrameNumber(folder), find_pose,
+            sequence);
   return sequence;
 }
 

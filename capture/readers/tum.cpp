@@ -88,12 +88,22 @@ std::vector<ImagePair> ReadAssociations(const std::filesystem::path& list,
   return pairs;
 }
 
+// Colour images without depth, which have its stamps.
+std::vector<ImagePair> ColorOnly(const std::vector<StampedImage>& color, Sequence& sequence) {
+  sequence.has_depth = false;
+  std::vector<ImagePair> pairs;
+  for (const StampedImage& image : color)
+    pairs.push_back({image, {image.timestamp, image.stamp, {}}});
+  return pairs;
+}
+
 std::vector<ImagePair> ReadPairs(const std::filesystem::path& folder,
                                  const FindingHandler& on_finding, Sequence& sequence) {
   if (std::filesystem::exists(folder / "associations.txt")) {
     return ReadAssociations(folder / "associations.txt", on_finding);
   }
   const auto color = ReadImageList(folder / "rgb.txt", on_finding);
+  if (!std::filesystem::exists(folder / "depth.txt")) return ColorOnly(color, sequence);
   const auto depth = ReadImageList(folder / "depth.txt", on_finding);
   std::vector<ImagePair> pairs = Associate(color, depth);
   sequence.frames_without_partner =

@@ -154,7 +154,7 @@ std::vector<Ablation> OfColours() {
        "Colour images show curves and poses to a tenth of a pixel.",
        {"colour_adjustment"}},
       {"colour start",
-       {"colour_start.always=true"},
+       {"depth.use=background"},
        "Cameras whose depth shows wires in wrong places: curves from colour alone, everywhere."},
       {"single edges",
        {"colour_adjustment.edges=false"},

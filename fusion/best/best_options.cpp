@@ -1,6 +1,19 @@
 #include "fusion/best/best_options.h"
 
+#include <string>
+#include <vector>
+
 namespace curvefusion {
+
+namespace {
+
+// In the order of DepthRole.
+const std::vector<std::string>& DepthRoles() {
+  static const std::vector<std::string> roles = {"auto", "wires", "background", "none"};
+  return roles;
+}
+
+}  // namespace
 
 BestOptions DefaultBestOptions() {
   BestOptions options;
@@ -31,14 +44,22 @@ BestOptions DefaultBestOptions() {
   return options;
 }
 
-void VisitOptions(ColourStartOptions& options, OptionVisitor& visitor) {
-  visitor.Visit({"always", "", 0, 1,
-                 "Deviation: curves come from colour images alone wherever these show any; "
-                 "otherwise only where depth's do not fit them."},
-                options.always);
+std::string DepthRoleName(DepthRole role) { return DepthRoles()[static_cast<size_t>(role)]; }
+
+void VisitOptions(DepthOptions& options, OptionVisitor& visitor) {
+  int role = static_cast<int>(options.use);
+  visitor.VisitChoice(
+      {"use", "", 0, static_cast<double>(DepthRoles().size() - 1),
+       "Deviation: what depth images are used for: wires; background only, curves then come from "
+       "colour images wherever these show any; none, scale then is that of the poses. auto: wires, "
+       "but background where depth shows them in wrong places, and none where there is no depth."},
+      DepthRoles(), role);
+  options.use = static_cast<DepthRole>(role);
 }
 
 void VisitOptions(BestOptions& options, OptionVisitor& visitor) {
+  visitor.BeginSection("depth");
+  VisitOptions(options.depth, visitor);
   visitor.BeginSection("volume");
   VisitOptions(options.volume, visitor);
   visitor.Visit(
@@ -71,8 +92,6 @@ void VisitOptions(BestOptions& options, OptionVisitor& visitor) {
   VisitOptions(options.radius, visitor);
   visitor.BeginSection("colour_adjustment");
   VisitOptions(options.colour_adjustment, visitor);
-  visitor.BeginSection("colour_start");
-  VisitOptions(options.colour_start, visitor);
   visitor.BeginSection("silhouettes");
   VisitOptions(options.silhouettes, visitor);
   visitor.BeginSection("evidence");

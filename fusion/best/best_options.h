@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "fusion/adjustment/colour_adjustment.h"
 #include "fusion/registration/alignment.h"
 #include "fusion/registration/carried_points.h"
@@ -14,11 +16,22 @@
 
 namespace curvefusion {
 
-/// When curves come from colour images alone.
-struct ColourStartOptions {
-  bool always = false;
+/// What depth images are used for.
+enum class DepthRole {
+  kAuto,        ///< kWires, but kBackground where depth shows wires in wrong places; kNone where
+                ///< there is no depth
+  kWires,       ///< curves come from depth
+  kBackground,  ///< surfaces, scale, poses and what hides what; curves come from colour
+  kNone,        ///< nothing: curves come from colour, and scale from the poses
 };
-void VisitOptions(ColourStartOptions& options, OptionVisitor& visitor);
+
+/// "auto", "wires", "background" or "none".
+std::string DepthRoleName(DepthRole role);
+
+struct DepthOptions {
+  DepthRole use = DepthRole::kAuto;
+};
+void VisitOptions(DepthOptions& options, OptionVisitor& visitor);
 
 /// The options of every stage of the best profile. Start from DefaultBestOptions: in a
 /// default-constructed one most extensions of the paper are off.
@@ -35,7 +48,7 @@ struct BestOptions {
   RidgeOptions ridge;
   RadiusOptions radius;
   ColourAdjustmentOptions colour_adjustment;
-  ColourStartOptions colour_start;
+  DepthOptions depth;
   SilhouetteOptions silhouettes;
   ViewEvidenceOptions evidence;
 };

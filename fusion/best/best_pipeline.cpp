@@ -9,6 +9,7 @@
 #include "fusion/best/colour_fit.h"
 #include "fusion/best/colour_stages.h"
 #include "fusion/best/contraction_space.h"
+#include "fusion/best/scale_of_poses.h"
 #include "fusion/best/weak_colour.h"
 #include "fusion/registration/axis_correction.h"
 #include "fusion/registration/bundle_ridges.h"
@@ -149,6 +150,29 @@ void ContractCarriedPoints(SegmentedScan scan, const BestOptions& options,
       Contract(result.points, std::nullopt, "registered_frames", space, options.ridge, reporter);
 }
 
+// What colour images make of curves, and how far the result may be trusted.
+void RefineAndJudge(const Sequence& sequence, const LearnedWires& wires, RunSize size,
+                    const BestOptions& options, const StageReporter& reporter,
+                    Reconstruction& result) {
+  RefineByColour(sequence, wires, size, options, reporter, result);
+  result.funnel.curves.curves = result.skeleton.TotalLength();
+  result.trust = MeasureTrust(sequence, result);
+  const std::string places = PlacesWarning(result.trust);
+  if (options.colour_adjustment.enabled && !places.empty()) result.warnings.push_back(places);
+  result.stages = reporter.log.stages();
+}
+
+// From colour images and poses.
+Reconstruction ReconstructWithoutDepth(const Sequence& sequence, const BestOptions& options,
+                                       const StageReporter& reporter) {
+  Reconstruction result;
+  result.sequence = sequence;
+  result.warnings = sequence.warnings;
+  RefineAndJudge(sequence, {}, {.by_colour = true}, options, reporter, result);
+  HoldToScaleOf(sequence, result);
+  return result;
+}
+
 // What is thin, then all that is made of it.
 Reconstruction ReconstructThinParts(const BundleSource& source, const Sequence& sequence,
                                     const BestOptions& options, const StageReporter& reporter) {
@@ -161,12 +185,7 @@ Reconstruction ReconstructThinParts(const BundleSource& source, const Sequence& 
   result.funnel.points = scan.funnel;
   ContractCarriedPoints(std::move(scan), options, reporter, result);
   result.funnel.curves.contracted = result.skeleton.TotalLength();
-  RefineByColour(sequence, wires, size, options, reporter, result);
-  result.funnel.curves.curves = result.skeleton.TotalLength();
-  result.trust = MeasureTrust(sequence, result);
-  const std::string places = PlacesWarning(result.trust);
-  if (options.colour_adjustment.enabled && !places.empty()) result.warnings.push_back(places);
-  result.stages = reporter.log.stages();
+  RefineAndJudge(sequence, wires, size, options, reporter, result);
   return result;
 }
 
@@ -187,9 +206,11 @@ BundleSink CountingVolume(const BundleSink& sink, StageLog& log) {
 
 }  // namespace
 
-Reconstruction ReconstructBest(const Sequence& sequence, const BestOptions& given,
+Reconstruction ReconstructBest(const Sequence& given_sequence, const BestOptions& given,
                                PipelineObserver& observer) {
   BestOptions options = given;
+  const bool is_used = given_sequence.has_depth && options.depth.use != DepthRole::kNone;
+  const Sequence sequence = is_used ? given_sequence : WithoutDepth(given_sequence);
   const std::string useless_colour = SwitchOffUselessColour(sequence, options);
   observer.OnPlan(PlanBest(sequence, options, {}));
   StageLog log;
@@ -199,7 +220,8 @@ Reconstruction ReconstructBest(const Sequence& sequence, const BestOptions& give
     SegmentBundles(sequence, volume, AllBundles(sequence, options), options, reporter,
                    CountingVolume(sink, log));
   };
-  Reconstruction result = ReconstructThinParts(source, sequence, options, reporter);
+  Reconstruction result = is_used ? ReconstructThinParts(source, sequence, options, reporter)
+                                  : ReconstructWithoutDepth(sequence, options, reporter);
   if (!useless_colour.empty()) result.warnings.push_back(useless_colour);
   return result;
 }

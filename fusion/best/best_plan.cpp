@@ -124,10 +124,13 @@ void Append(std::vector<PlannedStage> stages, double probability, std::vector<Pl
 
 // Every stage that may run stands here, radii after a curve was left out among them: one that is
 // not run is passed over, but one that is not here would be taken for a later stage of its name.
-std::vector<PlannedStage> BestStages(const Costs& costs, const RunSize& size) {
-  std::vector<PlannedStage> plan = costs.UntilContracted();
+std::vector<PlannedStage> BestStages(const Costs& costs, const RunSize& size, bool has_depth) {
+  std::vector<PlannedStage> plan;
   const PlannedStage radii_again = {"radius", 0};
-  Append({costs.Radius(), costs.Evidence(), radii_again, costs.Adjustment()}, 1, plan);
+  if (has_depth) {
+    plan = costs.UntilContracted();
+    Append({costs.Radius(), costs.Evidence(), radii_again, costs.Adjustment()}, 1, plan);
+  }
   Append(costs.ByColour(), size.by_colour ? 1 : 0, plan);
   Append({costs.Strips(), costs.Silhouettes(), costs.Radius(), costs.Evidence(), radii_again}, 1,
          plan);
@@ -152,7 +155,7 @@ void RunSize::SetCurves(const SkeletonGraph& skeleton) {
 
 std::vector<PlannedStage> PlanBest(const Sequence& sequence, const BestOptions& options,
                                    const RunSize& size) {
-  return BestStages(Costs(AmountsOf(sequence, options, size)), size);
+  return BestStages(Costs(AmountsOf(sequence, options, size)), size, sequence.has_depth);
 }
 
 std::vector<PlannedStage> PlanSegmentation(const Sequence& sequence, const BestOptions& options,

@@ -60,7 +60,6 @@ std::optional<ColourAdjustment> AdjustCurvesAndPoses(const AdjustmentStart& star
   result.sequence.color_camera.cy += adjusted.color_shift_px.y();
   ReportAdjustment(adjusted, reporter.log);
   result.trust.adjusted = adjusted.skipped.empty();
-  result.trust.depth_scatter = adjusted.depth_scatter;
   result.trust.residual_before_px = adjusted.start_residual_px;
   result.trust.residual_px = adjusted.residual_px;
   reporter.observer.OnGraph("adjusted", result.skeleton);

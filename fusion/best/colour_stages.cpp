@@ -1,5 +1,7 @@
 #include "fusion/best/colour_stages.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
 #include <string>
@@ -24,10 +26,15 @@ namespace curvefusion {
 
 namespace {
 
+constexpr const char* kAskedFor = "asked for";
 constexpr const char* kImagesDoNotTell =
     "skipped: the images do not show the curves as wire throughout";
 // Chosen: before poses and curves are adjusted to colours more is given the benefit of the doubt.
 constexpr double kHardlyAWire = 0.4;  // times evidence.min_probability
+// Measured (docs/wires_from_colour.md): 1.7 to 4.7 where depth shows wires in their places, 5.3 and
+// more with time of flight; 19 of a cable by a D400 from .3 m, where colour's curves were not
+// taken.
+constexpr double kWrongScatter = 5;
 constexpr double kLittle = 0.01;  // of the length; less is not worth another round
 
 // Thin by proof: what is a wire with less than `min_probability` leaves the result, by so many
@@ -100,7 +107,7 @@ double AddWiresFromColour(StripViews& views, const RidgeOptions& options,
   const double radius = result.radii.unmeasured_radius;
   const double followed = TrackTips(radius, views, result.skeleton);
   const ObservedPoints candidates = FindColourCandidates(
-      views, CandidatePlaces::kAll,
+      views, {},
       [&](int64_t done, int64_t total) { reporter.observer.OnProgress(stage, done, total); });
   const double added = followed + AddCandidateCurves(result.sequence, candidates, options, radius,
                                                      views, result.skeleton);
@@ -135,13 +142,21 @@ void PruneUnadjusted(const WireColours& colours, const SilhouetteOptions& option
   reporter.observer.OnGraph("corrected", result.skeleton);
 }
 
-// Where depth shows no wire at all there is none that colour images might show better.
-bool UsesColourStart(const BestOptions& options, const std::optional<ColourAdjustment>& adjusted,
-                     const Reconstruction& result) {
-  if (!options.colour_adjustment.enabled) return false;
-  if (options.colour_start.always) return true;
-  if (result.skeleton.empty()) return false;
-  return !adjusted || adjusted->depth_scatter > kWrongScatter;
+// Why curves are sought in colour images alone; empty where they are not. Where depth shows no wire
+// at all there is none that colour images might show better.
+std::string WhyColourStart(const Sequence& given, const BestOptions& options,
+                           const std::optional<ColourAdjustment>& adjusted,
+                           const Reconstruction& result) {
+  if (!options.colour_adjustment.enabled || options.depth.use == DepthRole::kWires) return {};
+  if (!given.has_depth) {
+    return options.depth.use == DepthRole::kNone ? kAskedFor : "the scan has no depth images";
+  }
+  if (options.depth.use == DepthRole::kBackground) return kAskedFor;
+  if (result.skeleton.empty()) return {};
+  if (!adjusted) return "the colour images do not agree with the curves that depth shows";
+  if (adjusted->depth_scatter <= kWrongScatter) return {};
+  return fmt::format("depth scatters about the curves {:.1f} times as much as about a plane",
+                     adjusted->depth_scatter);
 }
 
 // What is to come, now that more is known.
@@ -149,6 +164,35 @@ void TellPlan(RunSize& size, const BestOptions& options, const StageReporter& re
               const Reconstruction& result) {
   size.SetCurves(result.skeleton);
   reporter.observer.OnPlan(PlanBest(result.sequence, options, size));
+}
+
+// Curves from colour alone where depth does not serve, and what depth then was used for.
+void StartFromColourWhereDepthFails(const Sequence& given, const WireColours& colours,
+                                    RunSize& size, const BestOptions& options,
+                                    const StageReporter& reporter, AdjustmentStart& start,
+                                    std::optional<ColourAdjustment>& adjusted,
+                                    Reconstruction& result) {
+  const std::string why = WhyColourStart(given, options, adjusted, result);
+  const bool is_asked_for = options.depth.use == DepthRole::kWires;
+  result.depth = {"wires", is_asked_for ? kAskedFor : "colour gave no reason against its curves"};
+  if (why.empty()) return;
+  size.by_colour = true;
+  TellPlan(size, options, reporter, result);
+  const DepthCurves depth_curves = adjusted ? DepthCurves::kMisplaced : DepthCurves::kDoubtful;
+  std::optional<ColourCurves> from_colour =
+      given.has_depth ? StartFromColour(given, colours, depth_curves, options, reporter, result)
+                      : StartWithoutDepth(given, options, reporter, result);
+  if (from_colour) {
+    adjusted = std::move(from_colour->adjusted);
+    start = std::move(from_colour->start);
+  }
+  if (from_colour || !given.has_depth) {
+    result.depth = {given.has_depth ? "background" : "none", why};
+    return;
+  }
+  result.depth.why = why + ", but they show no better curves";
+  size.by_colour = false;
+  TellPlan(size, options, reporter, result);
 }
 
 // Adds wires that colour images show, fits curves and poses to the images again and corrects them,
@@ -162,7 +206,10 @@ void CompleteByColour(const AdjustmentStart& start, std::optional<StripViews> st
     TellPlan(size, options, reporter, result);
     const double added = AddWiresFromColour(*strips, options.ridge, reporter, result);
     strips.reset();  // its images take as much memory as the next adjustment
-    size.has_last_round = added <= 0 || added < kLittle * result.skeleton.TotalLength();
+    // Without depth, silhouettes have bridged gaps that nothing was adjusted to yet.
+    const bool is_rough = round == 0 && !result.sequence.has_depth;
+    const bool is_little = added <= 0 || added < kLittle * result.skeleton.TotalLength();
+    size.has_last_round = is_little && !is_rough;
     if (!size.has_last_round) ++size.rounds;
     TellPlan(size, options, reporter, result);
     if (added != 0) AssignMeasuredRadii(array_diameter, options.radius, reporter, result);
@@ -199,7 +246,8 @@ void RefineByColour(const Sequence& given, const LearnedWires& wires, RunSize si
   const auto measure_radii = [&] {
     AssignMeasuredRadii(wires.array_diameter, options.radius, reporter, result);
   };
-  AdjustmentStart start = {CameraPoses(given), PoseErrors::kDrift, WireDepth::kShown,
+  AdjustmentStart start = {CameraPoses(given), PoseErrors::kDrift,
+                           given.has_depth ? WireDepth::kShown : WireDepth::kNotShown,
                            wires.colours.posterior};
   const auto keep_proven = [&](const std::string& name, double share) {
     const double min_probability = share * options.evidence.min_probability;
@@ -213,20 +261,8 @@ void RefineByColour(const Sequence& given, const LearnedWires& wires, RunSize si
   keep_proven("evidence_before_colour", kHardlyAWire);
   std::optional<ColourAdjustment> adjusted =
       AdjustCurvesAndPoses(start, options.colour_adjustment, reporter, result);
-  if (UsesColourStart(options, adjusted, result)) {
-    size.by_colour = true;
-    TellPlan(size, options, reporter, result);
-    const DepthCurves depth_curves = adjusted ? DepthCurves::kMisplaced : DepthCurves::kDoubtful;
-    std::optional<ColourCurves> from_colour =
-        StartFromColour(given, wires.colours, depth_curves, options, reporter, result);
-    if (from_colour) {
-      adjusted = std::move(from_colour->adjusted);
-      start = std::move(from_colour->start);
-    } else {
-      size.by_colour = false;
-      TellPlan(size, options, reporter, result);
-    }
-  }
+  StartFromColourWhereDepthFails(given, wires.colours, size, options, reporter, start, adjusted,
+                                 result);
   std::optional<StripViews> strips;
   if (adjusted) {
     strips = LookForStrips(*adjusted, reporter, result);

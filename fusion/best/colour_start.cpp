@@ -11,44 +11,23 @@
 #include <vector>
 
 #include "capture/frame_stream.h"
-#include "fusion/appearance/wire_posterior.h"
-#include "fusion/best/colour_fit.h"
-#include "fusion/curve_graph/colour_candidates.h"
-#include "fusion/curve_graph/strip_views.h"
+#include "fusion/curve_graph/viewed_region.h"
 #include "fusion/silhouettes/wire_silhouettes.h"
 #include "fusion/tracking/tracked_poses.h"
-#include "graph/contraction/ridge_skeleton.h"
+#include "kernel/polyline.h"
 
 namespace curvefusion {
 
 namespace {
 
-constexpr int kImages = 90;           // chosen: as many as StripViews looks at
-constexpr int kRounds = 2;            // chosen: the second has the poses of the first
 constexpr double kStep = 0.003;       // metres, between the places that images are asked about
 constexpr double kShownAsWire = 0.9;  // of the images
-constexpr const char* kStage = "wires from colour";
 // Depth shows wires in wrong places, but in the right pixels. Chosen on four scans of wires, of
 // whose curves from colour .84 and more lie where depth shows something thin, and five rooms
 // without any, where .42 at most do (docs/lab_notebook.md).
 constexpr double kMinThinInDepth = 0.6;
 constexpr int kThinImages = 20;    // chosen: enough for a share
 constexpr double kThinCellPx = 8;  // chosen: of images 640 pixels wide
-
-// Images and how likely their pixels show wire.
-struct WireImages {
-  std::vector<int> frames;
-  std::vector<PosteriorImage> posteriors;
-};
-
-WireImages LookForColours(const Sequence& sequence, const WireColours& colours) {
-  WireImages images{EvenlyThinned(AllFrames(sequence), kImages), {}};
-  ForEachFrame(
-      sequence, images.frames, {.depth = false, .color = true}, [&](const DecodedFrame& frame) {
-        images.posteriors.push_back(ApplyPosterior(BinColours(frame.color), colours.posterior));
-      });
-  return images;
-}
 
 // Metres of curve, and how many of them the images show as wire.
 struct ShownCurves {
@@ -65,7 +44,7 @@ struct ShownCurves {
 // Depth's curves may fit poses that went wrong with them, so both are judged by one set of poses.
 ShownCurves CountShown(const Sequence& sequence, const WireImages& images,
                        const SkeletonGraph& skeleton) {
-  const WireSilhouettes silhouettes(sequence, images.frames, images.posteriors, kImages);
+  const WireSilhouettes silhouettes(sequence, images.frames, images.posteriors, kColourImages);
   ShownCurves curves;
   for (const EdgeId id : skeleton.Edges()) {
     const Polyline points = Resample(skeleton.edge(id).points, kStep);
@@ -124,7 +103,7 @@ double ShareThinInDepth(const Reconstruction& depth, const Reconstruction& colou
 
 // Depth that shows wires in wrong places still shows surfaces where they are.
 std::optional<Sequence> HoldToSurfaces(const Sequence& given, const StageReporter& reporter) {
-  const StageLog::Timer timer = reporter.Begin(kStage);
+  const StageLog::Timer timer = reporter.Begin(kWiresFromColour);
   return HeldToItsSurfaces(given, [&](std::string_view stage, int64_t done, int64_t total) {
     reporter.observer.OnProgress(std::string(stage), done, total);
   });
@@ -148,44 +127,22 @@ RigidTransform MeanMotion(const Sequence& from, const Sequence& to) {
   return motion;
 }
 
-void ContractPlacesThatImagesAgreeOn(const WireImages& images, const Eigen::AlignedBox3d& around,
-                                     const RidgeOptions& options, const StageReporter& reporter,
-                                     Reconstruction& colour) {
-  const StageLog::Timer timer = reporter.Begin(kStage);
-  const StripViews views(colour.sequence, images.frames, images.posteriors, around);
-  colour.points = FindColourCandidates(
-      views, CandidatePlaces::kFree,
-      [&](int64_t done, int64_t total) { reporter.observer.OnProgress(kStage, done, total); });
-  colour.skeleton = ExtractRidgeSkeleton(colour.points, options);
-  reporter.log.Count(kStage, "places", static_cast<double>(colour.points.size()));
-  reporter.log.Count(kStage, "length, m", colour.skeleton.TotalLength());
-  reporter.observer.OnPoints("colour_places", colour.points);
-  reporter.observer.OnGraph("from_colour", colour.skeleton);
+// The fit replaces what the result has.
+void TakeCurves(Reconstruction&& colour, Reconstruction& result) {
+  result.sequence = std::move(colour.sequence);
+  result.points = std::move(colour.points);
+  result.skeleton = std::move(colour.skeleton);
+  result.radii = std::move(colour.radii);
+  result.uncertain = {};
+  result.trust = colour.trust;
+  result.trust.from_colour = true;
 }
 
-// Curves and poses from colour, in rounds; the last `images` have the colours learned.
-std::optional<ColourCurves> FitCurvesOfColour(const Sequence& sequence,
-                                              const AdjustmentStart& start,
-                                              const Eigen::AlignedBox3d& around,
-                                              const BestOptions& options,
-                                              const StageReporter& reporter, WireImages& images,
-                                              Reconstruction& colour) {
-  colour.sequence = sequence;
-  std::optional<ColourCurves> fitted;
-  for (int round = 0; round < kRounds; ++round) {
-    Reconstruction next;
-    next.sequence = colour.sequence;
-    ContractPlacesThatImagesAgreeOn(images, around, options.ridge, reporter, next);
-    if (next.skeleton.empty()) break;
-    AssignMeasuredRadii(0, options.radius, reporter, next);
-    std::optional<ColourAdjustment> again =
-        AdjustCurvesAndPoses(start, options.colour_adjustment, reporter, next);
-    if (!again || !CameNearer(*again)) break;  // as exact already
-    images = {again->frames, again->posteriors};
-    fitted = {std::move(*again), start};
-    colour = std::move(next);
-  }
-  return fitted;
+// Where the object is, by the points that depth has of something thin.
+Eigen::AlignedBox3d RegionOf(const Sequence& sequence, const ObservedPoints& points) {
+  Eigen::AlignedBox3d around;
+  for (const Vec3& p : points.positions) around.extend(p);
+  return around.isEmpty() ? RegionSeenByMost(sequence) : around;
 }
 
 }  // namespace
@@ -193,11 +150,12 @@ std::optional<ColourCurves> FitCurvesOfColour(const Sequence& sequence,
 std::optional<ColourCurves> StartFromColour(const Sequence& given, const WireColours& colours,
                                             DepthCurves depth_curves, const BestOptions& options,
                                             const StageReporter& reporter, Reconstruction& result) {
-  if (colours.posterior.empty() || result.points.empty()) return std::nullopt;
-  Eigen::AlignedBox3d around;
-  for (const Vec3& p : result.points.positions) around.extend(p);
+  const bool is_asked_for = options.depth.use == DepthRole::kBackground;
+  const bool has_colours = !colours.posterior.empty();
+  if (!is_asked_for && (!has_colours || result.points.empty())) return std::nullopt;
+  const Eigen::AlignedBox3d around = RegionOf(given, result.points);
   Reconstruction colour;
-  WireImages images = LookForColours(given, colours);
+  WireImages images = has_colours ? LookForColours(given, colours) : LookForContrast(given);
   std::optional<ColourCurves> fitted;
   // A camera before a plane and wires alone may slip along it: curves then fit no image.
   bool is_held = true;
@@ -217,24 +175,36 @@ std::optional<ColourCurves> StartFromColour(const Sequence& given, const WireCol
       colour.sequence, images,
       Transformed(result.skeleton, AffineTransform(MeanMotion(result.sequence, colour.sequence))));
   const ShownCurves after = CountShown(colour.sequence, images, colour.skeleton);
-  reporter.log.Count(kStage, "of depth shown as wire, m", before.shown);
-  reporter.log.Count(kStage, "shown as wire, m", after.shown);
+  reporter.log.Count(kWiresFromColour, "of depth shown as wire, m", before.shown);
+  reporter.log.Count(kWiresFromColour, "shown as wire, m", after.shown);
   const double thin = ShareThinInDepth(result, colour, images.frames);
-  reporter.log.Count(kStage, "share thin in depth", thin);
+  reporter.log.Count(kWiresFromColour, "share thin in depth", thin);
   const bool is_better = after.IsBetterThan(before, depth_curves) && thin >= kMinThinInDepth;
-  if (!options.colour_start.always && !is_better) return std::nullopt;
-  result.sequence = std::move(colour.sequence);
-  result.points = std::move(colour.points);
-  result.skeleton = std::move(colour.skeleton);
-  result.radii = std::move(colour.radii);
-  result.uncertain = {};
-  result.trust = colour.trust;
-  result.trust.from_colour = true;
+  if (!is_asked_for && !is_better) return std::nullopt;
+  TakeCurves(std::move(colour), result);
   result.warnings.push_back(fmt::format(
       "the curves come from the colour images alone, and their scale from {}: the images show "
       "{:.2f} m of them as wire, and {:.2f} of {:.2f} m of depth's",
       is_held ? "the surfaces that depth shows" : "the poses", after.shown, before.shown,
       before.length));
+  return fitted;
+}
+
+std::optional<ColourCurves> StartWithoutDepth(const Sequence& given, const BestOptions& options,
+                                              const StageReporter& reporter,
+                                              Reconstruction& result) {
+  const Eigen::AlignedBox3d around = RegionSeenByMost(given);
+  if (around.isEmpty()) return std::nullopt;
+  const AdjustmentStart start = {CameraPoses(given), PoseErrors::kDrift, WireDepth::kNotShown};
+  Reconstruction colour;
+  WireImages images = LookForContrast(given);
+  std::optional<ColourCurves> fitted =
+      FitCurvesOfColour(given, start, around, options, reporter, images, colour);
+  if (!fitted) return std::nullopt;
+  TakeCurves(std::move(colour), result);
+  result.warnings.push_back(
+      "the curves come from the colour images alone, and their scale from the poses: depth images "
+      "were not used; a line that is painted on something of one colour looks like a wire");
   return fitted;
 }
 

@@ -3,8 +3,8 @@
 #include <optional>
 
 #include "capture/sequence.h"
-#include "fusion/adjustment/colour_adjustment.h"
 #include "fusion/best/best_options.h"
+#include "fusion/best/colour_curves.h"
 #include "fusion/reconstruction.h"
 #include "fusion/segmentation/colour_gate.h"
 #include "fusion/stage_reporter.h"
@@ -15,12 +15,6 @@ namespace curvefusion {
 enum class DepthCurves {
   kDoubtful,   ///< images do not fit them
   kMisplaced,  ///< depth was measured to scatter about the wires that images show
-};
-
-/// What colour images gave, and what it is to be adjusted from again.
-struct ColourCurves {
-  ColourAdjustment adjusted;
-  AdjustmentStart start;
 };
 
 /// Deviation: curves and poses from colour images alone, for cameras whose depth shows wires in
@@ -38,10 +32,20 @@ struct ColourCurves {
 /// these are only doubtful, also more without taking any off: images that hardly show depth's
 /// curves may hardly show wires at all. Most of the new curves must lie in pixels in which depth
 /// shows something thin, as wires do and what is painted on surfaces does not. With
-/// options.colour_start.always wherever there are any. Nothing otherwise. Throws Error(kBadInput)
-/// for an image that cannot be read. Costs about .1 s an image, at most 90 of them.
+/// DepthRole::kBackground wherever there are any; where depth has then shown nothing thin, places
+/// are sought where most cameras look, in what stands out from its surroundings. Nothing otherwise.
+/// Throws Error(kBadInput) for an image that cannot be read. Costs about .1 s an image, at most 90
+/// of them.
 std::optional<ColourCurves> StartFromColour(const Sequence& given, const WireColours& colours,
                                             DepthCurves depth_curves, const BestOptions& options,
                                             const StageReporter& reporter, Reconstruction& result);
+
+/// Curves and poses from colour images and poses alone: what stands out from its surroundings,
+/// where most cameras look (RegionSeenByMost), as FitCurvesOfColour does it without depth. Scale is
+/// that of the poses. Sets curves, points, radii and poses of the result; nothing where images
+/// agree on no proven curve. Throws and costs like StartFromColour.
+std::optional<ColourCurves> StartWithoutDepth(const Sequence& given, const BestOptions& options,
+                                              const StageReporter& reporter,
+                                              Reconstruction& result);
 
 }  // namespace curvefusion

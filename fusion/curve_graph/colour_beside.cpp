@@ -198,6 +198,7 @@ ColorImage Smoothed(const ColorImage& image) {
 
 std::vector<std::vector<CurvePlace>> LinesOnSurfaces(const Sequence& sequence) {
   std::vector<std::vector<CurvePlace>> lines;
+  if (!sequence.has_depth) return lines;
   const PinholeCamera& camera = sequence.depth_camera;
   const int step = std::max(1, camera.width / kLinesAcross);
   const auto add_lines = [&](const DecodedFrame& frame) {

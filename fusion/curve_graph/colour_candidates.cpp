@@ -21,7 +21,6 @@ constexpr double kFineEvidence = 3.5;
 constexpr double kAmbiguous = 1.5;     // less of it between two places of one line of sight
 constexpr double kMinBaseline = 0.02;  // metres
 constexpr double kSamePlace = 0.015;   // metres; places nearer to each other are one wire
-constexpr size_t kMaxRays = 20000;     // more tell the same again
 constexpr int kMinFirstLooks = 2;
 constexpr int kMinFullLooks = 4;  // where all of them show a strip
 constexpr int kMinLooks = 8;
@@ -47,8 +46,8 @@ bool AgreesRoughly(const StripAgreement& look) {
 
 class CandidateSearch {
  public:
-  CandidateSearch(const StripViews& views, CandidatePlaces wanted)
-      : views_(views), wanted_(wanted) {}
+  CandidateSearch(const StripViews& views, const CandidateOptions& options)
+      : views_(views), options_(options) {}
 
   ObservedPoints Find(const std::function<void(int64_t done, int64_t total)>& on_progress) const {
     std::vector<Ray> rays;
@@ -77,10 +76,11 @@ class CandidateSearch {
   }
 
  private:
-  static std::vector<Ray> Thinned(std::vector<Ray> rays) {
-    if (rays.size() <= kMaxRays) return rays;
-    std::vector<Ray> some(kMaxRays);
-    for (size_t i = 0; i < kMaxRays; ++i) some[i] = rays[i * rays.size() / kMaxRays];
+  std::vector<Ray> Thinned(std::vector<Ray> rays) const {
+    if (rays.size() <= options_.max_rays) return rays;
+    std::vector<Ray> some(options_.max_rays);
+    for (size_t i = 0; i < options_.max_rays; ++i)
+      some[i] = rays[i * rays.size() / options_.max_rays];
     return some;
   }
 
@@ -90,6 +90,10 @@ class CandidateSearch {
     for (const View& other : views_.views())
       most = std::max(most, ray.cross(other.center - view.center).norm());
     return most;
+  }
+
+  double BaselineOf(const View& view, const Vec3& p) const {
+    return Baseline(view, (p - view.center).normalized());
   }
 
   // Metres along a line of sight by which a place moves so many pixels in the view where it moves
@@ -146,12 +150,15 @@ class CandidateSearch {
     const Place& best = *std::max_element(
         places.begin(), places.end(),
         [](const Place& a, const Place& b) { return a.agreement.Sum() < b.agreement.Sum(); });
+    const double same_place = std::max(
+        kSamePlace, Step(best.distance, BaselineOf(view, best.position), options_.same_place_px));
     const bool is_ambiguous = std::any_of(places.begin(), places.end(), [&](const Place& place) {
-      return std::abs(place.distance - best.distance) > kSamePlace &&
+      return std::abs(place.distance - best.distance) > same_place &&
              place.agreement.Sum() > best.agreement.Sum() - kAmbiguous;
     });
     if (is_ambiguous) return std::nullopt;
-    if (wanted_ == CandidatePlaces::kFree && !views_.IsFree(best.position)) return std::nullopt;
+    if (options_.places == CandidatePlaces::kFree && !views_.IsFree(best.position))
+      return std::nullopt;
     return best;
   }
 
@@ -171,16 +178,16 @@ class CandidateSearch {
   }
 
   const StripViews& views_;
-  CandidatePlaces wanted_;
+  CandidateOptions options_;
 };
 
 }  // namespace
 
 ObservedPoints FindColourCandidates(
-    const StripViews& views, CandidatePlaces wanted,
+    const StripViews& views, const CandidateOptions& options,
     const std::function<void(int64_t done, int64_t total)>& on_progress) {
   if (views.views().empty()) return {};
-  return CandidateSearch(views, wanted).Find(on_progress);
+  return CandidateSearch(views, options).Find(on_progress);
 }
 
 }  // namespace curvefusion

@@ -14,6 +14,20 @@ enum class CandidatePlaces {
   kAll,
 };
 
+/// Pixels of strips that are followed, at most: more tell the same again. Chosen while looking at
+/// training scans (docs/lab_notebook.md).
+inline constexpr size_t kMaxColourRays = 20000;
+
+/// How places are sought.
+struct CandidateOptions {
+  CandidatePlaces places = CandidatePlaces::kAll;
+  /// Pixels of strips that are followed, at most, evenly thinned.
+  size_t max_rays = kMaxColourRays;
+  /// Two places of one line of sight are one also where they lie no more pixels apart in the image
+  /// in which they do most: short paths know no better.
+  double same_place_px = 0;
+};
+
 /// Places of wires that the colour images show and no curve explains: thin wires that depth loses.
 /// In some images, pixels in the middle of strips are followed along their lines of sight; a place
 /// counts where nearly all images that look at it show the middle of a strip there as well. Nothing
@@ -22,7 +36,7 @@ enum class CandidatePlaces {
 /// pixel, depth and view. `on_progress` is called by the caller's thread; its exceptions pass
 /// through.
 ObservedPoints FindColourCandidates(
-    const StripViews& views, CandidatePlaces wanted,
+    const StripViews& views, const CandidateOptions& options,
     const std::function<void(int64_t done, int64_t total)>& on_progress);
 
 }  // namespace curvefusion

@@ -158,9 +158,9 @@ void FindStripsWithin(const cv::Rect& region, const Part& part, StripViews::View
 
 StripViews::StripViews(const Sequence& sequence, const std::vector<int>& frames,
                        const std::vector<PosteriorImage>& posteriors,
-                       const Eigen::AlignedBox3d& around)
+                       const Eigen::AlignedBox3d& around, double scale)
     : depth_camera_(sequence.depth_camera),
-      color_camera_(CameraLookedThrough(sequence.color_camera)),
+      color_camera_(CameraLookedThrough(sequence.color_camera, scale)),
       bounds_(around) {
   if (bounds_.isEmpty()) return;
   const Vec3 margin = Vec3::Constant(kMargin + kMarginShare * bounds_.diagonal().norm());
@@ -186,8 +186,9 @@ StripViews::StripViews(const Sequence& sequence, const std::vector<int>& frames,
   });
 }
 
-PinholeCamera StripViews::CameraLookedThrough(const PinholeCamera& color_camera) {
-  return color_camera.fx > kLargestFocal ? color_camera.Scaled(0.5) : color_camera;
+PinholeCamera StripViews::CameraLookedThrough(const PinholeCamera& color_camera, double scale) {
+  const double all = color_camera.fx > kLargestFocal ? 0.5 * scale : scale;
+  return all == 1 ? color_camera : color_camera.Scaled(all);
 }
 
 // Where the bounds lie in an image.

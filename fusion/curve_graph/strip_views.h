@@ -43,13 +43,14 @@ class StripViews {
   };
 
   /// `frames` are those whose images of how likely pixels show wire are in `posteriors`. The object
-  /// is `around`; no curve is known yet. Images much larger than 640 x 480 are looked
-  /// at in half their size.
+  /// is `around`; no curve is known yet. Images much larger than 640 x 480 are looked at in half
+  /// their size, all of them times `scale`; `posteriors` may have that size already.
   StripViews(const Sequence& sequence, const std::vector<int>& frames,
-             const std::vector<PosteriorImage>& posteriors, const Eigen::AlignedBox3d& around);
+             const std::vector<PosteriorImage>& posteriors, const Eigen::AlignedBox3d& around,
+             double scale = 1);
 
   /// The camera of images as they are looked at.
-  static PinholeCamera CameraLookedThrough(const PinholeCamera& color_camera);
+  static PinholeCamera CameraLookedThrough(const PinholeCamera& color_camera, double scale = 1);
 
   const std::vector<View>& views() const { return views_; }
 

@@ -72,6 +72,7 @@ ViewEvidence CountViews(const SkeletonGraph& skeleton, const Sequence& sequence,
     evidence.edges.push_back({id, std::vector<ViewCount>(skeleton.edge(id).points.size())});
   }
   if (evidence.edges.empty()) return evidence;
+  if (!sequence.has_depth) return evidence;
   const std::vector<int> frames = EvenlyThinned(AllFrames(sequence), options.max_frames);
   evidence.frames = static_cast<int>(frames.size());
   ForEachFrame(sequence, frames, {.depth = true, .color = false}, [&](const DecodedFrame& frame) {

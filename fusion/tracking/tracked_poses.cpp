@@ -9,7 +9,8 @@
 namespace curvefusion {
 
 RigidTransform GivenStart(const Sequence& images) {
-  const Sequence given = ReadSequence(images.folder, PoseUse::kIfGiven, [](const CheckFinding&) {});
+  const Sequence given =
+      ReadSequence(images.folder, PoseUse::kIfGiven, DepthUse::kNeeded, [](const CheckFinding&) {});
   if (!given.has_poses || images.frames.empty()) return RigidTransform::Identity();
   const std::string& first = images.frames.front().name;
   const auto frame = std::find_if(given.frames.begin(), given.frames.end(),
@@ -43,8 +44,13 @@ std::optional<Sequence> HeldToItsSurfaces(const Sequence& given, const Progress&
 
 std::optional<TrackingResult> FindPoses(Sequence& sequence, const Progress& progress) {
   if (sequence.has_poses) {
-    RequireFittingPoses(sequence);
+    if (sequence.has_depth) RequireFittingPoses(sequence);
     return std::nullopt;
+  }
+  if (!sequence.has_depth) {
+    throw Error(
+        ErrorKind::kBadInput,
+        sequence.folder.string() + ": has no poses, and they can be tracked by depth images only");
   }
   TrackingResult tracking = TrackSequence(sequence, GivenStart(sequence), {}, progress);
   sequence = tracking.sequence;

@@ -237,6 +237,24 @@ TEST_F(CommandLine, AHybridMeshIsThePlantWithItsPot) {
   EXPECT_LT(hybrid["volume"], 1.9e-3);
 }
 
+TEST_F(CommandLine, ScansWithoutDepthAreCheckedAndNotTakenForOthers) {
+  ASSERT_EQ(SimulateCube(3).exit_code, 0);
+  std::filesystem::remove_all(folder_ / "scan/depth");
+  const Outcome check = Run("check scan");
+  EXPECT_EQ(check.exit_code, 0);
+  EXPECT_THAT(check.output, HasSubstr("depth        none"));
+  for (const char* depth : {"wires", "background"}) {
+    const Outcome outcome = Run(std::string("reconstruct scan -o out --depth ") + depth);
+    EXPECT_EQ(outcome.exit_code, 3) << depth;
+    EXPECT_THAT(outcome.output, HasSubstr("no depth images"));
+  }
+  EXPECT_EQ(Run("reconstruct scan -o out --depth some").exit_code, 2);
+  EXPECT_EQ(Run("reconstruct scan -o out --depth none --hybrid").exit_code, 2);
+  const Outcome tracked = Run("reconstruct scan -o out --track");
+  EXPECT_EQ(tracked.exit_code, 3);
+  EXPECT_THAT(tracked.output, HasSubstr("neither depth images nor camera poses"));
+}
+
 TEST_F(CommandLine, AFolderThatCannotBeWrittenIsFive) {
   ASSERT_EQ(SimulateCube(1).exit_code, 0);
   std::ofstream(folder_ / "file") << "not a folder";

@@ -159,6 +159,8 @@ TEST_F(ShardCommand, WhatCannotBeIsRefusedBeforeWork) {
            {"--shard 1/5", "N can be at most 4"},
            {"--shard 1/2 --profile paper", "--profile best"},
            {"--merge scan --profile paper", "--profile best"},
+           {"--shard 1/2 --depth none", "depth.use=none"},
+           {"--merge scan --depth none", "depth.use=none"},
            {"--shard 1/2 --hybrid", "give --hybrid to the run that merges"},
            {"--shard 1/2 --save-stages stages", "give --save-stages to the run that merges"},
            {"--shard 1/2 --save-volume a.ply", "give --save-volume to the run that merges"},

@@ -28,6 +28,8 @@ def settings(program):
 def is_default(text, value):
     if isinstance(value, bool):
         return text == str(value).lower()
+    if isinstance(value, str):
+        return text == value
     try:
         return abs(float(text) - float(value)) < 1e-12
     except ValueError:

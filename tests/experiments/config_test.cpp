@@ -129,6 +129,17 @@ TEST(Config, AValueOfAnotherTypeIsRefused) {
   EXPECT_THAT(MessageOfSet("profile=\"paper\""), HasSubstr("--profile"));
 }
 
+TEST(Config, AWordOutOfSeveralIsReadAndWritten) {
+  const Config config = ReadConfig({Profile::kBest, {}, {"depth.use=background"}});
+  EXPECT_EQ(std::get<BestOptions>(config.pipeline).depth.use, DepthRole::kBackground);
+  EXPECT_THAT(ConfigToml(config), HasSubstr("use = \"background\""));
+  ASSERT_EQ(ChangedOptions(config).size(), 1u);
+  EXPECT_EQ(ChangedOptions(config)[0].value, "\"background\"");
+  EXPECT_THAT(MessageOfSet("depth.use=wire"),
+              HasSubstr("wire is not one of auto, wires, background, none"));
+  EXPECT_THAT(MessageOfSet("depth.use=2"), HasSubstr("2 is not one of auto"));
+}
+
 TEST(Config, AValueWithAUnitIsAnsweredWithTheValueInItsOwn) {
   for (const char* value : {"4mm", "4 mm", "\"4 mm\"", ".4cm", "0.004m"}) {
     EXPECT_THAT(MessageOfSet(std::string("volume.voxel_size=") + value),

@@ -85,20 +85,6 @@ TEST(Trust, IsDoubtedWhereColourAloneHardlyShowsItsCurves) {
   EXPECT_TRUE(Doubts(trust).empty());
 }
 
-TEST(Trust, IsDoubtedWhereDepthScattersAboutItsOwnCurves) {
-  TwoEdges two;
-  Trust trust = two.Measure();
-  trust.wire_length = trust.length;
-  trust.depth_scatter = 4.7;
-  EXPECT_TRUE(Doubts(trust).empty());
-  trust.depth_scatter = 5.4;
-  ASSERT_EQ(Doubts(trust).size(), 1u);
-  EXPECT_NE(Doubts(trust)[0].find("5.4 times"), std::string::npos);
-  trust.from_colour = true;  // then it does not matter how depth scatters
-  trust.colour_share = 0.45;
-  EXPECT_TRUE(Doubts(trust).empty());
-}
-
 TEST(Trust, WarnsOfPlacesThatColourCouldNotConfirm) {
   TwoEdges two;
   Trust trust = two.Measure();

@@ -85,6 +85,7 @@ TEST_F(LiveCommand, FollowsAFolderThatGrows) {
 TEST_F(LiveCommand, WhatCannotBeIsToldBeforeAnyFrame) {
   ASSERT_EQ(SimulateCube(2).exit_code, 0);
   EXPECT_EQ(Run("live scan -o out --profile paper").exit_code, 2);
+  EXPECT_EQ(Run("live scan -o out --set depth.use=none").exit_code, 2);
   EXPECT_EQ(Run("live scan -o out --rate 0").exit_code, 2);
   EXPECT_EQ(Run("live scan -o out --follow --rate 5").exit_code, 2);
   EXPECT_EQ(Run("live scan -o out --idle 5").exit_code, 2);

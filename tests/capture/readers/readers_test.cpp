@@ -147,6 +147,17 @@ TEST_F(Nerfstudio, HasOpenGlAxesAndPixelCorners) {
   ExpectGeometryFits();
 }
 
+TEST_F(Nerfstudio, MayHaveColourAndPosesOnly) {
+  for (json& frame : transforms["frames"]) frame.erase("depth_file_path");
+  fs::remove_all(folder() / "depth");
+  Write();
+  const Sequence sequence = OpenSequence(folder(), PoseUse::kNeeded, DepthUse::kIfGiven);
+  EXPECT_FALSE(sequence.has_depth);
+  EXPECT_EQ(sequence.frame_count(), kRoomFrames);
+  EXPECT_EQ(sequence.depth_camera.width, sequence.color_camera.width);
+  EXPECT_THAT(OpenError(folder()), HasSubstr("no depth images"));
+}
+
 TEST_F(Nerfstudio, DepthIsInMillimetresUnlessToldOtherwise) {
   transforms.erase("depth_unit_scale_factor");
   Write();
@@ -324,6 +335,16 @@ TEST_F(Colmap, TextAndBinaryModelsAreTheSame) {
   }
 }
 
+TEST_F(Colmap, MayHaveColourAndPosesOnly) {
+  WriteBinaryModel(folder() / "sparse/0");
+  fs::remove_all(folder() / "depth");
+  const Sequence sequence = OpenSequence(folder(), PoseUse::kNeeded, DepthUse::kIfGiven);
+  EXPECT_FALSE(sequence.has_depth);
+  EXPECT_EQ(sequence.frame_count(), kRoomFrames);
+  ASSERT_EQ(sequence.warnings.size(), 1u);
+  EXPECT_THAT(sequence.warnings[0], HasSubstr("poses, which must be in metres"));
+}
+
 TEST_F(Colmap, DepthTellsTheScale) {
   WriteBinaryModel(folder() / "sparse/0");
   ExpectGeometryFits();
@@ -376,6 +397,7 @@ TEST_F(Colmap, NamesWhatIsWrong) {
   WriteTextModel(folder(), "PINHOLE 80 60 75 75 40 30");
   std::ofstream(folder() / "images.txt", std::ios::app) << "99 1 0 0 0 0 0 0 8 1.png\n\n";
   EXPECT_THAT(OpenError(folder()), AllOf(HasSubstr("camera 8"), HasSubstr("not there")));
+  WriteTextModel(folder(), "PINHOLE 80 60 75 75 40 30");
   fs::remove_all(folder() / "depth");
   EXPECT_THAT(OpenError(folder()), AllOf(HasSubstr("depth"), HasSubstr("16-bit")));
 }

@@ -4,6 +4,10 @@
 
 #include "capture/frame_stream.h"
 #include "fusion/appearance/wire_posterior.h"
+#include "fusion/pipeline.h"
+#include "graph/io/graph_io.h"
+#include "kernel/error.h"
+#include "kernel/parallel.h"
 #include "kernel/quantile.h"
 #include "tests/fusion/silhouettes/silhouette_scan.h"
 
@@ -121,9 +125,45 @@ TEST_F(ColourStart, LeavesCurvesThatTheImagesShow) {
 
 TEST_F(ColourStart, ReplacesThemWhereItIsToldTo) {
   BestOptions options = DefaultBestOptions();
-  options.colour_start.always = true;
+  options.depth.use = DepthRole::kBackground;
   EXPECT_TRUE(Start(0, options).has_value());
   EXPECT_LT(MedianDistance(), 0.001);
+}
+
+// The scan's own layout has depth images; none of them is opened.
+TEST_F(ColourStart, NeedsNoDepth) {
+  const Sequence scan = WithoutDepth(scan_.sequence());
+  result_.sequence = scan;
+  const StageReporter reporter{observer_, log_};
+  const auto started = StartWithoutDepth(scan, DefaultBestOptions(), reporter, result_);
+  ASSERT_TRUE(started.has_value());
+  EXPECT_EQ(started->start.depth, WireDepth::kNotShown);
+  EXPECT_LT(MedianDistance(), 0.0015);  // images do not tell size and place
+  double length = 0;
+  for (const Polyline& wire : kWires) length += Length(wire);
+  EXPECT_NEAR(result_.skeleton.TotalLength(), length, 0.15 * length);
+  EXPECT_EQ(result_.warnings.size(), 1u);
+}
+
+TEST_F(ColourStart, TheSwitchTellsWhatDepthIsUsedFor) {
+  Sequence scan = scan_.sequence();
+  for (SequenceFrame& frame : scan.frames) frame.depth_path = "there is no such file";
+  BestOptions options = DefaultBestOptions();
+  const auto reconstruct = [&](const Sequence& sequence, int threads) {
+    const ThreadLimit limit(threads);
+    return Reconstruct(sequence, options, observer_);
+  };
+  const Reconstruction automatic = reconstruct(WithoutDepth(scan), 2);
+  EXPECT_EQ(automatic.depth.use, "none");
+  EXPECT_EQ(automatic.depth.why, "the scan has no depth images");
+  options.depth.use = DepthRole::kNone;
+  const Reconstruction none = reconstruct(scan, 1);  // opens no depth image
+  EXPECT_EQ(none.depth.use, "none");
+  EXPECT_EQ(none.depth.why, "asked for");
+  EXPECT_GT(none.skeleton.edge_count(), 0);
+  EXPECT_EQ(SkeletonToJson(none.skeleton), SkeletonToJson(automatic.skeleton));
+  options.depth.use = DepthRole::kWires;
+  EXPECT_THROW(reconstruct(WithoutDepth(scan), 1), Error);
 }
 
 // Depth's curves are shown twice over, and more of them not at all: no reason to give up what is

@@ -27,7 +27,7 @@ double DistanceTo(const Polyline& curve, const Vec3& p) { return Project(curve, 
 
 ObservedPoints FindCandidates(const StripViews& views,
                               CandidatePlaces wanted = CandidatePlaces::kFree) {
-  return FindColourCandidates(views, wanted, [](int64_t, int64_t) {});
+  return FindColourCandidates(views, {.places = wanted}, [](int64_t, int64_t) {});
 }
 
 TEST(ColourCandidates, LieOnTheWireThatNoCurveExplains) {
@@ -67,7 +67,7 @@ TEST(ColourCandidates, TellHowFarTheSearchIs) {
   const SilhouetteScan scan({kStem, kTwig}, {}, kBehind);
   std::vector<int64_t> steps;
   int64_t of = 0;
-  FindColourCandidates(scan.Strips(Known()), CandidatePlaces::kFree,
+  FindColourCandidates(scan.Strips(Known()), {.places = CandidatePlaces::kFree},
                        [&](int64_t done, int64_t total) {
                          steps.push_back(done);
                          of = total;

@@ -1,0 +1,121 @@
+#include "fusion/best/colour_curves.h"
+
+#include <opencv2/imgproc.hpp>
+#include <utility>
+
+#include "capture/frame_stream.h"
+#include "fusion/appearance/local_contrast.h"
+#include "fusion/best/colour_fit.h"
+#include "fusion/curve_graph/colour_candidates.h"
+#include "graph/contraction/ridge_skeleton.h"
+
+namespace curvefusion {
+
+namespace {
+
+// Chosen: the second round has the poses of the first.
+constexpr int kRounds = 2;
+// Derived: pixels of the images that StripViews looks at; its strips differ from what is 8 pixels
+// to both sides.
+constexpr double kWidestStripPx = 12;
+// Without depth, poses are those of the input until curves were adjusted: in images of half the
+// size they are off by half as many pixels, and searching all that cameras see takes half as long.
+// Chosen on the shared cube frame: 20,000 pixels to follow tell no more than 5,000.
+constexpr double kFirstScale = 0.5;
+constexpr size_t kRaysWithoutDepth = 5000;
+// Derived: twice the reach of a strip. Short paths know no better how far a place is.
+constexpr double kSamePlacePx = 3;
+
+// How a round looks at images.
+struct Look {
+  double scale = 1;
+  CandidateOptions candidates;
+};
+
+Look LookOf(int round, bool has_depth) {
+  if (has_depth) return {1, {.places = CandidatePlaces::kFree}};
+  const CandidateOptions candidates = {.max_rays = kRaysWithoutDepth,
+                                       .same_place_px = kSamePlacePx};
+  return {round == 0 ? kFirstScale : 1, candidates};
+}
+
+// The places that images agree on, contracted.
+void ContractPlaces(const StripViews& views, const CandidateOptions& candidates,
+                    const BestOptions& options, const StageReporter& reporter,
+                    Reconstruction& colour) {
+  colour.points = FindColourCandidates(views, candidates, [&](int64_t done, int64_t total) {
+    reporter.observer.OnProgress(kWiresFromColour, done, total);
+  });
+  colour.skeleton = ExtractRidgeSkeleton(colour.points, options.ridge);
+  reporter.log.Count(kWiresFromColour, "places", static_cast<double>(colour.points.size()));
+  reporter.log.Count(kWiresFromColour, "length, m", colour.skeleton.TotalLength());
+  reporter.observer.OnPoints("colour_places", colour.points);
+  reporter.observer.OnGraph("from_colour", colour.skeleton);
+}
+
+// Curves of known radius that images agree on.
+void FindCurves(const WireImages& images, const Eigen::AlignedBox3d& around, const Look& look,
+                const BestOptions& options, const StageReporter& reporter, Reconstruction& colour) {
+  {
+    const StageLog::Timer timer = reporter.Begin(kWiresFromColour);
+    const StripViews views(colour.sequence, images.frames, images.posteriors, around, look.scale);
+    ContractPlaces(views, look.candidates, options, reporter, colour);
+  }
+  if (!colour.skeleton.empty()) AssignMeasuredRadii(0, options.radius, reporter, colour);
+}
+
+ColorImage ShrunkTo(const PinholeCamera& camera, const ColorImage& color) {
+  ColorImage small(camera.width, camera.height);
+  const cv::Mat from(color.height(), color.width(), CV_8UC3, const_cast<Rgb*>(color.data()));
+  cv::Mat to(small.height(), small.width(), CV_8UC3, small.data());
+  cv::resize(from, to, to.size(), 0, 0, cv::INTER_AREA);
+  return small;
+}
+
+}  // namespace
+
+WireImages LookForColours(const Sequence& sequence, const WireColours& colours) {
+  WireImages images{EvenlyThinned(AllFrames(sequence), kColourImages), {}};
+  ForEachFrame(
+      sequence, images.frames, {.depth = false, .color = true}, [&](const DecodedFrame& frame) {
+        images.posteriors.push_back(ApplyPosterior(BinColours(frame.color), colours.posterior));
+      });
+  return images;
+}
+
+WireImages LookForContrast(const Sequence& sequence) {
+  WireImages images{EvenlyThinned(AllFrames(sequence), kColourImages), {}};
+  const PinholeCamera camera = StripViews::CameraLookedThrough(sequence.color_camera, kFirstScale);
+  ForEachFrame(
+      sequence, images.frames, {.depth = false, .color = true}, [&](const DecodedFrame& frame) {
+        images.posteriors.push_back(LocalContrast(ShrunkTo(camera, frame.color), kWidestStripPx));
+      });
+  return images;
+}
+
+std::optional<ColourCurves> FitCurvesOfColour(const Sequence& sequence,
+                                              const AdjustmentStart& start,
+                                              Eigen::AlignedBox3d around,
+                                              const BestOptions& options,
+                                              const StageReporter& reporter, WireImages& images,
+                                              Reconstruction& colour) {
+  colour.sequence = sequence;
+  std::optional<ColourCurves> fitted;
+  for (int round = 0; round < kRounds; ++round) {
+    Reconstruction next;
+    next.sequence = colour.sequence;
+    FindCurves(images, around, LookOf(round, sequence.has_depth), options, reporter, next);
+    if (next.skeleton.empty()) break;
+    std::optional<ColourAdjustment> again =
+        AdjustCurvesAndPoses(start, options.colour_adjustment, reporter, next);
+    if (!again) break;
+    if (sequence.has_depth && !CameNearer(*again)) break;  // as exact already
+    images = {again->frames, again->posteriors};
+    fitted = {std::move(*again), start};
+    colour = std::move(next);
+    if (!sequence.has_depth) around = BoundsOf(colour.skeleton);
+  }
+  return fitted;
+}
+
+}  // namespace curvefusion
