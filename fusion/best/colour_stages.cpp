@@ -190,7 +190,7 @@ void StartFromColourWhereDepthFails(const Sequence& given, const WireColours& co
     result.depth = {given.has_depth ? "background" : "none", why};
     return;
   }
-  result.depth.why = why + ", but they show no better curves";
+  result.depth.why = why + ", but colour alone gives no better curves";
   size.by_colour = false;
   TellPlan(size, options, reporter, result);
 }
