@@ -34,9 +34,15 @@ constexpr const char* kNothingThinHints =
     "  Thin parts show where they are 2 to 12 mm thick, 0.5 to 0.7 m away, some centimetres in\n"
     "  front of other things, and not black to the infrared camera. `curvefusion check` tells\n"
     "  whether poses and depth unit fit; --save-stages keeps what every step found.\n";
+constexpr const char* kNothingWithoutDepthHints =
+    "  Without depth, wires show that stand out from all that is around them, in 40 sharp images\n"
+    "  or more from 40 degrees around, with poses in metres that are exact to some pixels.\n"
+    "  --save-stages keeps what every step found.\n";
 
 std::string NothingThinText(const Reconstruction& reconstruction) {
-  return fmt::format("Found nothing thin: {}.\n{}", WhyNothing(reconstruction), kNothingThinHints);
+  const bool has_depth = reconstruction.depth.use != "none";
+  return fmt::format("Found nothing thin: {}.\n{}", WhyNothing(reconstruction),
+                     has_depth ? kNothingThinHints : kNothingWithoutDepthHints);
 }
 
 }  // namespace

@@ -100,9 +100,13 @@ const ReportPage = (() => {
       element("h2", {}, "Nothing thin was found"),
       element("p", {}, `The main reason: ${data.nothing_found}.`),
       left ? element("p", {}, left) : "",
-      element("p", {}, "Thin parts show where they are 2 to 12 mm thick, 0.5 to 0.7 m away, some " +
-        "centimetres in front of other things, and not black to the infrared camera. " +
-        "“curvefusion check” tells whether the camera's poses and the unit of depth fit."));
+      element("p", {}, data.report.depth?.use === "none"
+        ? "Without depth, wires show that stand out from all that is around them, in 40 sharp " +
+          "images or more from 40 degrees around, with poses in metres that are exact to some " +
+          "pixels."
+        : "Thin parts show where they are 2 to 12 mm thick, 0.5 to 0.7 m away, some centimetres " +
+          "in front of other things, and not black to the infrared camera. “curvefusion check” " +
+          "tells whether the camera's poses and the unit of depth fit."));
   }
 
   function showWarnings(data) {
