@@ -73,7 +73,8 @@ TEST_F(Track, PosesThatDepthDisagreesWithAreDoubted) {
   ASSERT_EQ(
       Run("simulate cubeframe -o scan --sensor ideal --poses true --quiet --frames 40").exit_code,
       0);
-  Sequence tracked = ReadSequence(folder_ / "scan", PoseUse::kNeeded, [](const CheckFinding&) {});
+  Sequence tracked = ReadSequence(folder_ / "scan", PoseUse::kNeeded, DepthUse::kNeeded,
+                                  [](const CheckFinding&) {});
   EXPECT_EQ(DoubtOfPoses(tracked), "");
   for (size_t i = 0; i < tracked.frames.size(); ++i) {
     Vec3 away = Vec3::Zero();
