@@ -240,6 +240,11 @@ TEST_F(CommandLine, AHybridMeshIsThePlantWithItsPot) {
 TEST_F(CommandLine, ScansWithoutDepthAreCheckedAndNotTakenForOthers) {
   ASSERT_EQ(SimulateCube(3).exit_code, 0);
   std::filesystem::remove_all(folder_ / "scan/depth");
+  const Outcome listed = Run("reconstruct scan -o out --depth wires");
+  EXPECT_EQ(listed.exit_code, 3);
+  EXPECT_THAT(listed.output, HasSubstr("is not there; copy it again"));
+  for (const char* list : {"depth.txt", "associations.txt"})
+    std::filesystem::remove(folder_ / "scan" / list);
   const Outcome check = Run("check scan");
   EXPECT_EQ(check.exit_code, 0);
   EXPECT_THAT(check.output, HasSubstr("depth        none"));
