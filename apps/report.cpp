@@ -40,9 +40,9 @@ constexpr const char* kNothingWithoutDepthHints =
     "  --save-stages keeps what every step found.\n";
 
 std::string NothingThinText(const Reconstruction& reconstruction) {
-  const bool has_depth = reconstruction.depth.use != "none";
-  return fmt::format("Found nothing thin: {}.\n{}", WhyNothing(reconstruction),
-                     has_depth ? kNothingThinHints : kNothingWithoutDepthHints);
+  return fmt::format(
+      "Found nothing thin: {}.\n{}", WhyNothing(reconstruction),
+      reconstruction.sequence.has_depth ? kNothingThinHints : kNothingWithoutDepthHints);
 }
 
 }  // namespace

@@ -125,7 +125,7 @@ std::string WhyNothing(const Funnel& funnel) {
 }
 
 std::string WhyNothing(const Reconstruction& reconstruction) {
-  if (reconstruction.depth.use != "none") return WhyNothing(reconstruction.funnel);
+  if (reconstruction.sequence.has_depth) return WhyNothing(reconstruction.funnel);
   return "the colour images agree on no curve that what they show beside it proves to be a wire";
 }
 

@@ -42,7 +42,7 @@ class PipelineObserver {
 
 /// What depth images were used for.
 struct DepthAccount {
-  std::string use;  ///< "wires", "background" or "none"; empty where it is not told
+  std::string use;  ///< DepthRoleName; empty where it is not told
   std::string why;
 };
 

@@ -172,7 +172,7 @@ void AddReconstructCommand(CLI::App& app, int& exit_code) {
                    "come from depth; background: surfaces and scale, curves come from colour; "
                    "none: nothing, curves come from colour and scale from the poses (for scans of "
                    "colour images and poses); auto (default): wires, or what shows them better")
-      ->check(CLI::IsMember({"auto", "wires", "background", "none"}));
+      ->check(CLI::IsMember(DepthRoleNames()));
   command
       ->add_option("--colour-camera", arguments->colour_camera,
                    "auto: a colour camera fitted to the images where colour edges lie far from "

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/simulation/scan_settings.h"
+#include "kernel/fnv_hash.h"
 
 namespace curvefusion {
 
@@ -54,9 +55,9 @@ std::string CaseSettings(const StudyCase& study_case) {
 }
 
 std::string SettingsKey(const std::string& settings) {
-  uint64_t hash = 0xcbf29ce484222325;  // FNV-1a, 64 bits: offset basis and prime
-  for (const unsigned char c : settings) hash = (hash ^ c) * 0x100000001b3;
-  return fmt::format("{:016x}", hash);
+  FnvHash hash;
+  hash.Add(settings);
+  return fmt::format("{:016x}", hash.value());
 }
 
 }  // namespace curvefusion

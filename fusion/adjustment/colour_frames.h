@@ -74,8 +74,7 @@ double MedianWidthPx(const std::vector<FrameStrips>& strips);
 
 /// What images show before the wires' colours were learned, where places may be strips' widths off:
 /// the mean of their contrast (LocalContrast, for strips of this width) and of the posterior of
-/// `colours`, which may be empty. Decodes the
-/// images again, of which only bins of colours are kept.
+/// `colours`, which may be empty. Decodes the images again, of which only bins of colours are kept.
 void LookUpFirst(const Sequence& sequence, const std::vector<uint8_t>& colours, double strip_px,
                  ColourFrames& frames);
 

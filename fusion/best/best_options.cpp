@@ -5,16 +5,6 @@
 
 namespace curvefusion {
 
-namespace {
-
-// In the order of DepthRole.
-const std::vector<std::string>& DepthRoles() {
-  static const std::vector<std::string> roles = {"auto", "wires", "background", "none"};
-  return roles;
-}
-
-}  // namespace
-
 BestOptions DefaultBestOptions() {
   BestOptions options;
   options.volume.voxel_size = 0.01;
@@ -44,16 +34,23 @@ BestOptions DefaultBestOptions() {
   return options;
 }
 
-std::string DepthRoleName(DepthRole role) { return DepthRoles()[static_cast<size_t>(role)]; }
+const std::vector<std::string>& DepthRoleNames() {
+  static const std::vector<std::string> names = {"auto", "wires", "background", "none"};
+  return names;
+}
+
+const std::string& DepthRoleName(DepthRole role) {
+  return DepthRoleNames()[static_cast<size_t>(role)];
+}
 
 void VisitOptions(DepthOptions& options, OptionVisitor& visitor) {
   int role = static_cast<int>(options.use);
   visitor.VisitChoice(
-      {"use", "", 0, static_cast<double>(DepthRoles().size() - 1),
+      {"use", "", 0, static_cast<double>(DepthRoleNames().size() - 1),
        "Deviation: what depth images are used for: wires; background only, curves then come from "
        "colour images wherever these show any; none, scale then is that of the poses. auto: wires, "
        "but background where depth shows them in wrong places, and none where there is no depth."},
-      DepthRoles(), role);
+      DepthRoleNames(), role);
   options.use = static_cast<DepthRole>(role);
 }
 

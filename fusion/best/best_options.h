@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "fusion/adjustment/colour_adjustment.h"
 #include "fusion/registration/alignment.h"
@@ -25,8 +26,9 @@ enum class DepthRole {
   kNone,        ///< nothing: curves come from colour, and scale from the poses
 };
 
-/// "auto", "wires", "background" or "none".
-std::string DepthRoleName(DepthRole role);
+/// What the roles are called, in their order: "auto", "wires", "background", "none".
+const std::vector<std::string>& DepthRoleNames();
+const std::string& DepthRoleName(DepthRole role);
 
 struct DepthOptions {
   DepthRole use = DepthRole::kAuto;

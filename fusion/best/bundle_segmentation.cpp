@@ -34,9 +34,13 @@ SegmentationModel LearnSegmentationOfRun(const Sequence& sequence, const TsdfVol
   return LearnSegmentation(sequence, volume, options);
 }
 
-VolumeFigures FiguresOf(const TsdfVolume& volume, const Sequence& sequence, int stride) {
-  return {(sequence.frame_count() + stride - 1) / stride,
-          static_cast<int64_t>(volume.block_count()), static_cast<int64_t>(volume.memory_bytes())};
+int64_t FramesInVolume(const Sequence& sequence, const BestOptions& options) {
+  return (sequence.frame_count() + options.volume_stride - 1) / options.volume_stride;
+}
+
+VolumeFigures FiguresOf(const TsdfVolume& volume, int64_t frames) {
+  return {frames, static_cast<int64_t>(volume.block_count()),
+          static_cast<int64_t>(volume.memory_bytes())};
 }
 
 FrameRanges FramesOf(const Sequence& sequence, BundleRange range, const BestOptions& options) {
@@ -71,11 +75,9 @@ BundleRange AllBundles(const Sequence& sequence, const BestOptions& options) {
 TsdfVolume FuseVolumeOfRun(const Sequence& sequence, const BestOptions& options,
                            const StageReporter& reporter) {
   const StageLog::Timer timer(reporter.log, "volume");
-  const int stride = options.volume_stride;
-  const int64_t frames = (sequence.frame_count() + stride - 1) / stride;
-  StageProgress progress(reporter.observer, "volume", frames);
-  TsdfVolume volume =
-      FuseVolume(sequence, options.volume, stride, [&progress] { progress.Advance(); });
+  StageProgress progress(reporter.observer, "volume", FramesInVolume(sequence, options));
+  TsdfVolume volume = FuseVolume(sequence, options.volume, options.volume_stride,
+                                 [&progress] { progress.Advance(); });
   reporter.observer.OnVolume(volume);
   return volume;
 }
@@ -85,7 +87,7 @@ void SegmentBundles(const Sequence& sequence, const TsdfVolume& volume, BundleRa
                     const BundleSink& sink) {
   const SegmentationModel model =
       LearnSegmentationOfRun(sequence, volume, options.segmentation, reporter);
-  sink.on_learned({FiguresOf(volume, sequence, options.volume_stride),
+  sink.on_learned({FiguresOf(volume, FramesInVolume(sequence, options)),
                    {model.frame_stride, model.array_spacing, model.array_diameter, model.colours}});
   const StageLog::Timer timer(reporter.log, "segmentation");
   const FrameRanges ranges = FramesOf(sequence, range, options);

@@ -31,9 +31,9 @@ constexpr const char* kImagesDoNotTell =
     "skipped: the images do not show the curves as wire throughout";
 // Chosen: before poses and curves are adjusted to colours more is given the benefit of the doubt.
 constexpr double kHardlyAWire = 0.4;  // times evidence.min_probability
-// Measured (docs/wires_from_colour.md): 1.7 to 4.7 where depth shows wires in their places, 5.3 and
-// more with time of flight; 19 of a cable by a D400 from .3 m, where colour's curves were not
-// taken.
+// Measured: 1.7 to 4.7 where depth shows wires in their places, 5.7 and more with time of flight
+// (docs/wires_from_colour.md); 19 of a cable by a D400 from .3 m, where colour's curves are not
+// taken (docs/lab_notebook.md).
 constexpr double kWrongScatter = 5;
 constexpr double kLittle = 0.01;  // of the length; less is not worth another round
 
@@ -174,7 +174,8 @@ void StartFromColourWhereDepthFails(const Sequence& given, const WireColours& co
                                     Reconstruction& result) {
   const std::string why = WhyColourStart(given, options, adjusted, result);
   const bool is_asked_for = options.depth.use == DepthRole::kWires;
-  result.depth = {"wires", is_asked_for ? kAskedFor : "colour gave no reason against its curves"};
+  result.depth = {DepthRoleName(DepthRole::kWires),
+                  is_asked_for ? kAskedFor : "colour gave no reason against its curves"};
   if (why.empty()) return;
   size.by_colour = true;
   TellPlan(size, options, reporter, result);
@@ -187,7 +188,8 @@ void StartFromColourWhereDepthFails(const Sequence& given, const WireColours& co
     start = std::move(from_colour->start);
   }
   if (from_colour || !given.has_depth) {
-    result.depth = {given.has_depth ? "background" : "none", why};
+    const DepthRole role = given.has_depth ? DepthRole::kBackground : DepthRole::kNone;
+    result.depth = {DepthRoleName(role), why};
     return;
   }
   result.depth.why = why + ", but colour alone gives no better curves";

@@ -2,27 +2,16 @@
 
 #include <bit>
 #include <cstdint>
-#include <filesystem>
 #include <ostream>
 #include <string_view>
 #include <type_traits>
+
+#include "kernel/fnv_hash.h"
 
 namespace curvefusion {
 
 // How shards hold numbers: in memory's own form, little-endian.
 static_assert(std::endian::native == std::endian::little);
-
-/// The checksum of a shard, FNV-1a with 64 bits: any single byte that differs changes it.
-class ShardChecksum {
- public:
-  void Add(std::string_view bytes) {
-    for (const unsigned char c : bytes) hash_ = (hash_ ^ c) * 0x100000001b3;
-  }
-  uint64_t value() const { return hash_; }
-
- private:
-  uint64_t hash_ = 0xcbf29ce484222325;  // offset basis
-};
 
 /// Writes values of plain types one after the other and adds them to a checksum.
 class ShardFields {
@@ -49,7 +38,7 @@ class ShardFields {
 
  private:
   std::ostream& stream_;
-  ShardChecksum checksum_;
+  FnvHash checksum_;
 };
 
 }  // namespace curvefusion

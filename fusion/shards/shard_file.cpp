@@ -2,9 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <fstream>
+#include <limits>
 #include <sstream>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "fusion/shards/shard_fields.h"
 #include "kernel/atomic_file.h"
 #include "kernel/error.h"
+#include "kernel/fnv_hash.h"
 
 namespace curvefusion {
 
@@ -170,7 +172,7 @@ void RequireFormat(const fs::path& file) {
 void RequireComplete(const fs::path& file) {
   constexpr size_t kBlock = 1 << 16;
   BinaryFields fields(file);
-  ShardChecksum checksum;
+  FnvHash checksum;
   std::vector<char> block(kBlock);
   while (fields.left() > kTrailerBytes) {
     const uint64_t bytes = std::min<uint64_t>(kBlock, fields.left() - kTrailerBytes);

@@ -39,7 +39,7 @@ struct ShardHeader {
   int last_frame = 0;   ///< behind the last one
 };
 
-/// Writes what `source` gives for the bundles of the header into a file (docs/formats_output.md)
+/// Writes what `source` gives for the bundles of the header into a file (docs/formats_shard.md)
 /// that gets its name only when it is complete. Bundles are written as they come, and not kept.
 /// The same for the same input: the file holds no times. Throws Error(kResource) where the file
 /// cannot be written; exceptions of `source` pass through.
