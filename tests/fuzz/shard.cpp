@@ -3,6 +3,7 @@
 
 #include "fusion/shards/shard_fields.h"
 #include "fusion/shards/shard_set.h"
+#include "kernel/fnv_hash.h"
 #include "tests/fuzz/fuzz_target.h"
 
 using namespace curvefusion;
@@ -27,7 +28,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   constexpr size_t kTrailer = 16;
   if (size < kTrailer) return 0;
   bytes.replace(size - kTrailer, 8, "CFSHEND\n");
-  ShardChecksum checksum;
+  FnvHash checksum;
   checksum.Add(std::string_view(bytes).substr(0, size - kTrailer));
   const uint64_t value = checksum.value();
   std::memcpy(bytes.data() + size - 8, &value, 8);

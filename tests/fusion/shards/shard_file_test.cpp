@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "fusion/shards/shard_fields.h"
+#include "kernel/fnv_hash.h"
 #include "tests/fusion/shards/shard_fixture.h"
 
 namespace curvefusion {
@@ -34,7 +35,7 @@ class ShardFile : public ShardFixture {
 
   // The file with a checksum that fits: as somebody would make it who wants to be believed.
   static void Sign(std::string& bytes) {
-    ShardChecksum checksum;
+    FnvHash checksum;
     checksum.Add(std::string_view(bytes).substr(0, bytes.size() - 16));
     const uint64_t value = checksum.value();
     std::memcpy(bytes.data() + bytes.size() - 8, &value, 8);
