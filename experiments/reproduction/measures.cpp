@@ -131,9 +131,13 @@ Measure BelowBestOf(const std::string& figure, const std::string& label, const s
   };
 }
 
-Measure LeastLabelWith(const std::string& figure, const std::string& label) {
+Measure LeastLabelWith(const std::string& figure, const std::string& label, const Labels& where) {
   return [=](const RunGroup& group) -> std::optional<double> {
-    const auto medians = MediansBy(group, figure, label);
+    RunGroup those;
+    for (const StudyRun* run : group.runs) {
+      if (HasLabels(*run, where)) those.runs.push_back(run);
+    }
+    const auto medians = MediansBy(those, figure, label);
     if (medians.empty()) return std::nullopt;
     double least = HUGE_VAL;
     for (const auto& [at, median] : medians) {
@@ -141,6 +145,21 @@ Measure LeastLabelWith(const std::string& figure, const std::string& label) {
       least = at;
     }
     return least;
+  };
+}
+
+Measure FallsOfLeastLabel(const std::string& figure, const std::string& label,
+                          const std::vector<Labels>& along) {
+  return [=](const RunGroup& group) -> std::optional<double> {
+    int falls = 0;
+    std::optional<double> before;
+    for (const Labels& where : along) {
+      const std::optional<double> least = LeastLabelWith(figure, label, where)(group);
+      if (!least) return std::nullopt;
+      if (before) falls += *least < *before ? 1 : *least > *before ? -1 : 0;
+      before = least;
+    }
+    return falls;
   };
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "experiments/reproduction/claim.h"
 
@@ -32,7 +33,13 @@ Measure BelowBestOf(const std::string& figure, const std::string& label, const s
 
 /// The least value of a numeric label down to which, without a gap from the greatest one on, a
 /// figure is not zero; infinite where it is zero at the greatest.
-Measure LeastLabelWith(const std::string& figure, const std::string& label);
+Measure LeastLabelWith(const std::string& figure, const std::string& label,
+                       const Labels& where = {});
+
+/// How often the least value of a numeric label at which a figure is not zero (LeastLabelWith)
+/// falls from one of these labels to the next, less how often it rises.
+Measure FallsOfLeastLabel(const std::string& figure, const std::string& label,
+                          const std::vector<Labels>& along);
 
 /// The mean over objects of |diameter - true| / true: one diameter of the whole result against the
 /// nearest of those that the paper's Table 1 gives for the object. Only objects of that table

@@ -12,10 +12,21 @@ namespace {
 StudyState StateOf(const Study& study, const StudyRequest& request,
                    const std::filesystem::path& folder) {
   StudyState state;
+  state.request = request;
   state.planned = static_cast<int>(PlanStudy(study, request, folder).cases.size());
   state.finished = FinishedRuns(study, request, folder);
   for (const StudyRun& run : state.finished.runs) state.revisions.insert(run.revision);
   return state;
+}
+
+StudyState FullOrQuickState(const Study& study, const StudyRequest& request,
+                            const std::filesystem::path& folder) {
+  StudyState state = StateOf(study, request, folder);
+  if (!state.finished.runs.empty() || request.quick) return state;
+  StudyRequest quick = request;
+  quick.quick = true;
+  StudyState quick_state = StateOf(study, quick, folder);
+  return quick_state.finished.runs.empty() ? state : quick_state;
 }
 
 }  // namespace
@@ -32,7 +43,7 @@ std::vector<Study> StudiesOfClaims() {
 Reproduction JudgeClaims(const StudyRequest& request, const std::filesystem::path& folder) {
   Reproduction reproduction;
   for (const Study& study : StudiesOfClaims()) {
-    reproduction.studies[study.name] = StateOf(study, request, folder);
+    reproduction.studies[study.name] = FullOrQuickState(study, request, folder);
   }
   for (const Claim& claim : Claims()) {
     const auto study = reproduction.studies.find(claim.study);

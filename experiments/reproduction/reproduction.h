@@ -13,6 +13,7 @@ namespace curvefusion {
 
 /// What there is of a study in a folder.
 struct StudyState {
+  StudyRequest request;             ///< what was asked of it, see JudgeClaims
   int planned = 0;                  ///< runs that the request asks for
   StudyResults finished;            ///< those measured with the same settings, not failed
   std::set<std::string> revisions;  ///< of the program, that measured them
@@ -32,7 +33,8 @@ struct Reproduction {
 /// The studies that test a claim of the paper, in the order of AllStudies.
 std::vector<Study> StudiesOfClaims();
 
-/// Reads what the request asks for and the folder has; measures nothing.
+/// Reads what the request asks for and the folder has; measures nothing. Of a study without any
+/// finished run at full size the quick runs count, where there are some.
 Reproduction JudgeClaims(const StudyRequest& request, const std::filesystem::path& folder);
 
 }  // namespace curvefusion

@@ -105,7 +105,9 @@ Table CountTable(const Reproduction& reproduction) {
 
 std::string Head(const Reproduction& reproduction, const StudyRequest& request) {
   std::set<std::string> revisions;
+  bool has_quick = false;
   for (const auto& [name, state] : reproduction.studies) {
+    has_quick = has_quick || state.request.quick;
     revisions.insert(state.revisions.begin(), state.revisions.end());
   }
   std::string text = fmt::format(
@@ -116,10 +118,10 @@ std::string Head(const Reproduction& reproduction, const StudyRequest& request) 
       "The scans are simulated (split {}, {} seed{}), as the paper's are not "
       "public.",
       SplitName(request.split), SeedsOf(request).size(), SeedsOf(request).size() == 1 ? "" : "s");
-  if (request.quick) {
+  if (has_quick) {
     text +=
-        " These are quick runs: 30 to 80 frames a scan instead of the paper's several hundred, "
-        "and few objects. A verdict on them is of these scans and may change at full size.";
+        " Commands with `--quick` are of few objects with 30 to 80 frames instead of the paper's "
+        "several hundred. A verdict on them is of these scans and may change at full size.";
   }
   if (!revisions.empty()) {
     text += fmt::format(" Revision{} of the program: {}.", revisions.size() == 1 ? "" : "s",
@@ -129,10 +131,11 @@ std::string Head(const Reproduction& reproduction, const StudyRequest& request) 
 }
 
 std::string StudyText(const Reproduction& reproduction, const std::string& name,
-                      const StudyRequest& request, const std::string& pictures) {
+                      const std::string& pictures) {
   const StudyState& state = reproduction.studies.at(name);
-  std::string text = fmt::format("\n`{}`: {} of {} runs finished.\n", CommandOf(name, request),
-                                 state.finished.runs.size(), state.planned);
+  std::string text =
+      fmt::format("\n`{}`: {} of {} runs finished.\n", CommandOf(name, state.request),
+                  state.finished.runs.size(), state.planned);
   if (state.finished.runs.empty()) return text;
   for (const std::string& picture : PicturesOf(state.finished)) {
     text += fmt::format("\n![Figure of the study {}]({}/{})\n", name, pictures, picture);
@@ -197,7 +200,7 @@ std::string ReproductionPage(const Reproduction& reproduction, const StudyReques
     }
     text += "\n## " + topic + "\n\n" + MarkdownTable(table);
     for (const std::string& study : studies) {
-      text += StudyText(reproduction, study, request, pictures);
+      text += StudyText(reproduction, study, pictures);
     }
   }
   return text;

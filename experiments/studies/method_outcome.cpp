@@ -75,11 +75,15 @@ void AddSurfaceFigures(const TriangleMesh& mesh, const Evaluation& evaluation,
 
 }  // namespace
 
+void DrawInCommonView(const std::filesystem::path& file, const SkeletonGraph& graph,
+                      const ObservedPoints& points, const SkeletonGraph& truth) {
+  WritePng(file, Picture(graph, points, FramingOf(truth)));
+}
+
 RunOutcome KeepSkeletonOfMethod(const RunInput& input, const SkeletonGraph& skeleton,
                                 const ObservedPoints& points, const SkeletonGraph& truth) {
-  const Framing framing = FramingOf(truth);
-  WritePng(input.folder / "points.png", Picture({}, points, framing));
-  WritePng(input.folder / "skeleton.png", Picture(skeleton, {}, framing));
+  DrawInCommonView(input.folder / "points.png", {}, points, truth);
+  DrawInCommonView(input.folder / "skeleton.png", skeleton, {}, truth);
   RunOutcome outcome = EvaluateAndKeep(skeleton, input);
   AddCommonFigures("aligned.curves", "components", outcome.figures);
   AddJunctionFigures(outcome.figures);

@@ -14,6 +14,10 @@ namespace curvefusion {
 // a surface there are surface.F2, surface.recall (at 5 mm) and normal_error_deg (MeanNormalError)
 // too.
 
+/// Writes a picture of curves and points in that view, as large as the others.
+void DrawInCommonView(const std::filesystem::path& file, const SkeletonGraph& graph,
+                      const ObservedPoints& points, const SkeletonGraph& truth);
+
 /// Keeps a skeleton (EvaluateAndKeep), skeleton.png and points.png. Its figures have
 /// spurious_junctions and missed_junctions (of pairs within 10 mm, aligned) too.
 RunOutcome KeepSkeletonOfMethod(const RunInput& input, const SkeletonGraph& skeleton,

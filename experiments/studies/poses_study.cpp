@@ -1,7 +1,8 @@
 // Which poses are good enough? BundleFusion "performed as well as ORB-SLAM", KinFu gives
 // "reasonable camera calibration", PTAM "failed to provide sufficient quality camera calibration"
 // (CurveFusion 5, Effect of different camera calibration). And is the factory calibration between
-// colour and depth good enough, on which no registration was run ("insufficient", 4)?
+// colour and depth good enough, on which no registration was run ("insufficient", 4)? "It is
+// desirable to employ both visual and geometric features": our tracker with and without colour.
 #include "capture/sequence.h"
 #include "capture/trajectory.h"
 #include "experiments/metrics/trajectory_metrics.h"
@@ -9,6 +10,8 @@
 #include "experiments/studies/reconstruction_run.h"
 #include "experiments/studies/result_table.h"
 #include "experiments/studies/studies.h"
+#include "fusion/tracking/track_sequence.h"
+#include "fusion/tracking/tracked_poses.h"
 
 namespace curvefusion {
 
@@ -17,14 +20,19 @@ namespace {
 constexpr int kQuickFrames = 30;  // one bundle of the paper
 
 struct Calibration {
-  const char* poses;
+  const char* poses;  // a pose source of the simulator, or what our tracker is given
   Registration colour;
 };
+constexpr const char* kTracked = "depth and colour";
+constexpr const char* kTrackedByDepth = "depth alone";
 
 constexpr Calibration kCalibrations[] = {
     {"true", Registration::kRegistered},         {"orbslam2", Registration::kRegistered},
     {"bundlefusion", Registration::kRegistered}, {"kinfu", Registration::kRegistered},
-    {"ptam", Registration::kRegistered},         {"orbslam2", Registration::kRaw}};
+    {"ptam", Registration::kRegistered},         {"orbslam2", Registration::kRaw},
+    {kTracked, Registration::kRegistered},       {kTrackedByDepth, Registration::kRegistered}};
+
+bool IsTracked(const std::string& poses) { return poses == kTracked || poses == kTrackedByDepth; }
 
 std::vector<StudyCase> Cases(const StudyRequest& request) {
   std::vector<StudyCase> cases;
@@ -32,7 +40,7 @@ std::vector<StudyCase> Cases(const StudyRequest& request) {
     for (const uint64_t seed : SeedsOf(request)) {
       SimulationOptions scan = ObjectScan(request, "cat", seed);
       if (request.quick) scan.frames = kQuickFrames;
-      scan.pose_source = calibration.poses;
+      if (!IsTracked(calibration.poses)) scan.pose_source = calibration.poses;
       scan.color.registration = calibration.colour;
       for (const Profile profile : request.profiles) {
         cases.push_back({{{"poses", calibration.poses},
@@ -59,8 +67,18 @@ double TrajectoryError(const Sequence& sequence, const Trajectory& truth) {
   return AbsoluteTrajectoryError(estimates, true_poses) / kMillimetre;
 }
 
+// With the poses of the case: those of the scan, or tracked without looking at them.
+Sequence PosedSequence(const RunInput& input) {
+  Sequence sequence = OpenSequence(input.scan);
+  const std::string poses = LabelOf(input.study_case.labels, "poses");
+  if (!IsTracked(poses)) return sequence;
+  TrackingOptions options;
+  options.use_color = poses == kTracked;
+  return TrackSequence(sequence, GivenStart(sequence), options, input.progress).sequence;
+}
+
 RunOutcome Run(const RunInput& input) {
-  const Sequence sequence = OpenSequence(input.scan);
+  const Sequence sequence = PosedSequence(input);
   InterruptibleObserver observer(input.progress);
   const Reconstruction result = Reconstruct(sequence, input.study_case.config.pipeline, observer);
   RunOutcome outcome = EvaluateAndKeep(result.skeleton, input);
@@ -93,7 +111,8 @@ void Report(const StudyResults& results) {
 Study PosesStudy() {
   return {
       "poses",
-      "The cat with poses of four trackers and true ones, and with colour that is not registered",
+      "The cat with poses of four trackers, of our own with and without colour, and true ones, and "
+      "with colour that is not registered",
       Cases, Run, Report};
 }
 

@@ -6,10 +6,11 @@
 namespace curvefusion {
 
 std::vector<Study> AllStudies() {
-  return {ObjectsStudy(),         BundleSizeStudy(),       SensorsStudy(),   PosesStudy(),
-          ThicknessColourStudy(), RgbResolutionStudy(),    InterWireStudy(), LimitationsStudy(),
-          ComparisonsStudy(),     SensorValidationStudy(), AblationStudy(),  CheckStudy(),
-          FamiliesStudy()};
+  return {ObjectsStudy(),         Table1Study(),         BundleSizeStudy(),
+          SensorsStudy(),         LeastThicknessStudy(), PosesStudy(),
+          ThicknessColourStudy(), RgbResolutionStudy(),  InterWireStudy(),
+          LimitationsStudy(),     ComparisonsStudy(),    SensorValidationStudy(),
+          AblationStudy(),        CheckStudy(),          FamiliesStudy()};
 }
 
 Study StudyNamed(const std::string& name) {

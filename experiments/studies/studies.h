@@ -15,8 +15,10 @@ Study StudyNamed(const std::string& name);
 
 // One file each.
 Study ObjectsStudy();
+Study Table1Study();
 Study BundleSizeStudy();
 Study SensorsStudy();
+Study LeastThicknessStudy();
 Study PosesStudy();
 Study ThicknessColourStudy();
 Study RgbResolutionStudy();

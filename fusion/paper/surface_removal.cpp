@@ -47,11 +47,13 @@ bool IsNearSurface(int u, int v, float depth, const DepthImage& opened, const Pi
 // Whether a depth is not explained by the rendering, of which opening has left `opened`.
 bool IsThin(int u, int v, float depth, const DepthImage& rendering, const DepthImage& opened,
             const PinholeCamera& camera, const SurfaceRemovalOptions& options) {
-  if (depth < kMinDepth || depth > kMaxDepth || !(rendering(u, v) > 0)) return false;
+  if (depth < kMinDepth || depth > kMaxDepth) return false;
+  const bool is_rendered = rendering(u, v) > 0;
+  if (!is_rendered && !options.keep_unrendered) return false;
   const double separation = Separation(depth, options);
-  const bool is_removed = !(opened(u, v) > 0);
+  const bool is_removed = is_rendered && !(opened(u, v) > 0);
   if (is_removed && depth > rendering(u, v) + separation) return false;  // seen past a thin part
-  if (!is_removed && depth > opened(u, v) - separation) return false;
+  if (opened(u, v) > 0 && depth > opened(u, v) - separation) return false;
   return !IsNearSurface(u, v, depth, opened, camera, separation);
 }
 
@@ -88,6 +90,10 @@ void VisitOptions(SurfaceRemovalOptions& options, OptionVisitor& visitor) {
                  "Depth nearer than this to a large surface belongs to it. CurveFusion 4, "
                  "assumption (i): 2 to 5 cm depending on depth."},
                 options.separation);
+  visitor.Visit({"keep_unrendered", "", 0, 1,
+                 "Whether depth stays where the volume shows no surface: for scanners of short "
+                 "range. CurveFusion 4.1 says neither."},
+                options.keep_unrendered);
 }
 
 BundleDifference FindBundleDifference(const Sequence& sequence, const BundleFrames& frames,

@@ -25,6 +25,10 @@ struct SurfaceRemovalOptions {
   /// rounds their corners. From 2.2 m on three standard deviations of depth noise are more and take
   /// its place.
   double separation = 20 * kMillimetre;
+  /// Whether depth stays where the volume shows no surface, near or far. The text says neither;
+  /// without a surface to compare with, what a Kinect measures there is mostly noise. A scanner of
+  /// short range sees nothing behind what it scans.
+  bool keep_unrendered = false;
 };
 void VisitOptions(SurfaceRemovalOptions& options, OptionVisitor& visitor);
 

@@ -50,7 +50,7 @@ class ReproductionOf : public testing::Test {
   }
 
   const fs::path folder_ = TemporaryPath("reproduction");
-  const StudyRequest request_{.quick = true};
+  StudyRequest request_{.quick = true};
 };
 
 TEST(Claims, NameStudiesThatThereAreAndSayWhatIsMeasured) {
@@ -130,14 +130,23 @@ TEST_F(ReproductionOf, VerdictsOfAnUnfinishedStudySaySo) {
   Finish("poses", {{"aligned.curves.2mm.f", 1}, {"aligned.curves.5mm.f", 1}});
   EXPECT_THAT(Page(), Not(HasSubstr("<br>from ")));
   fs::remove_all(folder_ / "runs/poses_train_quick/true_registered_paper_s1");
-  EXPECT_THAT(Page(), HasSubstr("best: 0.00: reproduced<br>from 11 of 12 runs"));
+  EXPECT_THAT(Page(), HasSubstr("best: 0.00: reproduced<br>from 15 of 16 runs"));
+}
+
+TEST_F(ReproductionOf, QuickRunsStandInForAStudyWithoutFullOnes) {
+  Finish("poses", {{"aligned.curves.2mm.f", 1}, {"aligned.curves.5mm.f", 1}});
+  request_.quick = false;
+  const std::string page = Page();
+  EXPECT_THAT(page, HasSubstr("`curvefusion experiment poses -o DIR --quick`: 16 of 16 runs"));
+  EXPECT_THAT(page, HasSubstr("`curvefusion experiment objects -o DIR`: 0 of"));
+  EXPECT_THAT(page, HasSubstr("Commands with `--quick`"));
 }
 
 TEST_F(ReproductionOf, RunsWithOtherSettingsDoNotCount) {
   Finish("poses", {{"aligned.curves.2mm.f", 1}, {"aligned.curves.5mm.f", 1}});
   StudyRequest other = request_;
   other.assignments = {"volume.voxel_size=0.02"};
-  EXPECT_EQ(FinishedRuns(PosesStudy(), request_, folder_).runs.size(), 12u);
+  EXPECT_EQ(FinishedRuns(PosesStudy(), request_, folder_).runs.size(), 16u);
   EXPECT_TRUE(FinishedRuns(PosesStudy(), other, folder_).runs.empty());
 }
 

@@ -146,6 +146,26 @@ TEST(Measures, TheLeastSpacingEndsAtTheFirstThatIsNotResolved) {
   EXPECT_EQ(resolved({}), std::nullopt);
 }
 
+TEST(Measures, FallsOfTheLeastLabelAreCountedFromOneGroupToTheNext) {
+  const auto falls = [](const std::vector<int>& least) {
+    std::vector<StudyRun> runs;
+    std::vector<Labels> along;
+    for (size_t i = 0; i < least.size(); ++i) {
+      along.push_back({{"sensor", std::to_string(i)}});
+      for (const int mm : {12, 8, 4}) {
+        runs.push_back(MadeUp({{"sensor", std::to_string(i)}, {"mm", std::to_string(mm)}},
+                              {{"r", mm >= least[i] ? 1.0 : 0.0}}));
+      }
+    }
+    return FallsOfLeastLabel("r", "mm", along)(GroupOf(runs));
+  };
+  EXPECT_EQ(falls({100, 8, 4}), 2);  // none, then thinner and thinner
+  EXPECT_EQ(falls({8, 8, 4}), 1);
+  EXPECT_EQ(falls({4, 8, 4}), 0);
+  EXPECT_EQ(falls({8, 12}), -1);
+  EXPECT_EQ(FallsOfLeastLabel("r", "mm", {{{"sensor", "none"}}})(GroupOf({})), std::nullopt);
+}
+
 TEST(Measures, BelowBestComparesWithEveryOtherValue) {
   const std::vector<StudyRun> runs = {MadeUp({{"k", "4"}}, {{"f", 0.7}}),
                                       MadeUp({{"k", "30"}}, {{"f", 0.8}}),

@@ -1,0 +1,60 @@
+#include "experiments/studies/fine_scan.h"
+
+#include <cstring>
+#include <variant>
+
+#include "experiments/simulation/objects.h"
+#include "kernel/options.h"
+
+namespace curvefusion {
+
+namespace {
+
+constexpr double kWire = 5 * kMillimetre;  // of the breadholder (CurveFusion, figure of sensors)
+constexpr double kScale = kFineWire / kWire;
+// Metres: the near half of the scanner's .2 to .3 m, so that the far side of the object is in it.
+constexpr double kStandoff = 0.22;
+
+// Every length but the sensor's range.
+class LengthScaler : public OptionVisitor {
+ public:
+  void BeginSection(const char*) override {}
+  void Visit(const OptionInfo& info, double& value) override {
+    const bool is_length = std::strcmp(info.unit, "m") == 0;
+    if (is_length && std::strcmp(info.name, "max_depth") != 0) value *= kScale;
+  }
+  void Visit(const OptionInfo&, int&) override {}
+  void Visit(const OptionInfo&, bool&) override {}
+};
+
+std::vector<WireCurve> SmallBreadholder() {
+  std::vector<WireCurve> curves = MakeObject("breadholder").curves;
+  for (WireCurve& curve : curves) {
+    for (Vec3& point : curve.points) point *= kScale;
+    curve.diameter = kFineWire;
+  }
+  return curves;
+}
+
+}  // namespace
+
+SimulationOptions FineScan(const StudyRequest& request, uint64_t seed) {
+  SimulationOptions scan = ObjectScan(request, "small_breadholder", seed);
+  scan.object_options.curves = SmallBreadholder();
+  scan.sensor = "artec_spider";
+  scan.pose_source = "true";
+  scan.motion.standoff = kStandoff;
+  return scan;
+}
+
+Config FineScanConfig(const StudyRequest& request, Profile profile) {
+  Config config = CaseConfig(request, profile);
+  if (auto* paper = std::get_if<PaperOptions>(&config.pipeline)) {
+    LengthScaler scaler;
+    VisitOptions(*paper, scaler);
+    paper->surfaces.keep_unrendered = true;
+  }
+  return config;
+}
+
+}  // namespace curvefusion

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "experiments/studies/study.h"
+
+namespace curvefusion {
+
+/// Diameter of the thinnest wire of which the paper has a scan: by an Artec Space Spider
+/// (CurveFusion 5, Effect of different sensors).
+inline constexpr double kFineWire = 1.5 * kMillimetre;
+
+/// A scan that only such a scanner can make: the breadholder as much smaller as its wire of 5 mm is
+/// thicker than kFineWire, 66 mm wide, which the scanner's field of view holds. Poses are true: the
+/// scanner's own program aligns its frames to less than what it resolves.
+SimulationOptions FineScan(const StudyRequest& request, uint64_t seed);
+
+/// The config of a case with such a scan. All lengths of the paper profile are made for wires of
+/// some 5 mm and are scaled like the object; depth with nothing behind it stays, as the scanner's
+/// range ends behind the object. The best profile is as it is.
+Config FineScanConfig(const StudyRequest& request, Profile profile);
+
+}  // namespace curvefusion
