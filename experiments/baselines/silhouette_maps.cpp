@@ -68,6 +68,15 @@ Image<float> ProbabilityOf(const PosteriorImage& posterior) {
 
 }  // namespace
 
+RigidTransform PoseTowards(const Vec3& center, const Vec3& away, double distance) {
+  RigidTransform T_world_camera = RigidTransform::Identity();
+  T_world_camera.linear().col(0) = away.unitOrthogonal();
+  T_world_camera.linear().col(1) = -away.cross(away.unitOrthogonal());
+  T_world_camera.linear().col(2) = -away;
+  T_world_camera.translation() = center + distance * away;
+  return T_world_camera;
+}
+
 std::vector<RigidTransform> PosesAround(const Vec3& center, double distance, int count) {
   std::vector<RigidTransform> poses;
   for (int i = 0; i < count; ++i) {
@@ -75,12 +84,7 @@ std::vector<RigidTransform> PosesAround(const Vec3& center, double distance, int
     const double around = 2 * std::numbers::pi * i / std::numbers::phi;
     const double width = std::sqrt(1 - z * z);
     const Vec3 away(width * std::cos(around), width * std::sin(around), z);
-    RigidTransform T_world_camera = RigidTransform::Identity();
-    T_world_camera.linear().col(0) = away.unitOrthogonal();
-    T_world_camera.linear().col(1) = -away.cross(away.unitOrthogonal());
-    T_world_camera.linear().col(2) = -away;
-    T_world_camera.translation() = center + distance * away;
-    poses.push_back(T_world_camera);
+    poses.push_back(PoseTowards(center, away, distance));
   }
   return poses;
 }

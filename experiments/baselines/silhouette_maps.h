@@ -19,6 +19,9 @@ struct SilhouetteMap {
   Image<float> probability;
 };
 
+/// A camera that looks at a point from so far; `away` is the unit direction from the point to it.
+RigidTransform PoseTowards(const Vec3& center, const Vec3& away, double distance);
+
 /// So many cameras at a distance all around a point, in directions of a Fibonacci lattice, looking
 /// at it.
 std::vector<RigidTransform> PosesAround(const Vec3& center, double distance, int count);

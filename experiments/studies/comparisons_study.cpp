@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 
 #include "capture/content/colour_findings.h"
 #include "capture/frame_stream.h"
@@ -12,7 +13,9 @@
 #include "experiments/baselines/merged_skeleton.h"
 #include "experiments/baselines/silhouette_maps.h"
 #include "experiments/baselines/silhouette_voxels.h"
+#include "experiments/baselines/three_view_wires.h"
 #include "experiments/baselines/volumetric_fusion.h"
+#include "experiments/metrics/curve_metrics.h"
 #include "experiments/metrics/truth.h"
 #include "experiments/pictures/orthographic_view.h"
 #include "experiments/studies/bar_panels.h"
@@ -31,6 +34,10 @@ namespace fs = std::filesystem;
 // As a mesh is cut to the object (PartAroundTruth).
 constexpr double kMargin = 30 * kMillimetre;
 
+// Images of Liu 2017 are so many times as wide as the depth camera's: 2560 x 1920 pixels. Those of
+// the authors' examples are 2464 x 1632 and 3008 x 2008.
+constexpr double kWireImageScale = 4;
+
 // "40 calibrated cameras" of the original setup of Tabb 2013 (CurveFusion 5, Comparisons).
 constexpr int kSilhouetteViews = 40;
 
@@ -43,7 +50,9 @@ enum class Kind {
   kBridgedBundle,
   kColourEdges,
   kSilhouettes,
-  kStudio
+  kStudio,
+  kThreeViews,
+  kThreeViewsStrict
 };
 
 struct Method {
@@ -68,7 +77,9 @@ constexpr Method kMethods[] = {{"VolumeFusion 2 mm", Kind::kVolume, 2},
                                {"Huang 2013 branches", Kind::kBridgedBundle},
                                {"colour edges", Kind::kColourEdges},
                                {"Tabb 2013", Kind::kSilhouettes, 2},
-                               {"Tabb 2013 studio", Kind::kStudio, 2}};
+                               {"Tabb 2013 studio", Kind::kStudio, 2},
+                               {"Liu 2017", Kind::kThreeViews},
+                               {"Liu 2017 strict", Kind::kThreeViewsStrict}};
 
 bool IsVolume(Kind kind) { return kind == Kind::kVolume || kind == Kind::kKinectFusion; }
 
@@ -171,6 +182,56 @@ RunOutcome RunTabb(const RunInput& input, const Sequence& sequence, const Method
   return outcome;
 }
 
+// True silhouettes of three cameras around the middle of the scan's views, as far away as these:
+// "precise camera calibration and clean background" (CurveFusion, figure 14).
+std::vector<SilhouetteMap> ThreeSilhouettes(const Sequence& sequence, const SkeletonGraph& truth) {
+  const Vec3 center = BoxAround(truth).center();
+  Vec3 away = Vec3::Zero();
+  for (const SequenceFrame& frame : sequence.frames) {
+    away += (frame.T_world_camera.translation() - center).normalized();
+  }
+  return TrueSilhouettes(
+      truth, sequence.depth_camera.Scaled(kWireImageScale),
+      ThreePosesAround(center, away.normalized(), MeanDistance(sequence, center)));
+}
+
+// Of the curves before the selection: how many, how long, which share of that within 5 mm of the
+// truth, and of the truth within 5 mm of them; how many have more than half beyond. Poses are true,
+// so nothing is aligned.
+void AddCandidateFigures(const SkeletonGraph& candidates, const SkeletonGraph& truth,
+                         Figures& figures) {
+  const SkeletonSamples samples = SampleSkeleton(candidates), true_samples = SampleSkeleton(truth);
+  const PrecisionRecall scores = CompareCurves(samples, true_samples).within[2];
+  static_assert(kDistanceThresholds[2] == 5 * kMillimetre);
+  figures["candidates"] = candidates.edge_count();
+  figures["candidate_length"] = candidates.TotalLength();
+  figures["candidate_precision"] = scores.precision.value_or(0);
+  figures["candidate_recall"] = scores.recall.value_or(0);
+  const std::vector<double> distances = DistancesTo(samples.positions, true_samples.positions);
+  std::map<EdgeId, double> beyond;  // metres, less those within
+  for (size_t i = 0; i < samples.size(); ++i) {
+    const bool is_beyond = distances[i] > kDistanceThresholds[2];
+    beyond[samples.edges[i]] += is_beyond ? samples.lengths[i] : -samples.lengths[i];
+  }
+  figures["spurious_candidates"] = static_cast<double>(std::count_if(
+      beyond.begin(), beyond.end(), [](const auto& edge) { return edge.second > 0; }));
+}
+
+RunOutcome RunLiu(const RunInput& input, const Sequence& sequence, Kind kind,
+                  const SkeletonGraph& truth) {
+  const SupportRule rule =
+      kind == Kind::kThreeViewsStrict ? SupportRule::kMeanDistance : SupportRule::kOfProgram;
+  const std::vector<SilhouetteMap> views = ThreeSilhouettes(sequence, truth);
+  ThreeViewWires wires;
+  const Cost cost = CostOf([&] { wires = WiresOfThreeViews(views, rule, input.progress); });
+  ObservedPoints points;  // of the candidates, for their picture
+  for (const Vec3& p : SampleSkeleton(wires.candidates).positions) points.Add(p, Vec3::Zero(), 1);
+  RunOutcome outcome = KeepSkeletonOfMethod(input, wires.selected, points, truth);
+  AddCandidateFigures(wires.candidates, truth, outcome.figures);
+  AddCost(cost, sequence.frame_count(), outcome.figures);
+  return outcome;
+}
+
 // The frames of a bundle around the middle of the scan.
 BundleFrames MiddleBundle(const Sequence& sequence, const PaperOptions& options) {
   const int count = std::min(options.bundle.frames, sequence.frame_count());
@@ -213,6 +274,9 @@ RunOutcome Run(const RunInput& input) {
     case Kind::kSilhouettes:
     case Kind::kStudio:
       return RunTabb(input, sequence, method, truth);
+    case Kind::kThreeViews:
+    case Kind::kThreeViewsStrict:
+      return RunLiu(input, sequence, method.kind, truth);
     case Kind::kCurveFusion:
       break;
   }
@@ -228,7 +292,11 @@ const std::vector<TableColumn> kColumns = {{"F5", "F5"},
                                            {"missed", "missed_junctions", 0},
                                            {"surface: F2", "surface.F2"},
                                            {"surface: recall at 5 mm", "surface.recall"},
-                                           {"normals off by (deg)", "normal_error_deg", 0}};
+                                           {"normals off by (deg)", "normal_error_deg", 0},
+                                           {"candidates", "candidates", 0},
+                                           {"spurious", "spurious_candidates", 0},
+                                           {"precision of all", "candidate_precision"},
+                                           {"recall", "candidate_recall"}};
 
 // What each method gives of the first seed, seen from the same side: a row an object.
 void DrawPictures(const StudyResults& results) {
@@ -267,8 +335,8 @@ void Report(const StudyResults& results) {
 
 Study ComparisonsStudy() {
   return {"comparisons",
-          "VolumeFusion, KinectFusion, L1 of all frames, branches of Huang 2013, colour edges and "
-          "Tabb 2013 beside both profiles",
+          "VolumeFusion, KinectFusion, L1 of all frames, branches of Huang 2013, colour edges, "
+          "Tabb 2013 and Liu 2017 beside both profiles",
           Cases, Run, Report};
 }
 
