@@ -104,7 +104,7 @@ TEST(Claims, AreMeasuredByTheFullSizeOfTheirStudies) {
 TEST_F(ReproductionOf, AnEmptyFolderHasNoVerdict) {
   const std::string page = Page();
   EXPECT_THAT(page, HasSubstr("curvefusion experiment all -o DIR --quick"));
-  EXPECT_THAT(page, HasSubstr("0 of 4 runs finished"));  // objects: two, both profiles
+  EXPECT_THAT(page, HasSubstr("0 of 2 runs finished"));  // table1: one object, both profiles
   for (const JudgedClaim& judged : JudgeClaims(request_, folder_).claims) {
     for (const ClaimResult& result : judged.results) {
       EXPECT_EQ(result.verdict, Verdict::kNotMeasured) << judged.claim->words;
@@ -113,18 +113,18 @@ TEST_F(ReproductionOf, AnEmptyFolderHasNoVerdict) {
 }
 
 TEST_F(ReproductionOf, FinishedRunsGiveFigureVerdictPictureAndCommand) {
-  Finish("objects", {{"aligned.junctions_10mm.matched", 98},
-                     {"aligned.junctions_10mm.truth", 100},
-                     {"aligned.junctions_10mm.valence_right", 50}});
-  std::ofstream(folder_ / "objects_train_quick.png") << "picture";
-  std::ofstream(folder_ / "objects_train.png") << "of the full size";
+  Finish("table1", {{"aligned.junctions_10mm.matched", 98},
+                    {"aligned.junctions_10mm.truth", 100},
+                    {"aligned.junctions_10mm.valence_right", 50}});
+  std::ofstream(folder_ / "table1_train_quick.png") << "picture";
+  std::ofstream(folder_ / "table1_train.png") << "of the full size";
   const std::string page = Page();
   EXPECT_THAT(page, HasSubstr("paper: 0.980: exceeded<br>best: 0.980: exceeded"));
   EXPECT_THAT(page, HasSubstr("paper: 0.500: not reproduced"));
-  EXPECT_THAT(page, HasSubstr("`curvefusion experiment objects -o DIR --quick`: 4 of 4 runs"));
-  EXPECT_THAT(page, HasSubstr("(images/reproduction/objects_train_quick.png)"));
-  EXPECT_THAT(page, Not(HasSubstr("objects_train.png")));
-  EXPECT_EQ(Contents(folder_ / "images/reproduction/objects_train_quick.png"), "picture");
+  EXPECT_THAT(page, HasSubstr("`curvefusion experiment table1 -o DIR --quick`: 2 of 2 runs"));
+  EXPECT_THAT(page, HasSubstr("(images/reproduction/table1_train_quick.png)"));
+  EXPECT_THAT(page, Not(HasSubstr("table1_train.png")));
+  EXPECT_EQ(Contents(folder_ / "images/reproduction/table1_train_quick.png"), "picture");
 }
 
 TEST_F(ReproductionOf, VerdictsOfAnUnfinishedStudySaySo) {
@@ -139,7 +139,7 @@ TEST_F(ReproductionOf, QuickRunsStandInForAStudyWithoutFullOnes) {
   request_.quick = false;
   const std::string page = Page();
   EXPECT_THAT(page, HasSubstr("`curvefusion experiment poses -o DIR --quick`: 16 of 16 runs"));
-  EXPECT_THAT(page, HasSubstr("`curvefusion experiment objects -o DIR`: 0 of"));
+  EXPECT_THAT(page, HasSubstr("`curvefusion experiment table1 -o DIR`: 0 of"));
   EXPECT_THAT(page, HasSubstr("Commands with `--quick`"));
 }
 
