@@ -38,18 +38,11 @@ bool IsWanted(const StudyRequest& request, const TableRow& row) {
   return std::find(objects.begin(), objects.end(), row.object) != objects.end();
 }
 
-// Scans are long: one seed is enough unless more are asked for.
-std::vector<uint64_t> SeedsOfTable(const StudyRequest& request) {
-  StudyRequest one = request;
-  one.seeds = std::max(1, request.seeds);
-  return SeedsOf(one);
-}
-
 std::vector<StudyCase> Cases(const StudyRequest& request) {
   std::vector<StudyCase> cases;
   for (const TableRow& row : kRows) {
     if (!IsWanted(request, row)) continue;
-    for (const uint64_t seed : SeedsOfTable(request)) {
+    for (const uint64_t seed : SeedsOf(request)) {
       SimulationOptions scan = ObjectScan(request, row.object, seed);
       scan.frames = row.frames;
       for (const Profile profile : request.profiles) {
