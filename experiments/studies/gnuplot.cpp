@@ -115,8 +115,8 @@ void DrawPictureGrid(const fs::path& folder, const std::string& name, const Pict
       "set multiplot\nunset border\nunset tics\nunset grid\nset size ratio -1\n"
       "set lmargin 0\nset rmargin 0\nset tmargin 0\nset bmargin 0\n");
   const auto label = [&](const std::string& text, double x, double y, const char* how) {
-    commands += fmt::format("set label '{}' at screen {:.5f},{:.5f} center {}\n", text, x / width,
-                            1 - y / height, how);
+    commands += fmt::format("set label \"{}\" at screen {:.5f},{:.5f} center noenhanced {}\n", text,
+                            x / width, 1 - y / height, how);
   };
   for (size_t c = 0; c < columns; ++c) {
     label(grid.columns[c], kLeft + grid.cell_width * (static_cast<double>(c) + 0.5), kTop / 2, "");

@@ -25,7 +25,7 @@ void DrawPlot(const std::filesystem::path& folder, const std::string& name, cons
 /// Pictures side by side, with names above the columns and left of the rows.
 struct PictureGrid {
   std::vector<std::string> columns;
-  std::vector<std::string> rows;
+  std::vector<std::string> rows;      ///< a backslash and an n part lines
   std::vector<std::string> pictures;  ///< PNG files relative to the folder, row by row; "" = none
   double cell_width = 1.1;            ///< inches
   double cell_height = 1.1;           ///< inches

@@ -111,12 +111,12 @@ const std::vector<TableColumn> kColumns = {
 // Of the first seed: a row an object and sensor, a frame, a bundle, then the profiles' curves.
 void DrawPictures(const StudyResults& results) {
   PictureGrid grid{.columns = {"a frame", "a bundle"}};
-  grid.cell_height = 1.6;  // the longest name of a row fits
+  grid.cell_height = 1.25;  // the longest name of a row fits
   for (const RunGroup& profile : GroupRuns(results.runs, {"profile"})) {
     grid.columns.push_back(profile.labels.front().second);
   }
   for (const RunGroup& row : GroupRuns(results.runs, {"object", "sensor"})) {
-    grid.rows.push_back(row.labels[0].second + ", " + row.labels[1].second);
+    grid.rows.push_back(row.labels[0].second + "\\n" + row.labels[1].second);
     const auto picture = [&](const StudyRun& run, const char* name) {
       const fs::path file = run.folder / name;
       return fs::exists(file) ? fs::relative(file, results.folder).string() : std::string();
