@@ -179,7 +179,8 @@ TEST_F(CommandLine, WrongUsageIsTwo) {
 TEST_F(CommandLine, ThePageOfClaimsNeedsNoRuns) {
   const Outcome page = Run("experiment reproduction -o out --quick");
   EXPECT_EQ(page.exit_code, 0) << page.output;
-  EXPECT_THAT(Text("out/reproduction.md"), HasSubstr("0 of 4 runs finished"));
+  EXPECT_THAT(Text("out/reproduction.md"),
+              HasSubstr("experiment table1 -o DIR --quick`: 0 of 2 runs finished"));
   EXPECT_EQ(CountFiles("out", "run.json"), 0);  // nothing is measured for it
 }
 
