@@ -169,7 +169,7 @@ void WritePage(const StudyRequest& request, const ExperimentArguments& arguments
   fmt::print("Wrote {}\n", (arguments.output / "reproduction.md").string());
 }
 
-// All studies with three seeds take a day of two cores.
+// Chosen: one seed of all studies takes hours already.
 StudyRequest WithSeedsOfPage(StudyRequest request) {
   if (!request.quick && request.seeds == 0) request.seeds = 1;
   return request;

@@ -31,9 +31,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// As a mesh is cut to the object (PartAroundTruth).
-constexpr double kMargin = 30 * kMillimetre;
-
 // Images of Liu 2017 are so many times as wide as the depth camera's: 2560 x 1920 pixels. Those of
 // the authors' examples are 2464 x 1632 and 3008 x 2008.
 constexpr double kWireImageScale = 4;
@@ -130,11 +127,6 @@ std::vector<StudyCase> Cases(const StudyRequest& request) {
     }
   }
   return cases;
-}
-
-Eigen::AlignedBox3d BoxAround(const SkeletonGraph& truth) {
-  Eigen::AlignedBox3d box = BoundsOf(truth);
-  return {box.min() - Vec3::Constant(kMargin), box.max() + Vec3::Constant(kMargin)};
 }
 
 RunOutcome RunCurveFusion(const RunInput& input, Sequence sequence, const SkeletonGraph& truth) {

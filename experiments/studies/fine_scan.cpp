@@ -10,6 +10,7 @@ namespace curvefusion {
 
 namespace {
 
+constexpr const char* kObject = "small_breadholder";
 constexpr double kWire = 5 * kMillimetre;  // of the breadholder (CurveFusion, figure of sensors)
 constexpr double kScale = kFineWire / kWire;
 // Metres: the near half of the scanner's .2 to .3 m, so that the far side of the object is in it.
@@ -39,7 +40,7 @@ std::vector<WireCurve> SmallBreadholder() {
 }  // namespace
 
 SimulationOptions FineScan(const StudyRequest& request, uint64_t seed) {
-  SimulationOptions scan = ObjectScan(request, "small_breadholder", seed);
+  SimulationOptions scan = ObjectScan(request, kObject, seed);
   scan.object_options.curves = SmallBreadholder();
   scan.sensor = "artec_spider";
   scan.pose_source = "true";
@@ -47,8 +48,9 @@ SimulationOptions FineScan(const StudyRequest& request, uint64_t seed) {
   return scan;
 }
 
-Config FineScanConfig(const StudyRequest& request, Profile profile) {
+Config ConfigOfScan(const StudyRequest& request, Profile profile, const SimulationOptions& scan) {
   Config config = CaseConfig(request, profile);
+  if (scan.object != kObject) return config;
   if (auto* paper = std::get_if<PaperOptions>(&config.pipeline)) {
     LengthScaler scaler;
     VisitOptions(*paper, scaler);

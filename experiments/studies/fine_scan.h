@@ -13,9 +13,9 @@ inline constexpr double kFineWire = 1.5 * kMillimetre;
 /// scanner's own program aligns its frames to less than what it resolves.
 SimulationOptions FineScan(const StudyRequest& request, uint64_t seed);
 
-/// The config of a case with such a scan. All lengths of the paper profile are made for wires of
-/// some 5 mm and are scaled like the object; depth with nothing behind it stays, as the scanner's
-/// range ends behind the object. The best profile is as it is.
-Config FineScanConfig(const StudyRequest& request, Profile profile);
+/// The config of a case with a scan. Of a FineScan all lengths of the paper profile, which are made
+/// for wires of some 5 mm, are scaled like the object, and depth with nothing behind it stays, as
+/// the scanner's range ends behind the object. The best profile is as it is.
+Config ConfigOfScan(const StudyRequest& request, Profile profile, const SimulationOptions& scan);
 
 }  // namespace curvefusion

@@ -25,12 +25,11 @@ std::vector<int> DiametersOf(const StudyRequest& request) {
 void AddCases(const StudyRequest& request, const std::string& diameter, SimulationOptions scan,
               uint64_t seed, const Profile profile, std::vector<StudyCase>& cases) {
   scan.frames = request.quick ? kQuickFrames : kFrames;
-  const bool is_fine = !scan.object_options.curves.empty();
   cases.push_back(
       {{{"sensor", scan.sensor}, {"diameter", diameter}, {"profile", ProfileName(profile)}},
        seed,
        scan,
-       is_fine ? FineScanConfig(request, profile) : CaseConfig(request, profile)});
+       ConfigOfScan(request, profile, scan)});
 }
 
 std::vector<StudyCase> Cases(const StudyRequest& request) {

@@ -75,6 +75,12 @@ void AddSurfaceFigures(const TriangleMesh& mesh, const Evaluation& evaluation,
 
 }  // namespace
 
+Eigen::AlignedBox3d BoxAround(const SkeletonGraph& truth) {
+  constexpr double kMargin = 30 * kMillimetre;
+  const Eigen::AlignedBox3d box = BoundsOf(truth);
+  return {box.min() - Vec3::Constant(kMargin), box.max() + Vec3::Constant(kMargin)};
+}
+
 void DrawInCommonView(const std::filesystem::path& file, const SkeletonGraph& graph,
                       const ObservedPoints& points, const SkeletonGraph& truth) {
   WritePng(file, Picture(graph, points, FramingOf(truth)));

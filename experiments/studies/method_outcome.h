@@ -2,6 +2,7 @@
 
 #include "experiments/studies/study.h"
 #include "graph/skeleton_graph.h"
+#include "kernel/geometry.h"
 #include "kernel/observed_points.h"
 #include "kernel/triangle_mesh.h"
 #include "meshing/tubes.h"
@@ -13,6 +14,9 @@ namespace curvefusion {
 // those of a surface of the part around the true tubes, against the tubes' surface. Where there is
 // a surface there are surface.F2, surface.recall (at 5 mm) and normal_error_deg (MeanNormalError)
 // too.
+
+/// The box 30 mm around the true object, as far as a mesh is cut to it (PartAroundTruth).
+Eigen::AlignedBox3d BoxAround(const SkeletonGraph& truth);
 
 /// Writes a picture of curves and points in that view, as large as the others.
 void DrawInCommonView(const std::filesystem::path& file, const SkeletonGraph& graph,

@@ -22,8 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kBundle = 30;                   // frames; of the paper, and all of a quick scan
-constexpr double kAround = 30 * kMillimetre;  // of the object: what pictures show of the depth
+constexpr int kBundle = 30;  // frames; of the paper, and all of a quick scan
 
 struct Model {
   const char* object;
@@ -35,13 +34,12 @@ constexpr Model kModels[] = {{"breadholder", 5 * kMillimetre}, {"rack", 8 * kMil
 void AddCases(const StudyRequest& request, const std::string& object, SimulationOptions scan,
               uint64_t seed, std::vector<StudyCase>& cases) {
   if (request.quick) scan.frames = kBundle;
-  const bool is_fine = !scan.object_options.curves.empty();
   for (const Profile profile : request.profiles) {
     cases.push_back(
         {{{"object", object}, {"sensor", scan.sensor}, {"profile", ProfileName(profile)}},
          seed,
          scan,
-         is_fine ? FineScanConfig(request, profile) : CaseConfig(request, profile)});
+         ConfigOfScan(request, profile, scan)});
   }
 }
 
@@ -66,9 +64,7 @@ std::vector<StudyCase> Cases(const StudyRequest& request) {
 // All depth around the object that frames from `first` on show, in the world.
 ObservedPoints DepthAround(const SkeletonGraph& truth, const Sequence& sequence, int first,
                            int count) {
-  const Eigen::AlignedBox3d object = BoundsOf(truth);
-  const Eigen::AlignedBox3d box(object.min() - Vec3::Constant(kAround),
-                                object.max() + Vec3::Constant(kAround));
+  const Eigen::AlignedBox3d box = BoxAround(truth);
   ObservedPoints points;
   for (int frame = first; frame < std::min(first + count, sequence.frame_count()); ++frame) {
     const RigidTransform& T_world_camera = sequence.frames[frame].T_world_camera;

@@ -95,7 +95,7 @@ TEST(FineScan, IsScaledAsAWhole) {
     EXPECT_NEAR(small[i].diameter, 1.5 * kMillimetre, 1e-12);
     EXPECT_NEAR((small[i].points.back() - 0.3 * own[i].points.back()).norm(), 0, 1e-12);
   }
-  const auto paper = std::get<PaperOptions>(FineScanConfig({}, Profile::kPaper).pipeline);
+  const auto paper = std::get<PaperOptions>(ConfigOfScan({}, Profile::kPaper, scan).pipeline);
   EXPECT_NEAR(paper.surfaces.opening_radius, 6 * kMillimetre, 1e-12);
   EXPECT_NEAR(paper.volume.max_depth, PaperOptions().volume.max_depth, 0);
   EXPECT_TRUE(paper.surfaces.keep_unrendered);
