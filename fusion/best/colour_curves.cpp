@@ -19,10 +19,8 @@ constexpr int kRounds = 2;
 // to both sides.
 constexpr double kWidestStripPx = 12;
 // Without depth, poses are those of the input until curves were adjusted: in images of half the
-// size they are off by half as many pixels, and searching all that cameras see takes half as long.
-// Chosen on the shared cube frame: 20,000 pixels to follow tell no more than 5,000.
+// size they are off by half as many pixels.
 constexpr double kFirstScale = 0.5;
-constexpr size_t kRaysWithoutDepth = 5000;
 // Derived: twice the reach of a strip. Short paths know no better how far a place is.
 constexpr double kSamePlacePx = 3;
 
@@ -34,9 +32,7 @@ struct Look {
 
 Look LookOf(int round, bool has_depth) {
   if (has_depth) return {1, {.places = CandidatePlaces::kFree}};
-  const CandidateOptions candidates = {.max_rays = kRaysWithoutDepth,
-                                       .same_place_px = kSamePlacePx};
-  return {round == 0 ? kFirstScale : 1, candidates};
+  return {round == 0 ? kFirstScale : 1, {.same_place_px = kSamePlacePx}};
 }
 
 // The places that images agree on, contracted.
@@ -109,7 +105,8 @@ std::optional<ColourCurves> FitCurvesOfColour(const Sequence& sequence,
     std::optional<ColourAdjustment> again =
         AdjustCurvesAndPoses(start, options.colour_adjustment, reporter, next);
     if (!again) break;
-    if (sequence.has_depth && !CameNearer(*again)) break;  // as exact already
+    // As exact already.
+    if (round > 0 && sequence.has_depth && !CameNearer(*again)) break;
     images = {again->frames, again->posteriors};
     fitted = {std::move(*again), start};
     colour = std::move(next);

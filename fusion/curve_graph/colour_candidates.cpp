@@ -13,6 +13,7 @@ namespace {
 
 // All chosen while looking at training scans chair 3, furnished 1, rack 2, tree 2, umbrella 1 and
 // vine 1 (docs/lab_notebook.md).
+constexpr size_t kMaxRays = 6000;       // lines of sight, evenly thinned: more tell the same again
 constexpr size_t kReferenceStride = 3;  // lines of sight start in every so many-th image
 constexpr double kCoarsePx = 3;         // steps along a line of sight, in the view that moves most
 constexpr double kFinePx = 0.5;         // likewise
@@ -28,7 +29,7 @@ constexpr double kNearest = 0.05;  // metres before a camera
 constexpr int64_t kReports = 50;   // chosen: of progress
 
 using View = StripViews::View;
-using Ray = std::pair<const View*, Eigen::Vector2i>;  // of a pixel
+using Ray = std::pair<size_t, Eigen::Vector2i>;  // number of a view, and a pixel
 
 // A place of a line of sight where a wire may be.
 struct Place {
@@ -52,10 +53,9 @@ class CandidateSearch {
   ObservedPoints Find(const std::function<void(int64_t done, int64_t total)>& on_progress) const {
     std::vector<Ray> rays;
     for (size_t i = 0; i < views_.views().size(); i += kReferenceStride) {
-      const View& view = views_.views()[i];
-      for (const Eigen::Vector2i& pixel : view.unexplained) {
-        if (!view.explained(pixel.x(), pixel.y())) rays.emplace_back(&view, pixel);
-      }
+      const StripImage& strips = views_.views()[i].strips;
+      for (const Eigen::Vector2i& pixel : strips.unexplained())
+        if (!strips.IsExplained(pixel.x(), pixel.y())) rays.emplace_back(i, pixel);
     }
     rays = Thinned(std::move(rays));
     std::vector<std::optional<Place>> places(rays.size());
@@ -63,24 +63,23 @@ class CandidateSearch {
     for (int64_t part = 0; part < kReports; ++part) {
       on_progress(part, kReports);
       ParallelFor(part * count / kReports, (part + 1) * count / kReports, 16,
-                  [&](int64_t i) { places[i] = PlaceOn(*rays[i].first, rays[i].second); });
+                  [&](int64_t i) { places[i] = PlaceOn(rays[i].first, rays[i].second); });
     }
     ObservedPoints points;
     for (size_t i = 0; i < rays.size(); ++i) {
       if (!places[i]) continue;
       const Vec3& p = places[i]->position;
-      points.Add(p, (p - rays[i].first->center).normalized(),
+      points.Add(p, (p - views_.views()[rays[i].first].center).normalized(),
                  static_cast<float>(places[i]->agreement.seen));
     }
     return points;
   }
 
  private:
-  std::vector<Ray> Thinned(std::vector<Ray> rays) const {
-    if (rays.size() <= options_.max_rays) return rays;
-    std::vector<Ray> some(options_.max_rays);
-    for (size_t i = 0; i < options_.max_rays; ++i)
-      some[i] = rays[i * rays.size() / options_.max_rays];
+  static std::vector<Ray> Thinned(std::vector<Ray> rays) {
+    if (rays.size() <= kMaxRays) return rays;
+    std::vector<Ray> some(kMaxRays);
+    for (size_t i = 0; i < kMaxRays; ++i) some[i] = rays[i * rays.size() / kMaxRays];
     return some;
   }
 
@@ -103,49 +102,49 @@ class CandidateSearch {
   }
 
   // Adds the places of a stretch of a line of sight that agree.
-  void AddPlaces(const View& view, const Vec3& ray, double baseline, double from, double to,
-                 std::vector<Place>& places) const {
+  void AddPlaces(const StripViews::LineOfSight& sight, const Vec3& start, const Vec3& ray,
+                 double baseline, double from, double to, std::vector<Place>& places) const {
     const double step = Step(0.5 * (from + to), baseline, kFinePx);
     for (double at = from; at <= to; at += step) {
-      const Vec3 p = view.center + at * ray;
-      if (views_.QuickLook(p).evidence < 0) continue;
-      const StripAgreement agreement = views_.CloseLook(p);
+      if (sight.QuickLook(at).evidence < 0) continue;
+      const StripAgreement agreement = sight.CloseLook(at);
       if (agreement.evidence < kFineEvidence || agreement.looked < kMinLooks) continue;
-      places.push_back({p, at, agreement});
+      places.push_back({start + at * ray, at, agreement});
     }
   }
 
   // All places of the line of sight of a pixel where a wire may be.
-  std::vector<Place> PlacesOn(const View& view, const Eigen::Vector2i& pixel) const {
+  std::vector<Place> PlacesOn(size_t number, const Eigen::Vector2i& pixel) const {
+    const View& view = views_.views()[number];
     const RigidTransform T_world_color = view.T_color_world.inverse();
     const Vec3 in_camera = views_.color_camera().Unproject(pixel.x(), pixel.y(), 1);
     const Vec3 ray = (T_world_color.linear() * in_camera).normalized();
     const auto range = RangeWithin(view.center, ray);
     if (!range) return {};
+    const StripViews::LineOfSight sight(views_, number, ray);
     const double baseline = Baseline(view, ray);
     std::vector<Place> places;
     double begin = -1;  // of a stretch that agrees roughly
     for (double at = range->first; at <= range->second;) {
-      const Vec3 p = view.center + at * ray;
-      if (views_.Hides(view, p)) break;
+      if (sight.IsHidden(at)) break;
       const double step = Step(at, baseline, kCoarsePx);
-      const StripAgreement look = views_.FirstLook(p);
-      const bool agrees = AgreesRoughly(look);
+      const bool agrees = AgreesRoughly(sight.FirstLook(at));
       if (agrees && begin < 0) begin = at - step;
       if (!agrees && begin >= 0) {
-        AddPlaces(view, ray, baseline, begin, at, places);
+        AddPlaces(sight, view.center, ray, baseline, begin, at, places);
         begin = -1;
       }
       at += step;
     }
-    if (begin >= 0) AddPlaces(view, ray, baseline, begin, range->second, places);
+    if (begin >= 0) AddPlaces(sight, view.center, ray, baseline, begin, range->second, places);
     return places;
   }
 
   // The place of the wire that a pixel shows, where it is the only one and depth does not
   // contradict.
-  std::optional<Place> PlaceOn(const View& view, const Eigen::Vector2i& pixel) const {
-    const std::vector<Place> places = PlacesOn(view, pixel);
+  std::optional<Place> PlaceOn(size_t number, const Eigen::Vector2i& pixel) const {
+    const View& view = views_.views()[number];
+    const std::vector<Place> places = PlacesOn(number, pixel);
     if (places.empty()) return std::nullopt;
     const Place& best = *std::max_element(
         places.begin(), places.end(),

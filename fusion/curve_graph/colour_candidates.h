@@ -14,15 +14,9 @@ enum class CandidatePlaces {
   kAll,
 };
 
-/// Pixels of strips that are followed, at most: more tell the same again. Chosen while looking at
-/// training scans (docs/lab_notebook.md).
-inline constexpr size_t kMaxColourRays = 20000;
-
 /// How places are sought.
 struct CandidateOptions {
   CandidatePlaces places = CandidatePlaces::kAll;
-  /// Pixels of strips that are followed, at most, evenly thinned.
-  size_t max_rays = kMaxColourRays;
   /// Two places of one line of sight are one also where they lie no more pixels apart in the image
   /// in which they do most: short paths know no better.
   double same_place_px = 0;

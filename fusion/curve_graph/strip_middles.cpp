@@ -59,34 +59,39 @@ Image<float> StripResponse(const Planes& planes, int du, int dv) {
 }
 
 // The mean over some pixels to both sides in one direction (dv is 1, or du is): along strips noise
-// averages out. Each sum follows from the one before it.
+// averages out. From row to row each sum follows from the one before it.
 Image<float> AveragedAlong(const Image<float>& image, int du, int dv) {
   const int width = image.width(), height = image.height();
   constexpr int kLength = 2 * kAlongPx + 1;
+  constexpr float kWeight = 1.0F / kLength;
   const std::ptrdiff_t step = static_cast<std::ptrdiff_t>(dv) * width + du;
   Image<float> mean(width, height, 0);
-  const int margin = kAlongPx + 1;
-  const auto is_inside = [&](int u, int v) {
-    return u >= margin && u < width - margin && v >= margin && v < height - margin;
-  };
-  for (int v = margin; v < height - margin; ++v) {
+  const int first = kAlongPx + 1, last = width - first;
+  for (int v = first; v < height - first; ++v) {
     float* out = mean.row(v);
     const float* in = image.row(v);
-    for (int u = margin; u < width - margin; ++u) {
-      const float* at = in + u;
-      if (is_inside(u - du, v - dv)) {
-        out[u] = out[u - step] + (at[kAlongPx * step] - at[-(kAlongPx + 1) * step]) / kLength;
-        continue;
-      }
-      for (int k = -kAlongPx; k <= kAlongPx; ++k) out[u] += at[k * step] / kLength;
+    const auto add_all = [&](int begin, int end) {
+      for (int k = -kAlongPx; k <= kAlongPx; ++k)
+        for (int u = begin; u < end; ++u) out[u] += kWeight * in[u + k * step];
+    };
+    if (dv == 0 || v == first) {
+      add_all(first, last);
+      continue;
     }
+    const int begin = std::max(first, first + du), end = std::min(last, last + du);
+    const float* before = out - step;
+    const float* added = in + kAlongPx * step;
+    const float* dropped = in - (kAlongPx + 1) * step;
+    add_all(first, begin);
+    for (int u = begin; u < end; ++u) out[u] = before[u] + kWeight * (added[u] - dropped[u]);
+    add_all(end, last);
   }
   return mean;
 }
 
 // What stands out among the values of an image: noise alone makes responses, its own square.
 float Outstanding(const Image<float>& response) {
-  constexpr size_t kEvery = 17;
+  constexpr size_t kEvery = 61;  // chosen: a hundredth of the spread
   std::vector<double> values;
   for (size_t i = 0; i < response.size(); i += kEvery) values.push_back(response.data()[i]);
   const double usual = Median(values);
@@ -95,20 +100,12 @@ float Outstanding(const Image<float>& response) {
   return static_cast<float>(usual + std::max(kMinContrast * kMinContrast, kOutstanding * spread));
 }
 
-}  // namespace
-
-uint8_t DirectionUnits(double angle) {
-  const double turns = angle / M_PI;
-  return static_cast<uint8_t>(static_cast<int>(256 * (turns - std::floor(turns))) & 255);
-}
-
-MaskImage StripMiddles(const ColorImage& color, const PosteriorImage& posterior,
-                       const MaskImage& explained) {
+MaskImage StripMiddles(const Planes& planes, const PosteriorImage& posterior) {
   // Across strips and along them.
   constexpr std::pair<std::pair<int, int>, std::pair<int, int>> kDirections[] = {
       {{1, 0}, {0, 1}}, {{0, 1}, {1, 0}}, {{1, 1}, {-1, 1}}, {{1, -1}, {1, 1}}};
-  const Planes planes = SmoothPlanes(color);
-  MaskImage middles(color.width(), color.height(), 0);
+  const int width = posterior.width(), height = posterior.height();
+  MaskImage middles(width, height, 0);
   for (const int reach : kReachesPx) {
     for (const auto& [across_strip, along] : kDirections) {
       const auto [du, dv] = across_strip;
@@ -116,15 +113,12 @@ MaskImage StripMiddles(const ColorImage& color, const PosteriorImage& posterior,
       const Image<float> response =
           AveragedAlong(StripResponse(planes, step * du, step * dv), along.first, along.second);
       const float least = Outstanding(response);
-      const std::ptrdiff_t across = static_cast<std::ptrdiff_t>(dv) * color.width() + du;
-      for (int v = step; v + step < color.height(); ++v) {
+      const std::ptrdiff_t across = static_cast<std::ptrdiff_t>(dv) * width + du;
+      for (int v = step; v + step < height; ++v) {
         const float* r = response.row(v);
-        for (int u = step; u + step < color.width(); ++u) {
+        for (int u = step; u + step < width; ++u) {
           if (r[u] < least || r[u] < r[u - across] || r[u] < r[u + across]) continue;
-          if (posterior(u, v) <= kNotWire || explained(u, v)) continue;
-          if (explained(u - step * du, v - step * dv) || explained(u + step * du, v + step * dv))
-            continue;
-          middles(u, v) = 1;
+          if (posterior(u, v) > kNotWire) middles(u, v) = 1;
         }
       }
     }
@@ -132,11 +126,10 @@ MaskImage StripMiddles(const ColorImage& color, const PosteriorImage& posterior,
   return middles;
 }
 
-Image<uint8_t> StripDirections(const ColorImage& color, const MaskImage& middles) {
-  const Planes planes = SmoothPlanes(color);
-  Image<uint8_t> directions(color.width(), color.height(), 0);
-  for (int v = kTensorPx + 1; v + kTensorPx + 1 < color.height(); ++v) {
-    for (int u = kTensorPx + 1; u + kTensorPx + 1 < color.width(); ++u) {
+Image<uint8_t> StripDirections(const Planes& planes, const MaskImage& middles) {
+  Image<uint8_t> directions(middles.width(), middles.height(), 0);
+  for (int v = kTensorPx + 1; v + kTensorPx + 1 < middles.height(); ++v) {
+    for (int u = kTensorPx + 1; u + kTensorPx + 1 < middles.width(); ++u) {
       if (!middles(u, v)) continue;
       double xx = 0, xy = 0, yy = 0;
       for (const Image<float>& plane : planes) {
@@ -156,6 +149,20 @@ Image<uint8_t> StripDirections(const ColorImage& color, const MaskImage& middles
     }
   }
   return directions;
+}
+
+}  // namespace
+
+uint8_t DirectionUnits(double angle) {
+  const double turns = angle / M_PI;
+  return static_cast<uint8_t>(static_cast<int>(256 * (turns - std::floor(turns))) & 255);
+}
+
+StripPixels FindStripPixels(const ColorImage& color, const PosteriorImage& posterior) {
+  const Planes planes = SmoothPlanes(color);
+  MaskImage middles = StripMiddles(planes, posterior);
+  Image<uint8_t> directions = StripDirections(planes, middles);
+  return {std::move(middles), std::move(directions)};
 }
 
 }  // namespace curvefusion

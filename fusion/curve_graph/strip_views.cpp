@@ -16,14 +16,10 @@ namespace {
 
 // Chosen while looking at training scans chair 3, furnished 1, rack 2, tree 2, umbrella 1 and
 // vine 1 (docs/lab_notebook.md).
-constexpr int kPixelStride = 2;             // every so many-th pixel of strips' middles
-constexpr double kExplainedPx = 1.2;        // curves cover so much beside their outline
-constexpr double kReachPx[2] = {3.5, 1.4};  // from a strip's middle: first look, close look
-constexpr double kLargestFocal = 900;       // pixels; images beyond it are halved
-constexpr double kSeen = 0.8;               // of the images that look at a wire show a strip there
-constexpr double kMinChance = 0.02;         // that a strip lies there by chance, at least
-constexpr double kCorrelation = 0.3;        // neighbouring images tell the same
-constexpr double kMiddlePx = 0.7;           // standard deviation of where strips have their middle
+constexpr double kExplainedPx = 1.2;   // curves cover so much beside their outline
+constexpr double kLargestFocal = 900;  // pixels; images beyond it are halved
+constexpr double kCorrelation = 0.3;   // neighbouring images tell the same
+constexpr double kMiddlePx = 0.7;      // standard deviation of where strips have their middle
 // derived: log of the density of middles at zero over that of chance, even within reach
 constexpr double kAtMiddle = 0.47;
 constexpr double kMargin = 0.05;          // metres around what is known of the object
@@ -33,81 +29,12 @@ constexpr double kNearest = 0.05;         // metres before a camera
 constexpr float kHidingDistance = 0.03F;  // metres; noise and drift of depth come to less
 constexpr float kFreeDistance = 0.02F;    // metres behind a wire; CurveFusion 4, assumption (i)
 constexpr double kFreeShare = 0.8;        // of the images whose depth tells
-constexpr int kCellPx = 4;                // of a colour image
-constexpr int kAroundCells = 9;
-constexpr double kDistanceUnits = 16;    // of the images of distances, in a pixel
-constexpr double kFromTheSide = 0.15;    // sine of the angle between a curve and the line of sight
-constexpr double kUsualSine = M_PI / 4;  // derived: of that angle, in the mean over directions
-constexpr int kSameDirection = 43;       // 30 degrees, see DirectionUnits
-constexpr int kMinLooks = 8;             // images that tell
-constexpr double kAhead = 1e-3;          // metres, between which a direction is projected
-
-cv::Mat AsMat(MaskImage& mask) { return {mask.height(), mask.width(), CV_8U, mask.data()}; }
-
-Image<uint8_t> DistanceTo(const MaskImage& middles) {
-  MaskImage others(middles.width(), middles.height());
-  for (size_t i = 0; i < others.size(); ++i) others.data()[i] = middles.data()[i] ^ 1;
-  cv::Mat distance;
-  cv::distanceTransform(AsMat(others), distance, cv::DIST_L2, cv::DIST_MASK_3);
-  Image<uint8_t> units(middles.width(), middles.height());
-  for (int v = 0; v < middles.height(); ++v)
-    for (int u = 0; u < middles.width(); ++u)
-      units(u, v) =
-          static_cast<uint8_t>(std::min(255.0, kDistanceUnits * distance.at<float>(v, u)));
-  return units;
-}
-
-// What a strip within reach of a place tells, and none: logarithms of how much likelier that is for
-// a wire than by chance, by the share of pixels around that have a strip within reach.
-void SetEvidence(double reach_px, const Image<uint8_t>& to_strip, Image<float>& seen,
-                 Image<float>& not_seen) {
-  Image<float> shares((to_strip.width() + kCellPx - 1) / kCellPx,
-                      (to_strip.height() + kCellPx - 1) / kCellPx);
-  for (int v = 0; v < to_strip.height(); ++v)
-    for (int u = 0; u < to_strip.width(); ++u)
-      shares(u / kCellPx, v / kCellPx) += to_strip(u, v) <= reach_px * kDistanceUnits;
-  seen = not_seen = Image<float>(shares.width(), shares.height());
-  const cv::Mat from(shares.height(), shares.width(), CV_32F, shares.data());
-  cv::Mat around;
-  cv::blur(from / (kCellPx * kCellPx), around, cv::Size(kAroundCells, kAroundCells));
-  for (int v = 0; v < shares.height(); ++v) {
-    for (int u = 0; u < shares.width(); ++u) {
-      const double chance = std::clamp<double>(around.at<float>(v, u), kMinChance, kSeen);
-      seen(u, v) = static_cast<float>(std::log(kSeen / chance));
-      not_seen(u, v) = static_cast<float>(std::log((1 - kSeen) / (1 - chance)));
-    }
-  }
-}
-
-// Of every pixel what the nearest middle has.
-Image<uint8_t> FromNearest(const MaskImage& middles, const Image<uint8_t>& values) {
-  MaskImage others(middles.width(), middles.height());
-  for (size_t i = 0; i < others.size(); ++i) others.data()[i] = middles.data()[i] ^ 1;
-  cv::Mat distance, labels;
-  cv::distanceTransform(AsMat(others), distance, labels, cv::DIST_L2, 5, cv::DIST_LABEL_PIXEL);
-  std::vector<uint8_t> of_label(middles.size() + 1, 0);
-  for (int v = 0; v < middles.height(); ++v)
-    for (int u = 0; u < middles.width(); ++u)
-      if (middles(u, v)) of_label[labels.at<int>(v, u)] = values(u, v);
-  Image<uint8_t> nearest(middles.width(), middles.height());
-  for (int v = 0; v < middles.height(); ++v)
-    for (int u = 0; u < middles.width(); ++u) nearest(u, v) = of_label[labels.at<int>(v, u)];
-  return nearest;
-}
-
-void FindStrips(const MaskImage& middles, const Image<uint8_t>& directions,
-                StripViews::View& view) {
-  view.to_strip = DistanceTo(middles);
-  view.direction = FromNearest(middles, directions);
-  for (int look = 0; look < 2; ++look)
-    SetEvidence(kReachPx[look], view.to_strip, view.seen[look], view.not_seen[look]);
-  view.unexplained.clear();
-  for (int v = 0; v < middles.height(); ++v) {
-    for (int u = v % kPixelStride; u < middles.width(); u += kPixelStride) {
-      if (middles(u, v)) view.unexplained.emplace_back(u, v);
-    }
-  }
-}
+constexpr double kFromTheSide = 0.15;     // sine of the angle between a curve and the line of sight
+constexpr double kUsualSine = M_PI / 4;   // derived: of that angle, in the mean over directions
+constexpr int kSameDirection = 43;        // 30 degrees, see DirectionUnits
+constexpr int kMinLooks = 8;              // images that tell
+constexpr double kAhead = 1e-3;           // metres, between which a direction is projected
+constexpr int kCloseLook = 1;
 
 template <typename Pixel>
 Image<Pixel> Crop(const Image<Pixel>& image, const cv::Rect& region) {
@@ -129,29 +56,40 @@ Image<Pixel> Shrunk(const Image<Pixel>& image, const PinholeCamera& camera, int 
   return small;
 }
 
-// What is looked at of an image: the part around the object.
+// What is looked at of a frame: the part of its colour image around the object.
 struct Part {
+  RigidTransform T_depth_world, T_color_world;
+  Image<float> farthest;
+  cv::Rect region;
   ColorImage color;
   PosteriorImage posterior;
 };
 
-template <typename Pixel>
-void PutInto(Image<Pixel>& whole, const cv::Rect& region, const Image<Pixel>& part) {
-  for (int v = 0; v < region.height; ++v)
-    std::copy(part.row(v), part.row(v) + region.width, whole.row(region.y + v) + region.x);
+Eigen::Matrix<float, 3, 4> CameraMatrix(const PinholeCamera& camera, const RigidTransform& T) {
+  Mat3 pixels_times_depth;
+  pixels_times_depth << camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1;
+  return (pixels_times_depth * T.matrix().topRows<3>()).cast<float>();
 }
 
-// Finds the strips in a part of an image.
-void FindStripsWithin(const cv::Rect& region, const Part& part, StripViews::View& view) {
-  const int width = view.explained.width(), height = view.explained.height();
-  MaskImage middles(width, height, 0);
-  Image<uint8_t> directions(width, height, 0);
-  if (!region.empty()) {
-    const MaskImage found = StripMiddles(part.color, part.posterior, Crop(view.explained, region));
-    PutInto(middles, region, found);
-    PutInto(directions, region, StripDirections(part.color, found));
-  }
-  FindStrips(middles, directions, view);
+// A curve that runs towards the camera is short in the image, which then tells little of its
+// length. `p` and the unit direction `d` are the camera's.
+double SineToSight(const Vec3& p, const Vec3& d) { return d.cross(p.normalized()).norm(); }
+
+// Adds what an image tells that shows a strip so many pixels from a place, or, if not, none.
+void Add(const StripImage& strips, int look, bool is_seen, double told, int u, int v,
+         StripAgreement& agreement) {
+  ++agreement.looked;
+  agreement.seen += is_seen;
+  agreement.evidence += told * strips.Evidence(look, is_seen, u, v);
+  const double off = strips.DistanceToStrip(u, v) / kMiddlePx;
+  if (is_seen) agreement.middle_evidence += told * (kAtMiddle - 0.5 * off * off);
+}
+
+// Of every so many-th image.
+StripAgreement Weighted(StripAgreement sum, size_t stride) {
+  sum.evidence *= kCorrelation * static_cast<double>(stride);
+  sum.middle_evidence *= kCorrelation;
+  return sum;
 }
 
 }  // namespace
@@ -169,21 +107,27 @@ StripViews::StripViews(const Sequence& sequence, const std::vector<int>& frames,
   const std::vector<int> used = EvenlyThinned(frames, kMaxViews);
   std::vector<Part> parts;
   ForEachFrame(sequence, used, {.depth = true, .color = true}, [&](const DecodedFrame& frame) {
-    View& view = views_.emplace_back();
-    view.T_depth_world = sequence.frames[frame.index].T_world_camera.inverse();
-    view.T_color_world = sequence.T_color_depth * view.T_depth_world;
-    view.center = view.T_color_world.inverse().translation();
-    view.farthest = FarthestInCells(frame.depth);
+    const RigidTransform T_depth_world = sequence.frames[frame.index].T_world_camera.inverse();
+    const RigidTransform T_color_world = sequence.T_color_depth * T_depth_world;
     const auto place = std::lower_bound(frames.begin(), frames.end(), frame.index) - frames.begin();
-    const cv::Rect region = RegionIn(view);
-    parts.push_back({Crop(Shrunk(frame.color, color_camera_, CV_8UC3), region),
+    const cv::Rect region = RegionIn(T_color_world);
+    parts.push_back({T_depth_world, T_color_world, FarthestInCells(frame.depth), region,
+                     Crop(Shrunk(frame.color, color_camera_, CV_8UC3), region),
                      Crop(Shrunk(posteriors[place], color_camera_, CV_8U), region)});
   });
-  ParallelFor(0, static_cast<int64_t>(views_.size()), 1, [&](int64_t i) {
-    View& view = views_[i];
-    view.explained = MaskImage(color_camera_.width, color_camera_.height, 0);
-    FindStripsWithin(RegionIn(view), parts[i], view);
+  std::vector<std::optional<View>> views(parts.size());
+  ParallelFor(0, static_cast<int64_t>(parts.size()), 1, [&](int64_t i) {
+    const Part& part = parts[i];
+    const StripPixels strips =
+        part.region.empty() ? StripPixels() : FindStripPixels(part.color, part.posterior);
+    views[i] = View{part.T_color_world,
+                    CameraMatrix(color_camera_, part.T_color_world),
+                    CameraMatrix(depth_camera_, part.T_depth_world),
+                    part.T_color_world.inverse().translation(),
+                    StripImage(color_camera_.width, color_camera_.height, part.region, strips),
+                    part.farthest};
   });
+  for (std::optional<View>& view : views) views_.push_back(std::move(*view));
 }
 
 PinholeCamera StripViews::CameraLookedThrough(const PinholeCamera& color_camera, double scale) {
@@ -192,12 +136,12 @@ PinholeCamera StripViews::CameraLookedThrough(const PinholeCamera& color_camera,
 }
 
 // Where the bounds lie in an image.
-cv::Rect StripViews::RegionIn(const View& view) const {
+cv::Rect StripViews::RegionIn(const RigidTransform& T_color_world) const {
   const cv::Rect whole(0, 0, color_camera_.width, color_camera_.height);
   Eigen::AlignedBox2d box;
   for (int corner = 0; corner < 8; ++corner) {
     const Vec3 p =
-        view.T_color_world * bounds_.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner));
+        T_color_world * bounds_.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner));
     if (p.z() < kNearest) return whole;
     box.extend(color_camera_.Project(p));
   }
@@ -213,10 +157,7 @@ void StripViews::ExplainAll(const SkeletonGraph& skeleton) {
     View& view = views_[i];
     for (const EdgeId id : skeleton.Edges())
       ExplainIn(view, skeleton.edge(id).points, skeleton.edge(id).radii);
-    MaskImage middles(view.explained.width(), view.explained.height());
-    for (size_t k = 0; k < middles.size(); ++k)
-      middles.data()[k] = view.to_strip.data()[k] == 0 && !view.explained.data()[k] ? 1 : 0;
-    FindStrips(middles, Image<uint8_t>(view.direction), view);
+    view.strips.DropExplained();
   });
 }
 
@@ -227,8 +168,7 @@ void StripViews::Explain(const Polyline& points, const std::vector<double>& radi
 
 void StripViews::ExplainIn(View& view, const Polyline& points,
                            const std::vector<double>& radii) const {
-  cv::Mat target = AsMat(view.explained);
-  cv::Point before;
+  Eigen::Vector2i before;
   bool has_before = false;
   for (size_t i = 0; i < points.size(); ++i) {
     const Vec3 p = view.T_color_world * points[i];
@@ -236,87 +176,116 @@ void StripViews::ExplainIn(View& view, const Polyline& points,
       has_before = false;
       continue;
     }
-    const Eigen::Vector2i at = PinholeCamera::Rounded(color_camera_.Project(p));
+    const Eigen::Vector2i here = PinholeCamera::Rounded(color_camera_.Project(p));
     const double radius = radii.empty() ? 0 : radii[i];
     const double width = 2 * (radius * color_camera_.fx / p.z() + kExplainedPx);
-    const cv::Point here(at.x(), at.y());
-    cv::line(target, has_before ? before : here, here, cv::Scalar(1),
-             static_cast<int>(std::ceil(width)));
+    view.strips.Explain(has_before ? before : here, here, static_cast<int>(std::ceil(width)));
     before = here;
     has_before = true;
   }
 }
 
-// What depth says of a place in one view: metres from it to the farthest thing there; 0 = nothing.
-float StripViews::BehindIn(const View& view, const Vec3& p) const {
-  const Vec3 p_depth = view.T_depth_world * p;
-  if (p_depth.z() <= 0) return 0;
-  const Vec2 pixel = depth_camera_.Project(p_depth);
-  if (!depth_camera_.Contains(pixel)) return 0;
-  const Eigen::Vector2i at = PinholeCamera::Rounded(pixel);
-  const float farthest = view.farthest(at.x() / kDepthCellPx, at.y() / kDepthCellPx);
-  return farthest > 0 ? farthest - static_cast<float>(p_depth.z()) : 0;
+// The pixel of a camera that shows a place; nothing outside its image.
+inline std::optional<StripViews::Sight> StripViews::RoundedIn(const PinholeCamera& camera,
+                                                              const Vec3f& p) {
+  const float scale = 1 / p.z();
+  const Eigen::Vector2f pixel(p.x() * scale, p.y() * scale);
+  const float u = pixel.x() + 0.5F, v = pixel.y() + 0.5F;
+  if (!(u >= 0 && v >= 0 && u < static_cast<float>(camera.width) &&
+        v < static_cast<float>(camera.height)))
+    return std::nullopt;
+  return Sight{static_cast<int>(u), static_cast<int>(v), pixel};
 }
 
-bool StripViews::Hides(const View& view, const Vec3& p) const {
-  return BehindIn(view, p) < -kHidingDistance;
+// What depth says of a place in one view: metres from it to the farthest thing there; 0 = nothing.
+inline float StripViews::Behind(const View& view, const Vec3f& in_depth) const {
+  if (in_depth.z() <= 0) return 0;
+  const std::optional<Sight> sight = RoundedIn(depth_camera_, in_depth);
+  if (!sight) return 0;
+  const float farthest = view.farthest(sight->u / kDepthCellPx, sight->v / kDepthCellPx);
+  return farthest > 0 ? farthest - in_depth.z() : 0;
 }
 
 bool StripViews::IsFree(const Vec3& p) const {
   int told = 0, free = 0;
   for (const View& view : views_) {
-    const float behind = BehindIn(view, p);
+    const float behind = Behind(view, view.depth_from_world * p.cast<float>().homogeneous());
     told += behind != 0 && behind >= -kHidingDistance;
     free += behind > kFreeDistance;
   }
   return told > 0 && free >= kFreeShare * told;
 }
 
+// Nothing where a curve explains what is seen there, or depth shows only what is nearer.
+inline std::optional<StripViews::Sight> StripViews::SightOf(const View& view, const Vec3f& in_color,
+                                                            const Vec3f& in_depth) const {
+  if (in_color.z() < kNearest) return std::nullopt;
+  const std::optional<Sight> sight = RoundedIn(color_camera_, in_color);
+  if (!sight || view.strips.IsExplained(sight->u, sight->v)) return std::nullopt;
+  if (Behind(view, in_depth) < -kHidingDistance) return std::nullopt;
+  return sight;
+}
+
 // Whether the nearest strip runs as a line does that is seen at a pixel; one seen from its end runs
-// anywhere.
-bool StripViews::RunsAlong(const View& view, const Vec3& p_color, const Vec2& pixel,
-                           const Vec3& direction) const {
-  const Vec3 d = view.T_color_world.linear() * direction;
-  if (d.cross(p_color.normalized()).norm() < kFromTheSide) return true;
-  const Eigen::Vector2i at = PinholeCamera::Rounded(pixel);
-  const Vec2 ahead = color_camera_.Project(Vec3(p_color + kAhead * d)) - pixel;
-  const auto turn = static_cast<int8_t>(view.direction(at.x(), at.y()) -
+// anywhere. `p` and the unit direction `d` are the camera's.
+bool StripViews::RunsAlong(const View& view, const Sight& sight, const Vec3& p,
+                           const Vec3& d) const {
+  if (SineToSight(p, d) < kFromTheSide) return true;
+  const Vec2 ahead = color_camera_.Project(Vec3(p + kAhead * d)) - sight.pixel.cast<double>();
+  const auto turn = static_cast<int8_t>(view.strips.DirectionOfStrip(sight.u, sight.v) -
                                         DirectionUnits(std::atan2(ahead.y(), ahead.x())));
   return std::abs(turn) <= kSameDirection;
 }
 
-// A curve that runs towards the camera is short in the image, which then tells little of its
-// length.
-double StripViews::ShareTold(const View& view, const Vec3& p_color, const Vec3& direction) const {
-  const Vec3 d = view.T_color_world.linear() * direction;
-  return std::min(1.0, d.cross(p_color.normalized()).norm() / kUsualSine);
+StripAgreement StripViews::Along(const Vec3& p, const Vec3& direction) const {
+  const Eigen::Vector4f place = p.cast<float>().homogeneous();
+  StripAgreement agreement;
+  for (const View& view : views_) {
+    const std::optional<Sight> sight =
+        SightOf(view, view.color_from_world * place, view.depth_from_world * place);
+    if (!sight) continue;
+    const Vec3 p_color = view.T_color_world * p;
+    const Vec3 d = view.T_color_world.linear() * direction;
+    const double distance = view.strips.DistanceToStrip(sight->u, sight->v);
+    const bool is_seen =
+        distance <= StripImage::kReachPx[kCloseLook] && RunsAlong(view, *sight, p_color, d);
+    const double told = std::min(1.0, SineToSight(p_color, d) / kUsualSine);
+    Add(view.strips, kCloseLook, is_seen, told, sight->u, sight->v, agreement);
+  }
+  return Weighted(agreement, 1);
 }
 
-StripAgreement StripViews::AgreementAt(const Vec3& p, int look, int stride,
-                                       const Vec3* direction) const {
-  StripAgreement agreement;
-  for (size_t i = 0; i < views_.size(); i += static_cast<size_t>(stride)) {
-    const View& view = views_[i];
-    const Vec3 p_color = view.T_color_world * p;
-    if (p_color.z() < kNearest) continue;
-    const Vec2 pixel = color_camera_.Project(p_color);
-    if (!color_camera_.Contains(pixel)) continue;
-    const Eigen::Vector2i at = PinholeCamera::Rounded(pixel);
-    if (view.explained(at.x(), at.y()) || Hides(view, p)) continue;
-    const double distance = view.to_strip(at.x(), at.y()) / kDistanceUnits;
-    const bool seen = distance <= kReachPx[look] &&
-                      (direction == nullptr || RunsAlong(view, p_color, pixel, *direction));
-    const Image<float>& ratio = seen ? view.seen[look] : view.not_seen[look];
-    const double told = direction == nullptr ? 1 : ShareTold(view, p_color, *direction);
-    ++agreement.looked;
-    agreement.seen += seen;
-    agreement.evidence += stride * told * ratio(at.x() / kCellPx, at.y() / kCellPx);
-    const double off = distance / kMiddlePx;
-    if (seen) agreement.middle_evidence += told * (kAtMiddle - 0.5 * off * off);
+StripViews::LineOfSight::LineOfSight(const StripViews& views, size_t view, const Vec3& direction)
+    : views_(views), view_(view) {
+  const Eigen::Vector4f start = views.views_[view].center.cast<float>().homogeneous();
+  const Vec3f ray = direction.cast<float>();
+  lines_.reserve(views.views_.size());
+  for (const View& other : views.views_) {
+    lines_.push_back({other.color_from_world * start, other.color_from_world.leftCols<3>() * ray,
+                      other.depth_from_world * start, other.depth_from_world.leftCols<3>() * ray});
   }
-  agreement.evidence *= kCorrelation;
-  agreement.middle_evidence *= kCorrelation;
-  return agreement;
+}
+
+StripAgreement StripViews::LineOfSight::Look(double distance, int look, size_t stride) const {
+  const auto at = static_cast<float>(distance);
+  StripAgreement agreement;
+  for (size_t i = 0; i < lines_.size(); i += stride) {
+    const Line& line = lines_[i];
+    const View& view = views_.views_[i];
+    const std::optional<Sight> sight =
+        views_.SightOf(view, line.color + at * line.color_step, line.depth + at * line.depth_step);
+    if (!sight) continue;
+    const bool is_seen =
+        view.strips.DistanceToStrip(sight->u, sight->v) <= StripImage::kReachPx[look];
+    Add(view.strips, look, is_seen, 1, sight->u, sight->v, agreement);
+  }
+  return Weighted(agreement, stride);
+}
+
+bool StripViews::LineOfSight::IsHidden(double distance) const {
+  const Line& line = lines_[view_];
+  const auto at = static_cast<float>(distance);
+  return views_.Behind(views_.views_[view_], line.depth + at * line.depth_step) < -kHidingDistance;
 }
 
 std::vector<StripAgreement> StripViews::AgreementsAlong(const Polyline& points) const {

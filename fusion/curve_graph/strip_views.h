@@ -2,10 +2,12 @@
 
 #include <Eigen/Geometry>
 #include <opencv2/core/types.hpp>
+#include <optional>
 #include <vector>
 
 #include "capture/sequence.h"
 #include "fusion/appearance/wire_posterior.h"
+#include "fusion/curve_graph/strip_image.h"
 #include "graph/skeleton_graph.h"
 #include "kernel/camera.h"
 #include "kernel/geometry.h"
@@ -31,15 +33,12 @@ class StripViews {
   static constexpr int kMaxViews = 90;  ///< images that are asked, at most
 
   struct View {
-    RigidTransform T_depth_world;
     RigidTransform T_color_world;
+    /// From places in the world, with a one below, to pixels times depth, and depth.
+    Eigen::Matrix<float, 3, 4> color_from_world, depth_from_world;
     Vec3 center;
-    MaskImage explained;                       // by curves
-    Image<uint8_t> to_strip;                   // distances to strips' middles, sixteenths of pixels
-    Image<uint8_t> direction;                  // of the nearest strip, see StripDirections
-    Image<float> farthest;                     // depth, in cells, metres
-    std::vector<Eigen::Vector2i> unexplained;  // some middles of strips that no curve covers
-    Image<float> seen[2], not_seen[2];  // evidence, in cells: of a first look, of a close one
+    StripImage strips;
+    Image<float> farthest;  // depth, in cells, metres
   };
 
   /// `frames` are those whose images of how likely pixels show wire are in `posteriors`. The object
@@ -65,20 +64,9 @@ class StripViews {
   /// From now on a curve explains the strips along it.
   void Explain(const Polyline& points, const std::vector<double>& radii);
 
-  /// By every fifth image and strips within 3.5 pixels: a first look.
-  StripAgreement FirstLook(const Vec3& p) const { return AgreementAt(p, 0, kFew); }
-
-  /// By every fifth image and strips within 1.4 pixels: whether a close look is worth its time.
-  StripAgreement QuickLook(const Vec3& p) const { return AgreementAt(p, 1, kFew); }
-
-  /// By all images and strips within 1.4 pixels.
-  StripAgreement CloseLook(const Vec3& p) const { return AgreementAt(p, 1, 1); }
-
   /// By all images and strips within 1.4 pixels that run as a curve through a place does. An image
   /// counts less the more the curve is foreshortened in it.
-  StripAgreement Along(const Vec3& p, const Vec3& direction) const {
-    return AgreementAt(p, 1, 1, &direction);
-  }
+  StripAgreement Along(const Vec3& p, const Vec3& direction) const;
 
   /// Along at each place of a curve.
   std::vector<StripAgreement> AgreementsAlong(const Polyline& points) const;
@@ -87,22 +75,56 @@ class StripViews {
   /// look.
   std::vector<double> SharesAlong(const Polyline& points) const;
 
-  /// Whether depth of a view shows only what is nearer than a place.
-  bool Hides(const View& view, const Vec3& p) const;
-
   /// Whether depth shows something farther behind a place in most of the images that can tell.
   bool IsFree(const Vec3& p) const;
 
- private:
-  static constexpr int kFew = 5;  // every so many-th image
+  /// Places on a line of sight, by their distances along it: in every image they lie on a line.
+  class LineOfSight {
+   public:
+    /// From the camera of view number `view` in a unit direction; `views` must outlive this.
+    LineOfSight(const StripViews& views, size_t view, const Vec3& direction);
 
-  StripAgreement AgreementAt(const Vec3& p, int look, int stride,
-                             const Vec3* direction = nullptr) const;
-  bool RunsAlong(const View& view, const Vec3& p_color, const Vec2& pixel,
-                 const Vec3& direction) const;
-  double ShareTold(const View& view, const Vec3& p_color, const Vec3& direction) const;
-  float BehindIn(const View& view, const Vec3& p) const;
-  cv::Rect RegionIn(const View& view) const;
+    /// By every fifth image and strips within 3.5 pixels: a first look.
+    StripAgreement FirstLook(double distance) const { return Look(distance, 0, kFew); }
+
+    /// By every fifth image and strips within 1.4 pixels: whether a close look is worth its time.
+    StripAgreement QuickLook(double distance) const { return Look(distance, 1, kFew); }
+
+    /// By all images and strips within 1.4 pixels, whichever way these run.
+    StripAgreement CloseLook(double distance) const { return Look(distance, 1, 1); }
+
+    /// Whether the depth of its own view shows only what is nearer.
+    bool IsHidden(double distance) const;
+
+   private:
+    static constexpr size_t kFew = 5;  // every so many-th image
+
+    // Pixels times depth, and depth: of the start, and what a metre adds.
+    struct Line {
+      Vec3f color, color_step;
+      Vec3f depth, depth_step;
+    };
+
+    StripAgreement Look(double distance, int look, size_t stride) const;
+
+    const StripViews& views_;
+    size_t view_;
+    std::vector<Line> lines_;  // in every view
+  };
+
+ private:
+  // A pixel that shows a place.
+  struct Sight {
+    int u, v;
+    Eigen::Vector2f pixel;
+  };
+
+  static std::optional<Sight> RoundedIn(const PinholeCamera& camera, const Vec3f& p);
+  std::optional<Sight> SightOf(const View& view, const Vec3f& in_color,
+                               const Vec3f& in_depth) const;
+  bool RunsAlong(const View& view, const Sight& sight, const Vec3& p_color, const Vec3& d) const;
+  float Behind(const View& view, const Vec3f& in_depth) const;
+  cv::Rect RegionIn(const RigidTransform& T_color_world) const;
   void ExplainIn(View& view, const Polyline& points, const std::vector<double>& radii) const;
 
   PinholeCamera depth_camera_;

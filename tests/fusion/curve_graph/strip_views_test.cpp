@@ -29,8 +29,23 @@ TEST(StripViews, ShowWhichWayAWireRuns) {
   EXPECT_EQ(along.looked, 24);
   EXPECT_GE(along.seen, 22);
   EXPECT_EQ(views.Along(place, Vec3::UnitX()).seen, 0);
-  EXPECT_EQ(views.CloseLook(place).seen, along.seen);  // which does not ask
   EXPECT_EQ(views.Along(place + Vec3(0.01, 0, 0), Vec3::UnitY()).seen, 0);
+}
+
+TEST(StripViews, LineOfSightMeetsTheWire) {
+  const SilhouetteScan scan({TestLine({0, -0.06, 0}, {0, 0.06, 0})}, {}, kBehind);
+  const StripViews views = scan.Strips({}, kAround);
+  const Vec3 place(0, 0.01, 0);
+  const Vec3 offset = place - views.views()[3].center;
+  const StripViews::LineOfSight sight(views, 3, offset.normalized());
+  const StripAgreement along = views.Along(place, Vec3::UnitY());
+  const StripAgreement look = sight.CloseLook(offset.norm());
+  EXPECT_EQ(look.looked, along.looked);
+  EXPECT_EQ(look.seen, along.seen);  // which asks for the direction
+  EXPECT_NEAR(sight.FirstLook(offset.norm()).looked, look.looked / 5, 1);
+  EXPECT_LT(sight.CloseLook(offset.norm() - 0.1).evidence, 0);
+  EXPECT_FALSE(sight.IsHidden(offset.norm()));
+  EXPECT_TRUE(sight.IsHidden(offset.norm() + kBehind));
 }
 
 // All images show a strip at a place of a curve that comes towards the cameras, by the same few

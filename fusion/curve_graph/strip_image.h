@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <opencv2/core/types.hpp>
+#include <vector>
+
+#include "fusion/curve_graph/strip_middles.h"
+#include "kernel/geometry.h"
+#include "kernel/image.h"
+
+namespace curvefusion {
+
+/// Strips in one image: how far every pixel is from the nearest, which way that runs, and what it
+/// tells to find one there. Curves explain the strips along them.
+class StripImage {
+ public:
+  /// How near the middle of a strip must be: for a first look, and for a close one, pixels.
+  static constexpr double kReachPx[2] = {3.5, 1.4};
+
+  /// `strips` were found in a part of an image; there are none elsewhere. No curve is known yet.
+  StripImage(int width, int height, const cv::Rect& part, const StripPixels& strips);
+
+  /// Whether a curve covers a pixel.
+  bool IsExplained(int u, int v) const { return to_strip_(u, v) == kExplained; }
+
+  /// Pixels to the middle of the nearest strip, at most some 15; of a pixel that is not explained.
+  double DistanceToStrip(int u, int v) const { return to_strip_(u, v) / kDistanceUnits; }
+
+  /// Which way the nearest strip runs, see DirectionUnits.
+  uint8_t DirectionOfStrip(int u, int v) const { return direction_(u, v); }
+
+  /// What a strip within reach of a pixel tells, or none: the logarithm of how much likelier that
+  /// is for a wire than by chance, by the share of pixels around that have a strip within reach.
+  double Evidence(int look, bool is_seen, int u, int v) const {
+    const Image<float>& evidence = is_seen ? seen_[look] : not_seen_[look];
+    return evidence(u / kCellPx, v / kCellPx);
+  }
+
+  /// Some middles of strips that no curve covered when strips were last found.
+  const std::vector<Eigen::Vector2i>& unexplained() const { return unexplained_; }
+
+  /// A curve covers the line from one pixel to another.
+  void Explain(const Eigen::Vector2i& from, const Eigen::Vector2i& to, int width_px);
+
+  /// Strips that curves cover do not count as chance any more, nor as the nearest.
+  void DropExplained();
+
+ private:
+  static constexpr double kDistanceUnits = 16;  // in a pixel
+  static constexpr uint8_t kExplained = 255;    // in place of a distance
+  static constexpr int kCellPx = 4;
+
+  void SetStrips(const StripPixels& strips);
+  void SetEvidence(int look);
+
+  cv::Rect part_;
+  Image<uint8_t> to_strip_;             // units, less than kExplained where no curve covers a pixel
+  Image<uint8_t> direction_;            // of the nearest strip
+  Image<float> seen_[2], not_seen_[2];  // in cells
+  std::vector<Eigen::Vector2i> unexplained_;
+};
+
+}  // namespace curvefusion
