@@ -93,6 +93,7 @@ void MeasurePoses(const Sequence& given, const Sequence& corrected, Trust& trust
 Trust MeasureTrust(const Sequence& given, const Reconstruction& result) {
   Trust trust = result.trust;
   MeasureShares(result, trust);
+  trust.wire_length = std::min(trust.wire_length, trust.length);  // curves were cut since
   MeasurePoses(given, result.sequence, trust);
   return trust;
 }
@@ -119,11 +120,9 @@ std::string PlacesWarning(const Trust& trust) {
   if (!trust.is_judged() || trust.adjusted) return {};
   return fmt::format(
       "the colour images could not confirm where the curves lie (a strip was seen along {:.0f} % "
-      "of "
-      "them): places are as exact as depth and camera poses, some millimetres. Poses were "
+      "of them): places are as exact as depth and camera poses, some millimetres. Poses were "
       "corrected by {:.0f} mm; if that is more than a few, scan again, slower (or, where the scan "
-      "came "
-      "with poses, try --track)",
+      "came with poses, try --track)",
       100 * trust.colour_share, 1000 * trust.pose_shift);
 }
 

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>
@@ -18,7 +17,6 @@
 #include "fusion/curve_graph/tip_tracking.h"
 #include "fusion/curve_graph/wire_proof.h"
 #include "fusion/silhouettes/colour_pruning.h"
-#include "fusion/silhouettes/weak_wires.h"
 #include "graph/intersections.h"
 #include "graph/validate.h"
 
@@ -85,15 +83,12 @@ void CorrectBySilhouettes(const ColourAdjustment& adjusted, const StripViews& st
   const SilhouetteChanges changes = CorrectTopology(
       silhouettes, [&strips](const Polyline& points) { return strips.SharesAlong(points); },
       options.silhouettes, shown_by_depth, result.skeleton);
-  const int weak_wires =
-      AddWeakWires(silhouettes, options.silhouettes.bridges, result.points, result.skeleton);
   TidyRidgeSkeleton(result.skeleton, options.ridge);
   result.funnel.curves.looked_past += changes.removed;
   reporter.log.Count(stage, "removed, m", changes.removed);
   reporter.log.Count(stage, "continued", changes.continued);
   reporter.log.Count(stage, "bridges", changes.bridges);
   reporter.log.Count(stage, "joins", changes.joins);
-  reporter.log.Count(stage, "weak wires", weak_wires);
   reporter.observer.OnGraph("corrected", result.skeleton);
 }
 
@@ -116,7 +111,6 @@ double AddWiresFromColour(StripViews& views, const RidgeOptions& options,
   reporter.log.Count(stage, "added, m", added);
   reporter.observer.OnPoints("colour_candidates", candidates);
   if (added == 0) return 0;
-  CloseFreeEnds(result.skeleton, options.free_ends, candidates);
   TidyRidgeSkeleton(result.skeleton, options);
   result.trust.wire_length += added;
   reporter.observer.OnGraph("with_colour", result.skeleton);
@@ -228,7 +222,6 @@ void CompleteByColour(const AdjustmentStart& start, std::optional<StripViews> st
     CorrectBySilhouettes(*adjusted, *strips, start.depth, options, reporter, result);
     AssignMeasuredRadii(array_diameter, options.radius, reporter, result);
   }
-  result.trust.wire_length = std::min(result.trust.wire_length, result.skeleton.TotalLength());
 }
 
 // In how many images every place of the result was looked for and seen.

@@ -11,6 +11,9 @@
 #include <utility>
 #include <vector>
 
+#include "fusion/curve_graph/refuted_parts.h"
+#include "kernel/quantile.h"
+
 namespace curvefusion {
 
 namespace {
@@ -20,7 +23,7 @@ constexpr double kMiddleRadius = 0.003;  // metres; about that of a wire
 constexpr double kStep = 0.003;          // metres
 constexpr double kCorridor = 0.006;      // metres beside the guide
 constexpr double kMaxDetour = 1.3;
-constexpr double kReach = 0.009;  // metres; from a place to a wire next to it
+constexpr size_t kRetreat = 2;  // points; near a place beside the wire others may be too
 
 using Cell = std::array<int, 3>;
 
@@ -118,6 +121,27 @@ Vec3 MiddleAround(Corridor& corridor, const Vec3& p) {
   return count > 0 ? Vec3(sum / count) : p;
 }
 
+// The points of a curve with low runs replaced by paths through the silhouettes where there are
+// any.
+Polyline Rerouted(const WireSilhouettes& silhouettes, const Polyline& points, double min_share) {
+  Polyline rerouted;
+  size_t next = 0;
+  for (const EdgePart& run : LowRuns(silhouettes.SharesAlong(points), min_share)) {
+    const size_t from = run.first < kRetreat ? 0 : run.first - kRetreat;
+    const size_t to = std::min(run.last + kRetreat, points.size() - 1);
+    if (from < next || from == to) continue;
+    const Polyline guide(points.begin() + static_cast<std::ptrdiff_t>(from),
+                         points.begin() + static_cast<std::ptrdiff_t>(to) + 1);
+    const std::optional<Polyline> detour = PathThroughSilhouettes(silhouettes, guide, min_share);
+    if (!detour) continue;
+    for (; next < from; ++next) rerouted.push_back(points[next]);
+    rerouted.insert(rerouted.end(), detour->begin(), detour->end() - 1);
+    next = to;
+  }
+  for (; next < points.size(); ++next) rerouted.push_back(points[next]);
+  return rerouted;
+}
+
 }  // namespace
 
 std::optional<Polyline> PathThroughSilhouettes(const WireSilhouettes& silhouettes,
@@ -141,29 +165,15 @@ std::optional<Polyline> PathThroughSilhouettes(const WireSilhouettes& silhouette
   return Resample(path, kStep);
 }
 
-std::optional<Vec3> NearestWire(const WireSilhouettes& silhouettes, const Vec3& p,
-                                double min_share) {
-  Polyline places;
-  VisitAround(Cell{}, static_cast<int>(kReach / kGrid), [&](const Cell& cell, double distance) {
-    const Vec3 place = p + kGrid * Vec3(cell[0], cell[1], cell[2]);
-    if (distance * kGrid <= kReach && silhouettes.Share(place) >= min_share)
-      places.push_back(place);
-  });
-  if (places.empty()) return std::nullopt;
-  Vec3 middle = *std::min_element(places.begin(), places.end(), [&p](const Vec3& a, const Vec3& b) {
-    return (a - p).squaredNorm() < (b - p).squaredNorm();
-  });
-  for (int round = 0; round < 2; ++round) {
-    Vec3 sum = Vec3::Zero();
-    int count = 0;
-    for (const Vec3& place : places) {
-      if ((place - middle).norm() > kMiddleRadius) continue;
-      sum += place;
-      ++count;
-    }
-    middle = sum / count;
+void RerouteCurves(const WireSilhouettes& silhouettes, double min_share, SkeletonGraph& skeleton) {
+  for (const EdgeId id : skeleton.Edges()) {
+    const SkeletonEdge& edge = skeleton.edge(id);
+    Polyline points = Rerouted(silhouettes, edge.points, min_share);
+    if (points == edge.points) continue;
+    const double radius = Median(edge.radii);
+    const size_t count = points.size();
+    skeleton.SetCurve(id, std::move(points), std::vector<double>(count, radius));
   }
-  return middle;
 }
 
 }  // namespace curvefusion

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "fusion/silhouettes/wire_silhouettes.h"
+#include "graph/skeleton_graph.h"
 #include "kernel/polyline.h"
 
 namespace curvefusion {
@@ -14,9 +15,9 @@ namespace curvefusion {
 std::optional<Polyline> PathThroughSilhouettes(const WireSilhouettes& silhouettes,
                                                const Polyline& guide, double min_share);
 
-/// The middle of the wire next to a place: of what at least min_share of the images show as wire,
-/// no farther than a wire and its radius. Nothing where there is none.
-std::optional<Vec3> NearestWire(const WireSilhouettes& silhouettes, const Vec3& p,
-                                double min_share);
+/// Leads stretches of edges that less than min_share of the images show as wire through places near
+/// them that as many do, where there is such a path. Needs radii, which become one for each edge
+/// that is changed.
+void RerouteCurves(const WireSilhouettes& silhouettes, double min_share, SkeletonGraph& skeleton);
 
 }  // namespace curvefusion

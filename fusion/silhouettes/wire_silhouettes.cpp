@@ -1,7 +1,6 @@
 #include "fusion/silhouettes/wire_silhouettes.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 
 #include "capture/farthest_depth.h"
@@ -13,7 +12,6 @@ namespace curvefusion {
 namespace {
 
 constexpr float kHidingDistance = 0.03F;  // metres; noise and drift of depth come to less
-constexpr double kBlurPx = 2.5;           // colour runs so far beyond a wire's outline
 constexpr int kMinLooks = 8;
 constexpr uint8_t kWire = 128;  // least posterior of a pixel that shows wire
 
@@ -81,35 +79,6 @@ std::vector<double> WireSilhouettes::SharesAlong(const Polyline& points) const {
   ParallelFor(0, static_cast<int64_t>(points.size()), kPointsPerChunk,
               [&](int64_t i) { shares[i] = Share(points[i]); });
   return shares;
-}
-
-double WireSilhouettes::ShareBeside(const Vec3& p, const std::vector<Vec3>& others,
-                                    double radius) const {
-  const double blur = kBlurPx / color_camera_.fx;
-  int looked = 0, beside = 0;
-  for (const View& view : views_) {
-    const Vec3 p_color = view.T_color_world * p;
-    if (p_color.z() <= 0 || !color_camera_.Contains(color_camera_.Project(p_color))) continue;
-    ++looked;
-    const Vec3 center = view.ColorCenter();
-    const Vec3 ray = (p - center).normalized();
-    beside += std::none_of(others.begin(), others.end(), [&](const Vec3& other) {
-      const Vec3 offset = other - center;
-      const double along = offset.dot(ray);
-      const double reach = radius + blur * along;
-      return along > 0 && offset.squaredNorm() - along * along <= reach * reach;
-    });
-  }
-  return looked == 0 ? 0 : static_cast<double>(beside) / looked;
-}
-
-double WireSilhouettes::Parallax(const Vec3& p) const {
-  std::vector<Vec3> rays;
-  for (const View& view : views_) rays.push_back((p - view.ColorCenter()).normalized());
-  double least_cosine = 1;
-  for (const Vec3& a : rays)
-    for (const Vec3& b : rays) least_cosine = std::min(least_cosine, a.dot(b));
-  return std::acos(std::max(-1.0, least_cosine));
 }
 
 }  // namespace curvefusion

@@ -31,13 +31,6 @@ class WireSilhouettes {
   /// The same for each point of a curve.
   std::vector<double> SharesAlong(const Polyline& points) const;
 
-  /// The share of the images that show a place beside all others: farther from each in the image
-  /// than a wire of `radius` metres and the blur around it are wide; 0 where it lies in none.
-  double ShareBeside(const Vec3& p, const std::vector<Vec3>& others, double radius) const;
-
-  /// The greatest angle between the lines of sight of two images to a place, radians.
-  double Parallax(const Vec3& p) const;
-
  private:
   // One of the images.
   struct View {
@@ -45,8 +38,6 @@ class WireSilhouettes {
     RigidTransform T_color_world;
     const PosteriorImage* posterior = nullptr;
     Image<float> farthest;  // the greatest depth around cells of the depth image, metres
-
-    Vec3 ColorCenter() const { return T_color_world.inverse().translation(); }
   };
   bool IsHidden(const View& view, const Vec3& p_depth) const;
 

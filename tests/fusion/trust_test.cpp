@@ -47,6 +47,14 @@ TEST(Trust, AStripSpeaksForTheCurveAroundIt) {
   EXPECT_NEAR(two.Measure().colour_share, 0.15, 1e-12);
 }
 
+// Curves are cut after they were proven.
+TEST(Trust, NoMoreIsWireThanIsLeft) {
+  TwoEdges two;
+  two.result.trust.wire_length = 0.21;
+  const Trust trust = two.Measure();
+  EXPECT_EQ(trust.wire_length, trust.length);
+}
+
 TEST(Trust, TellsHowFarPosesWereMoved) {
   TwoEdges two;
   two.result.sequence.frames[1].T_world_camera.translation() = Vec3(0.003, 0, 0);

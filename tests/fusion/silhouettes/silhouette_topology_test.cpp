@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "fusion/silhouettes/silhouette_path.h"
-#include "fusion/silhouettes/silhouette_pruning.h"
 #include "graph/validate.h"
 #include "tests/fusion/silhouettes/silhouette_scan.h"
 
@@ -163,33 +162,6 @@ TEST(SilhouettePruning, LeadsAStretchBackToItsWire) {
   ASSERT_EQ(graph.edge_count(), 1);
   EXPECT_LT(FarthestFrom(kUpper, graph.edge(graph.Edges()[0]).points), kTolerance);
   EXPECT_TRUE(Faults(graph).empty());
-}
-
-// Depth has drawn the place where a stem meets a bar 6 mm past the bar.
-TEST(SilhouettePruning, MovesAJunctionBackIntoItsWires) {
-  const SilhouetteScan scan({kUpper, TestLine({0, -0.05, 0}, {0, 0, 0})});
-  SkeletonGraph graph;
-  const Vec3 beside(0, 0.006, 0);
-  const NodeId junction = graph.AddNode(beside);
-  for (const Vec3& tip : {Vec3(-0.06, 0, 0), Vec3(0.06, 0, 0), Vec3(0, -0.05, 0)})
-    AddTestEdge(graph, graph.AddNode(tip), junction, TestLine(tip, beside));
-  MoveJunctionsIntoWires(scan.Silhouettes(), 0.9, graph);
-  EXPECT_LT((graph.position(junction) - Vec3(0, 0, 0)).norm(), kTolerance);
-  RerouteCurves(scan.Silhouettes(), 0.9, graph);
-  EXPECT_EQ(DropRefutedParts(scan.Shares(), 0.7, {}, graph), 0);
-  EXPECT_EQ(graph.Degree(junction), 3);
-  EXPECT_TRUE(Faults(graph).empty());
-}
-
-TEST(SilhouettePruning, LeavesAJunctionFarFromAllWires) {
-  const SilhouetteScan scan({kUpper});
-  SkeletonGraph graph;
-  const Vec3 away(0, 0.02, 0);
-  const NodeId corner = graph.AddNode(away);
-  for (const double x : {-0.06, 0.06})
-    AddTestEdge(graph, graph.AddNode({x, 0, 0}), corner, TestLine({x, 0, 0}, away));
-  MoveJunctionsIntoWires(scan.Silhouettes(), 0.9, graph);
-  EXPECT_EQ(graph.position(corner), away);
 }
 
 TEST(SilhouetteBridges, JoinEndsThatFaceEachOther) {

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "tests/fusion/silhouettes/silhouette_scan.h"
 
 namespace curvefusion {
@@ -38,27 +36,6 @@ TEST(WireSilhouettes, LeaveOutWhatIsHidden) {
   const ViewCount beside = scan.Silhouettes().Count({0, 0.012, 0});
   EXPECT_EQ(beside.looked, 0);
   EXPECT_EQ(scan.Silhouettes().Count({0, 0, 0}).seen, 24);
-}
-
-TEST(WireSilhouettes, ShowPlacesBesideOthers) {
-  const SilhouetteScan scan({kWire});
-  const WireSilhouettes silhouettes = scan.Silhouettes();
-  EXPECT_EQ(silhouettes.ShareBeside({0, 0.03, 0}, kWire, kTestRadius), 1);
-  EXPECT_EQ(silhouettes.ShareBeside({0, 0.005, 0}, kWire, kTestRadius),
-            0);  // in the blur around it
-  // Behind the wire: the upper and lower row of cameras look past it, not those between.
-  EXPECT_EQ(silhouettes.ShareBeside({0, 0, 0.03}, kWire, kTestRadius), 0.5);
-  EXPECT_EQ(silhouettes.ShareBeside({0, 0, 0.03}, {}, kTestRadius), 1);
-  EXPECT_EQ(silhouettes.ShareBeside({0, 3, 0}, kWire, kTestRadius), 0);  // in no image
-}
-
-TEST(WireSilhouettes, KnowFromHowManySidesTheyLook) {
-  const SilhouetteScan scan({kWire});
-  // The cameras lie on a sphere around the origin; those in opposite corners are farthest apart.
-  const double cosine = 2 * std::pow(std::cos(0.35) * std::cos(0.7), 2) - 1;
-  EXPECT_NEAR(scan.Silhouettes().Parallax(Vec3::Zero()), std::acos(cosine), 1e-9);
-  const SilhouetteScan narrow({kWire}, {}, 0, 0.2);
-  EXPECT_LT(narrow.Silhouettes().Parallax(Vec3::Zero()), 0.35);
 }
 
 TEST(WireSilhouettes, KnowNothingOutsideTheImages) {
