@@ -13,7 +13,7 @@ namespace {
 
 // All chosen while looking at training scans chair 3, furnished 1, rack 2, tree 2, umbrella 1 and
 // vine 1 (docs/lab_notebook.md).
-constexpr size_t kMaxRays = 6000;       // lines of sight, evenly thinned: more tell the same again
+constexpr size_t kMaxRays = 5000;       // lines of sight, evenly thinned: more tell the same again
 constexpr size_t kReferenceStride = 3;  // lines of sight start in every so many-th image
 constexpr double kCoarsePx = 3;         // steps along a line of sight, in the view that moves most
 constexpr double kFinePx = 0.5;         // likewise
