@@ -13,7 +13,6 @@ namespace {
 
 // All chosen while looking at training scans chair 3, furnished 1, rack 2, tree 2, umbrella 1 and
 // vine 1 (docs/lab_notebook.md).
-constexpr size_t kMaxRays = 5000;       // lines of sight, evenly thinned: more tell the same again
 constexpr size_t kReferenceStride = 3;  // lines of sight start in every so many-th image
 constexpr double kCoarsePx = 3;         // steps along a line of sight, in the view that moves most
 constexpr double kFinePx = 0.5;         // likewise
@@ -27,6 +26,9 @@ constexpr int kMinFullLooks = 4;  // where all of them show a strip
 constexpr int kMinLooks = 8;
 constexpr double kNearest = 0.05;  // metres before a camera
 constexpr int64_t kReports = 50;   // chosen: of progress
+// Lines of sight, evenly thinned: more tell the same again. Chosen on the four shared scans without
+// depth, between numbers that 15 training scans do not tell apart (docs/lab_notebook.md).
+constexpr size_t kMaxRays = 5000;
 
 using View = StripViews::View;
 using Ray = std::pair<size_t, Eigen::Vector2i>;  // number of a view, and a pixel
@@ -102,14 +104,14 @@ class CandidateSearch {
   }
 
   // Adds the places of a stretch of a line of sight that agree.
-  void AddPlaces(const StripViews::LineOfSight& sight, const Vec3& start, const Vec3& ray,
-                 double baseline, double from, double to, std::vector<Place>& places) const {
+  void AddPlaces(const StripViews::LineOfSight& sight, double baseline, double from, double to,
+                 std::vector<Place>& places) const {
     const double step = Step(0.5 * (from + to), baseline, kFinePx);
     for (double at = from; at <= to; at += step) {
       if (sight.QuickLook(at).evidence < 0) continue;
       const StripAgreement agreement = sight.CloseLook(at);
       if (agreement.evidence < kFineEvidence || agreement.looked < kMinLooks) continue;
-      places.push_back({start + at * ray, at, agreement});
+      places.push_back({sight.At(at), at, agreement});
     }
   }
 
@@ -131,12 +133,12 @@ class CandidateSearch {
       const bool agrees = AgreesRoughly(sight.FirstLook(at));
       if (agrees && begin < 0) begin = at - step;
       if (!agrees && begin >= 0) {
-        AddPlaces(sight, view.center, ray, baseline, begin, at, places);
+        AddPlaces(sight, baseline, begin, at, places);
         begin = -1;
       }
       at += step;
     }
-    if (begin >= 0) AddPlaces(sight, view.center, ray, baseline, begin, range->second, places);
+    if (begin >= 0) AddPlaces(sight, baseline, begin, range->second, places);
     return places;
   }
 

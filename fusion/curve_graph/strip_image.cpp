@@ -47,37 +47,39 @@ void StripImage::DropExplained() {
 void StripImage::SetStrips(const StripPixels& strips) {
   std::fill(to_strip_.data(), to_strip_.data() + to_strip_.size(), kExplained - 1);
   unexplained_.clear();
-  if (!part_.empty() && AnySet(strips.middles)) {
-    MaskImage others(part_.width, part_.height);
-    for (size_t i = 0; i < others.size(); ++i) others.data()[i] = strips.middles.data()[i] ? 0 : 1;
-    const cv::Mat from(part_.height, part_.width, CV_8U, others.data());
-    cv::Mat distance, labels;  // of the nearest middle
-    cv::distanceTransform(from, distance, labels, cv::DIST_L2, 5, cv::DIST_LABEL_PIXEL);
-    std::vector<uint8_t> direction_of_label(others.size() + 1, 0);
-    for (int v = 0; v < part_.height; ++v) {
-      for (int u = 0; u < part_.width; ++u) {
-        if (!strips.middles(u, v)) continue;
-        direction_of_label[labels.at<int>(v, u)] = strips.directions(u, v);
-        if ((part_.x + u - (part_.y + v)) % kPixelStride == 0)
-          unexplained_.emplace_back(part_.x + u, part_.y + v);
-      }
-    }
-    for (int v = 0; v < part_.height; ++v) {
-      const float* pixels = distance.ptr<float>(v);
-      const int* of_nearest = labels.ptr<int>(v);
-      uint8_t* units = to_strip_.row(part_.y + v) + part_.x;
-      uint8_t* directions = direction_.row(part_.y + v) + part_.x;
-      for (int u = 0; u < part_.width; ++u) {
-        units[u] =
-            static_cast<uint8_t>(std::min<double>(kExplained - 1, kDistanceUnits * pixels[u]));
-        directions[u] = direction_of_label[of_nearest[u]];
-      }
-    }
-  }
-  for (int look = 0; look < 2; ++look) SetEvidence(look);
+  if (AnySet(strips.middles)) SetNearest(strips);
+  SetEvidence(kFirstLook);
+  SetEvidence(kCloseLook);
 }
 
-void StripImage::SetEvidence(int look) {
+// What pixels have of the nearest middle of a strip.
+void StripImage::SetNearest(const StripPixels& strips) {
+  MaskImage others(part_.width, part_.height);
+  for (size_t i = 0; i < others.size(); ++i) others.data()[i] = strips.middles.data()[i] ? 0 : 1;
+  const cv::Mat from(part_.height, part_.width, CV_8U, others.data());
+  cv::Mat distance, labels;
+  cv::distanceTransform(from, distance, labels, cv::DIST_L2, 5, cv::DIST_LABEL_PIXEL);
+  std::vector<uint8_t> direction_of_label(others.size() + 1, 0);
+  for (int v = 0; v < part_.height; ++v) {
+    for (int u = 0; u < part_.width; ++u) {
+      if (!strips.middles(u, v)) continue;
+      direction_of_label[labels.at<int>(v, u)] = strips.directions(u, v);
+      if ((part_.x + u - (part_.y + v)) % kPixelStride == 0)
+        unexplained_.emplace_back(part_.x + u, part_.y + v);
+    }
+  }
+  for (int v = 0; v < part_.height; ++v) {
+    uint8_t* units = to_strip_.row(part_.y + v) + part_.x;
+    uint8_t* directions = direction_.row(part_.y + v) + part_.x;
+    for (int u = 0; u < part_.width; ++u) {
+      units[u] = static_cast<uint8_t>(
+          std::min<double>(kExplained - 1, kDistanceUnits * distance.at<float>(v, u)));
+      directions[u] = direction_of_label[labels.at<int>(v, u)];
+    }
+  }
+}
+
+void StripImage::SetEvidence(Look look) {
   const int width = (to_strip_.width() + kCellPx - 1) / kCellPx;
   const int height = (to_strip_.height() + kCellPx - 1) / kCellPx;
   Image<float> shares(width, height);

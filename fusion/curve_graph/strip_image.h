@@ -14,8 +14,11 @@ namespace curvefusion {
 /// tells to find one there. Curves explain the strips along them.
 class StripImage {
  public:
-  /// How near the middle of a strip must be: for a first look, and for a close one, pixels.
+  /// How near the middle of a strip must be in a look, pixels.
+  enum Look { kFirstLook, kCloseLook };
   static constexpr double kReachPx[2] = {3.5, 1.4};
+
+  StripImage() = default;
 
   /// `strips` were found in a part of an image; there are none elsewhere. No curve is known yet.
   StripImage(int width, int height, const cv::Rect& part, const StripPixels& strips);
@@ -31,7 +34,7 @@ class StripImage {
 
   /// What a strip within reach of a pixel tells, or none: the logarithm of how much likelier that
   /// is for a wire than by chance, by the share of pixels around that have a strip within reach.
-  double Evidence(int look, bool is_seen, int u, int v) const {
+  double Evidence(Look look, bool is_seen, int u, int v) const {
     const Image<float>& evidence = is_seen ? seen_[look] : not_seen_[look];
     return evidence(u / kCellPx, v / kCellPx);
   }
@@ -51,7 +54,8 @@ class StripImage {
   static constexpr int kCellPx = 4;
 
   void SetStrips(const StripPixels& strips);
-  void SetEvidence(int look);
+  void SetNearest(const StripPixels& strips);
+  void SetEvidence(Look look);
 
   cv::Rect part_;
   Image<uint8_t> to_strip_;             // units, less than kExplained where no curve covers a pixel

@@ -34,7 +34,6 @@ constexpr double kUsualSine = M_PI / 4;   // derived: of that angle, in the mean
 constexpr int kSameDirection = 43;        // 30 degrees, see DirectionUnits
 constexpr int kMinLooks = 8;              // images that tell
 constexpr double kAhead = 1e-3;           // metres, between which a direction is projected
-constexpr int kCloseLook = 1;
 
 template <typename Pixel>
 Image<Pixel> Crop(const Image<Pixel>& image, const cv::Rect& region) {
@@ -71,12 +70,11 @@ Eigen::Matrix<float, 3, 4> CameraMatrix(const PinholeCamera& camera, const Rigid
   return (pixels_times_depth * T.matrix().topRows<3>()).cast<float>();
 }
 
-// A curve that runs towards the camera is short in the image, which then tells little of its
-// length. `p` and the unit direction `d` are the camera's.
+// Of the angle between the line of sight to a place and a unit direction, both the camera's.
 double SineToSight(const Vec3& p, const Vec3& d) { return d.cross(p.normalized()).norm(); }
 
 // Adds what an image tells that shows a strip so many pixels from a place, or, if not, none.
-void Add(const StripImage& strips, int look, bool is_seen, double told, int u, int v,
+void Add(const StripImage& strips, StripImage::Look look, bool is_seen, double told, int u, int v,
          StripAgreement& agreement) {
   ++agreement.looked;
   agreement.seen += is_seen;
@@ -115,19 +113,18 @@ StripViews::StripViews(const Sequence& sequence, const std::vector<int>& frames,
                      Crop(Shrunk(frame.color, color_camera_, CV_8UC3), region),
                      Crop(Shrunk(posteriors[place], color_camera_, CV_8U), region)});
   });
-  std::vector<std::optional<View>> views(parts.size());
+  views_.resize(parts.size());
   ParallelFor(0, static_cast<int64_t>(parts.size()), 1, [&](int64_t i) {
-    const Part& part = parts[i];
+    Part& part = parts[i];
     const StripPixels strips =
         part.region.empty() ? StripPixels() : FindStripPixels(part.color, part.posterior);
-    views[i] = View{part.T_color_world,
-                    CameraMatrix(color_camera_, part.T_color_world),
-                    CameraMatrix(depth_camera_, part.T_depth_world),
-                    part.T_color_world.inverse().translation(),
-                    StripImage(color_camera_.width, color_camera_.height, part.region, strips),
-                    part.farthest};
+    views_[i] = {part.T_color_world,
+                 CameraMatrix(color_camera_, part.T_color_world),
+                 CameraMatrix(depth_camera_, part.T_depth_world),
+                 part.T_color_world.inverse().translation(),
+                 StripImage(color_camera_.width, color_camera_.height, part.region, strips),
+                 std::move(part.farthest)};
   });
-  for (std::optional<View>& view : views) views_.push_back(std::move(*view));
 }
 
 PinholeCamera StripViews::CameraLookedThrough(const PinholeCamera& color_camera, double scale) {
@@ -247,17 +244,19 @@ StripAgreement StripViews::Along(const Vec3& p, const Vec3& direction) const {
     const Vec3 p_color = view.T_color_world * p;
     const Vec3 d = view.T_color_world.linear() * direction;
     const double distance = view.strips.DistanceToStrip(sight->u, sight->v);
-    const bool is_seen =
-        distance <= StripImage::kReachPx[kCloseLook] && RunsAlong(view, *sight, p_color, d);
+    const bool is_seen = distance <= StripImage::kReachPx[StripImage::kCloseLook] &&
+                         RunsAlong(view, *sight, p_color, d);
+    // A curve that runs towards the camera is short in the image, which then tells little of its
+    // length.
     const double told = std::min(1.0, SineToSight(p_color, d) / kUsualSine);
-    Add(view.strips, kCloseLook, is_seen, told, sight->u, sight->v, agreement);
+    Add(view.strips, StripImage::kCloseLook, is_seen, told, sight->u, sight->v, agreement);
   }
   return Weighted(agreement, 1);
 }
 
 StripViews::LineOfSight::LineOfSight(const StripViews& views, size_t view, const Vec3& direction)
-    : views_(views), view_(view) {
-  const Eigen::Vector4f start = views.views_[view].center.cast<float>().homogeneous();
+    : views_(views), view_(view), start_(views.views_[view].center), direction_(direction) {
+  const Eigen::Vector4f start = start_.cast<float>().homogeneous();
   const Vec3f ray = direction.cast<float>();
   lines_.reserve(views.views_.size());
   for (const View& other : views.views_) {
@@ -266,7 +265,8 @@ StripViews::LineOfSight::LineOfSight(const StripViews& views, size_t view, const
   }
 }
 
-StripAgreement StripViews::LineOfSight::Look(double distance, int look, size_t stride) const {
+StripAgreement StripViews::LineOfSight::Look(double distance, StripImage::Look look,
+                                             size_t stride) const {
   const auto at = static_cast<float>(distance);
   StripAgreement agreement;
   for (size_t i = 0; i < lines_.size(); i += stride) {

@@ -84,14 +84,22 @@ class StripViews {
     /// From the camera of view number `view` in a unit direction; `views` must outlive this.
     LineOfSight(const StripViews& views, size_t view, const Vec3& direction);
 
+    Vec3 At(double distance) const { return start_ + distance * direction_; }
+
     /// By every fifth image and strips within 3.5 pixels: a first look.
-    StripAgreement FirstLook(double distance) const { return Look(distance, 0, kFew); }
+    StripAgreement FirstLook(double distance) const {
+      return Look(distance, StripImage::kFirstLook, kFew);
+    }
 
     /// By every fifth image and strips within 1.4 pixels: whether a close look is worth its time.
-    StripAgreement QuickLook(double distance) const { return Look(distance, 1, kFew); }
+    StripAgreement QuickLook(double distance) const {
+      return Look(distance, StripImage::kCloseLook, kFew);
+    }
 
     /// By all images and strips within 1.4 pixels, whichever way these run.
-    StripAgreement CloseLook(double distance) const { return Look(distance, 1, 1); }
+    StripAgreement CloseLook(double distance) const {
+      return Look(distance, StripImage::kCloseLook, 1);
+    }
 
     /// Whether the depth of its own view shows only what is nearer.
     bool IsHidden(double distance) const;
@@ -105,10 +113,11 @@ class StripViews {
       Vec3f depth, depth_step;
     };
 
-    StripAgreement Look(double distance, int look, size_t stride) const;
+    StripAgreement Look(double distance, StripImage::Look look, size_t stride) const;
 
     const StripViews& views_;
     size_t view_;
+    Vec3 start_, direction_;
     std::vector<Line> lines_;  // in every view
   };
 
