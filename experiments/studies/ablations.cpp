@@ -54,9 +54,6 @@ std::vector<Ablation> OfSegmentation() {
       {"edge tolerance",
        {"ghosts.tolerance_px=0"},
        "Colour edges are blurred and shifted against depth."},
-      {"verified outline",
-       {"ghosts.verified_outline=0"},
-       "Chance hits inside a ghost do not verify it."},
       {"far parts",
        {"ghosts.isolated_outline=2"},
        "Parts of one object may be far apart, where the wires between have no depth."}};

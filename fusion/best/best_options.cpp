@@ -24,7 +24,6 @@ BestOptions DefaultBestOptions() {
   options.segmentation.min_measured_share = 0.5;
   options.segmentation.bundle.min_frames = 3;
   options.segmentation.edges.tolerance_px = 2;
-  options.segmentation.ghosts.verified_outline = 0.35;
   options.segmentation.ghosts.isolated_outline = 0.7;
   options.registration.max_points = 700;
   options.registration.max_iterations = 12;

@@ -12,7 +12,6 @@ void SwitchOffColour(BestOptions& options) {
   options.segmentation.gate.frames = 0;
   options.segmentation.max_array_spacing = 0;
   options.segmentation.ghosts.verified_share = 0;
-  options.segmentation.ghosts.verified_outline = 0;
   options.colour_adjustment.enabled = false;
   options.silhouettes.max_frames = 0;
 }

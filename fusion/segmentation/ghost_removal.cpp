@@ -53,12 +53,6 @@ double VerifiedOutline(const BundlePoints& bundle, const Cluster& cluster) {
   return outline > 0 ? on_edge / outline : 0;
 }
 
-bool IsVerified(const BundlePoints& bundle, const Cluster& cluster,
-                const GhostRemovalOptions& options) {
-  return VerifiedShare(bundle, cluster) >= options.verified_share &&
-         VerifiedOutline(bundle, cluster) >= options.verified_outline;
-}
-
 std::vector<Vec3> PointsOf(const std::vector<Vec3>& points, const Cluster& cluster) {
   std::vector<Vec3> of_cluster;
   for (const int i : cluster) of_cluster.push_back(points[i]);
@@ -127,10 +121,6 @@ void VisitOptions(GhostRemovalOptions& options, OptionVisitor& visitor) {
       {"verified_share", "", 0, 1,
        "Clusters with a smaller share of points on colour edges are ghosts. CurveFusion 4.1."},
       options.verified_share);
-  visitor.Visit({"verified_outline", "", 0, 1,
-                 "Deviation: clusters with a smaller share of their outline on colour edges are "
-                 "ghosts; chance hits inside a blob do not verify it."},
-                options.verified_outline);
 }
 
 BundlePoints RemoveGhosts(const BundlePoints& bundle, const GhostRemovalOptions& options,
@@ -138,7 +128,7 @@ BundlePoints RemoveGhosts(const BundlePoints& bundle, const GhostRemovalOptions&
   std::vector<Cluster> clusters = LargeClusters(bundle.points.positions, options);
   const int64_t clustered = CountPoints(clusters);
   const auto unverified = [&](const Cluster& cluster) {
-    return !IsVerified(bundle, cluster, options);
+    return VerifiedShare(bundle, cluster) < options.verified_share;
   };
   clusters.erase(std::remove_if(clusters.begin(), clusters.end(), unverified), clusters.end());
   const int64_t verified = CountPoints(clusters);

@@ -15,7 +15,6 @@ struct GhostRemovalOptions {
   double isolation_distance = 0.1;
   double isolated_outline = 2;
   double verified_share = 0.2;
-  double verified_outline = 0;
 };
 void VisitOptions(GhostRemovalOptions& options, OptionVisitor& visitor);
 

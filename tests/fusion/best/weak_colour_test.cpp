@@ -64,7 +64,6 @@ TEST_F(WeakColour, OfImagesThatShowNothingVerifiesNothing) {
   const Sequence sequence = Images([](int, int) { return cv::Vec3b(90, 90, 90); });
   EXPECT_THAT(SwitchOffUselessColour(sequence, options_), HasSubstr("depth alone"));
   EXPECT_EQ(options_.segmentation.ghosts.verified_share, 0);
-  EXPECT_EQ(options_.segmentation.ghosts.verified_outline, 0);
   EXPECT_FALSE(options_.colour_adjustment.enabled);
 }
 

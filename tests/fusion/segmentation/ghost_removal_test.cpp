@@ -56,9 +56,6 @@ TEST(RemoveGhosts, DropsWhatColourDoesNotVerify) {
   AddLine(bundle, {0, 0, 1}, 100, 4);      // 25 % on edges
   AddLine(bundle, {0, 0.05, 1}, 100, 10);  // 10 %
   EXPECT_EQ(RemoveGhosts(bundle, {}).points.size(), 100u);
-  GhostRemovalOptions strict;
-  strict.verified_outline = 0.5;
-  EXPECT_TRUE(RemoveGhosts(bundle, strict).points.empty());
 }
 
 TEST(RemoveGhosts, TellsWhatEachRuleDropped) {
