@@ -88,9 +88,9 @@ void KeepBest(size_t count, std::vector<Start>& starts) {
   if (starts.size() > count) starts.resize(count);
 }
 
-// Chosen: .8 to 1.76 covers the focal lengths of a sensor's two cameras (the colour camera of a D400
-// has 1.6 times that of its depth), 48 px an offset of 60 mm at 0.7 m; the steps are those of the
-// coarse sigma, 6 px (at the image's corner 4 % of f are 13 px).
+// Chosen: .8 to 1.76 covers the focal lengths of a sensor's two cameras (the colour camera of a
+// D400 has 1.6 times that of its depth), 48 px an offset of 60 mm at 0.7 m; the steps are those of
+// the coarse sigma, 6 px (at the image's corner 4 % of f are 13 px).
 constexpr int kShorterSteps = 5;
 constexpr int kLongerSteps = 19;
 constexpr double kFocalStep = 0.04;
@@ -253,7 +253,7 @@ constexpr double kMinEdgeShare = 0.005;  // of a grey, dark or blurred image
 // Of 38 random scans, those with registered colour are displaced by .2 to 6.8 px, the four with raw
 // colour by 18 to 52.
 constexpr double kMinDisplacement = 10;  // px
-constexpr double kMaxDisagreement = 3;  // px
+constexpr double kMaxDisagreement = 3;   // px
 constexpr double kMinGain = 1.15;
 constexpr double kMinShare = 0.4;
 
