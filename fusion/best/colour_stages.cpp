@@ -45,8 +45,10 @@ bool KeepProvenWires(const std::string& name, double min_probability, int depth_
   const std::vector<StretchEvidence> evidence =
       CollectEvidence(result.skeleton, result.radii, result.sequence, depth_images);
   reporter.observer.OnEvidence(name, result.skeleton, evidence);
-  result.trust.wire_length = KeepProven(evidence, ProveWires(result.skeleton, evidence),
-                                        min_probability, result.skeleton, result.uncertain);
+  const std::vector<WireProof> proofs =
+      ProveWires(result.skeleton, evidence, result.uncertain.beside_kept);
+  result.trust.wire_length =
+      KeepProven(evidence, proofs, min_probability, result.skeleton, result.uncertain);
   result.funnel.curves.unproven = result.uncertain.lengths;
   reporter.log.Count("evidence", "uncertain, m", result.uncertain.lengths.Sum());
   return result.uncertain.lengths.Sum() > uncertain;

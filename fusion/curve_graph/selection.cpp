@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "graph/connected_parts.h"
@@ -116,6 +117,23 @@ class Selector {
     return length;
   }
 
+  // For later proofs of what is left.
+  void RememberRefuted(UncertainCurves& uncertain) const {
+    std::vector<bool> is_left(evidence_.size());
+    std::set<int> parts_left;
+    for (const auto& [edge, stretches] : stretches_of_) {
+      for (const size_t i : stretches) {
+        is_left[i] = true;
+        parts_left.insert(proofs_[i].part);
+      }
+    }
+    for (size_t i = 0; i < evidence_.size(); ++i) {
+      if (is_left[i] || parts_left.count(proofs_[i].part) == 0) continue;
+      uncertain.beside_kept.push_back(
+          {evidence_[i].middle, evidence_[i].length, proofs_[i].own_log_odds});
+    }
+  }
+
   // Parts that are too little to be told.
   void DropSmallParts(SkeletonGraph& skeleton, UncertainCurves& uncertain) {
     for (const std::vector<EdgeId>& part : ConnectedEdges(skeleton)) {
@@ -186,6 +204,7 @@ double KeepProven(const std::vector<StretchEvidence>& evidence,
     selector.DecideAlongEdges();
     selector.Cut(skeleton, uncertain);
     selector.DropSmallParts(skeleton, uncertain);
+    selector.RememberRefuted(uncertain);
     skeleton.DissolveDegree2Nodes();
   }
   return selector.ExpectedWire();

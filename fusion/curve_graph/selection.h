@@ -22,6 +22,7 @@ struct UnprovenLengths {
 struct UncertainCurves {
   SkeletonGraph graph;
   UnprovenLengths lengths;
+  std::vector<RefutedStretch> beside_kept;  ///< those of connected parts of which something stayed
 };
 
 /// Leaves in the skeleton what is a wire with at least `min_probability` and moves the rest to

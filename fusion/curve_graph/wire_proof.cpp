@@ -109,29 +109,35 @@ double ColourLogOdds(const StretchEvidence& evidence) {
 double Probability(double log_odds) { return 1 / (1 + std::exp(-log_odds)); }
 
 std::vector<WireProof> ProveWires(const SkeletonGraph& skeleton,
-                                  const std::vector<StretchEvidence>& evidence) {
+                                  const std::vector<StretchEvidence>& evidence,
+                                  const std::vector<RefutedStretch>& refuted) {
+  const std::map<EdgeId, int> part_of = PartOfEdges(skeleton);
   std::vector<WireProof> proofs;
-  std::vector<double> own;
   std::vector<Vec3> middles;
   for (const StretchEvidence& stretch : evidence) {
     const Terms terms = OwnTerms(stretch);
-    proofs.push_back({0, LargestDoubt(terms)});
-    own.push_back(terms.Sum());
+    proofs.push_back({0, LargestDoubt(terms), terms.Sum(), part_of.at(stretch.edge)});
     middles.push_back(stretch.middle);
   }
-  const std::map<EdgeId, int> part_of = PartOfEdges(skeleton);
   const PointIndex index(middles);
   std::vector<int> near;
   for (size_t i = 0; i < evidence.size(); ++i) {
-    index.WithinRadius(middles[i], kNeighbourhood, near);
     double sum = 0, length = kOwnWeight;
+    const auto add = [&sum, &length](double of_length, double own_log_odds) {
+      sum += of_length * std::clamp(own_log_odds, -kMaxLogOdds, kMaxLogOdds);
+      length += of_length;
+    };
+    index.WithinRadius(middles[i], kNeighbourhood, near);
     for (const int j : near) {
       const bool is_other = static_cast<size_t>(j) != i;
-      if (!is_other || part_of.at(evidence[j].edge) != part_of.at(evidence[i].edge)) continue;
-      sum += evidence[j].length * std::clamp(own[j], -kMaxLogOdds, kMaxLogOdds);
-      length += evidence[j].length;
+      if (is_other && proofs[j].part == proofs[i].part)
+        add(evidence[j].length, proofs[j].own_log_odds);
     }
-    proofs[i].log_odds = kAroundBias + kOwn * own[i] + kAround * sum / length;
+    for (const RefutedStretch& stretch : refuted) {
+      if ((stretch.middle - middles[i]).norm() < kNeighbourhood)
+        add(stretch.length, stretch.own_log_odds);
+    }
+    proofs[i].log_odds = kAroundBias + kOwn * proofs[i].own_log_odds + kAround * sum / length;
   }
   return proofs;
 }

@@ -19,6 +19,15 @@ enum class Doubt {
 struct WireProof {
   double log_odds = 0;  ///< that it is one, natural logarithm; candidates are as often wires as not
   Doubt doubt = Doubt::kUnproven;
+  double own_log_odds = 0;  ///< by its own evidence only
+  int part = 0;             ///< number of its connected part of the skeleton
+};
+
+/// A stretch that left a connected part of which something stayed.
+struct RefutedStretch {
+  Vec3 middle;        ///< metres
+  double length = 0;  ///< metres
+  double own_log_odds = 0;
 };
 
 /// 1 / (1 + exp(-log_odds)).
@@ -31,8 +40,11 @@ double ColourLogOdds(const StretchEvidence& evidence);
 /// connected part of the skeleton: few wires end within some centimetres, and what hides one
 /// stretch rarely hides those beside it. On validation scans medium probabilities are too low: of
 /// stretches given .90 all are wires, of those given .58 a share of .98 (docs/proof.md). `evidence`
-/// is CollectEvidence of the skeleton. Cost: n log n.
+/// is CollectEvidence of the skeleton; what an earlier proof `refuted` still counts around the
+/// stretches that it left: what is a wire where much beside it is none, is one rarely. Cost: n log
+/// n.
 std::vector<WireProof> ProveWires(const SkeletonGraph& skeleton,
-                                  const std::vector<StretchEvidence>& evidence);
+                                  const std::vector<StretchEvidence>& evidence,
+                                  const std::vector<RefutedStretch>& refuted);
 
 }  // namespace curvefusion

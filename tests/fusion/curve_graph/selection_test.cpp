@@ -28,7 +28,7 @@ struct Edge {
       stretch.part = {i, i + 1};
       stretch.length = kStep;
       evidence.push_back(stretch);
-      proofs.push_back({log_odds[i], doubt});
+      proofs.push_back({log_odds[i], doubt, log_odds[i], 0});
     }
   }
   double Keep(double min_probability = 0.5) {
@@ -68,6 +68,22 @@ TEST(KeepProven, AShortPieceOfItsOwnIsNoProof) {
   EXPECT_TRUE(edge.skeleton.empty());
   EXPECT_EQ(edge.skeleton.node_count(), 0);
   EXPECT_NEAR(edge.uncertain.graph.TotalLength(), kStep, 1e-12);
+}
+
+TEST(KeepProven, RemembersWhatLeavesAPartThatStays) {
+  Edge edge({3, 3, 3, -3, -3});
+  for (size_t i = 0; i < edge.proofs.size(); ++i) {
+    edge.proofs[i].own_log_odds = -static_cast<double>(i);
+    edge.evidence[i].middle = {kStep * (static_cast<double>(i) + 0.5), 0, 0};
+  }
+  edge.Keep();
+  ASSERT_EQ(edge.uncertain.beside_kept.size(), 2);
+  EXPECT_EQ(edge.uncertain.beside_kept[0].own_log_odds, -3);
+  EXPECT_EQ(edge.uncertain.beside_kept[1].middle, Vec3(4.5 * kStep, 0, 0));
+  EXPECT_EQ(edge.uncertain.beside_kept[1].length, kStep);
+  Edge all({-3, -3});
+  all.Keep();
+  EXPECT_TRUE(all.uncertain.beside_kept.empty());
 }
 
 TEST(KeepProven, CountsByWhatSpeaksAgainstIt) {

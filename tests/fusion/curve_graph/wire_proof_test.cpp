@@ -9,6 +9,7 @@ namespace {
 struct Stretches {
   SkeletonGraph skeleton;
   std::vector<StretchEvidence> evidence;
+  std::vector<RefutedStretch> refuted;
 
   void Add(const Vec3& from, StretchEvidence of_stretch) {
     const EdgeId id = skeleton.AddPolyline({from, from + Vec3(0.04, 0, 0)});
@@ -19,7 +20,7 @@ struct Stretches {
     evidence.push_back(of_stretch);
   }
   double Probability(size_t i) const {
-    return curvefusion::Probability(ProveWires(skeleton, evidence)[i].log_odds);
+    return curvefusion::Probability(ProveWires(skeleton, evidence, refuted)[i].log_odds);
   }
 };
 
@@ -136,11 +137,20 @@ TEST(WireProof, WhatIsConnectedSpeaksForAStretch) {
   EXPECT_DOUBLE_EQ(far.Probability(0), Alone(unclear));
 }
 
+TEST(WireProof, WhatWasRefutedBesideAStretchSpeaksAgainstItStill) {
+  Stretches left;
+  left.Add(Vec3::Zero(), Wire());
+  left.refuted = {{{0.3, 0, 0}, 0.04, -3}};
+  EXPECT_DOUBLE_EQ(left.Probability(0), Alone(Wire()));  // too far away
+  left.refuted = {{{0.1, 0, 0}, 0.04, -3}};
+  EXPECT_LT(left.Probability(0), Alone(Wire()));
+}
+
 TEST(WireProof, NamesWhatSpeaksMostAgainstIt) {
   const auto doubt = [](const StretchEvidence& evidence) {
     Stretches one;
     one.Add(Vec3::Zero(), evidence);
-    return ProveWires(one.skeleton, one.evidence)[0].doubt;
+    return ProveWires(one.skeleton, one.evidence, {})[0].doubt;
   };
   EXPECT_EQ(doubt(ShelfEdge()), Doubt::kSurface);
   StretchEvidence slat = Wire();
