@@ -102,7 +102,7 @@ double AddMeshes(const ColourAdjustment& adjusted, const StripViews& views,
   const double radius = result.radii.unmeasured_radius;
   const ObservedPoints places =
       FindMeshPlaces(result.sequence, adjusted.frames, adjusted.posteriors, views.bounds(), radius);
-  const double added = AddMeshCurves(places, options, radius, result.skeleton);
+  const double added = AddMeshCurves(result.sequence, places, options, radius, result.skeleton);
   reporter.log.Count("wires from colour", "meshes, m", added);
   reporter.observer.OnPoints("mesh_places", places);
   if (added > 0) reporter.observer.OnGraph("with_meshes", result.skeleton);

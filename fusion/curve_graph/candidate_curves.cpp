@@ -159,14 +159,22 @@ double AddCandidateCurves(const Sequence& sequence, const ObservedPoints& candid
   return skeleton.TotalLength() - length;
 }
 
-double AddMeshCurves(const ObservedPoints& places, const RidgeOptions& options, double radius,
-                     SkeletonGraph& skeleton) {
-  if (places.empty()) return 0;
+SkeletonGraph MeshCurves(const ObservedPoints& places, const RidgeOptions& options,
+                         const SkeletonGraph& known) {
+  if (places.empty()) return {};
   SkeletonGraph found = ExtractRidgeSkeleton(
       places, options,
       AffineTransform(Eigen::Scaling(kMagnification) * NoiseMetric(places, kRayNoise)));
-  KeepNewWires(PointsOf(skeleton), kBesideMesh, found);
+  KeepNewWires(PointsOf(known), kBesideMesh, found);
   KeepDense(found);
+  return found;
+}
+
+double AddMeshCurves(const Sequence& sequence, const ObservedPoints& places,
+                     const RidgeOptions& options, double radius, SkeletonGraph& skeleton) {
+  SkeletonGraph found = MeshCurves(places, options, skeleton);
+  if (found.TotalLength() < kMinMesh) return 0;
+  KeepOpenTogether(sequence, found);
   if (found.TotalLength() < kMinMesh) return 0;
   const double length = skeleton.TotalLength();
   AddGraph(found, radius, skeleton);
