@@ -12,7 +12,6 @@
 #include "fusion/best/colour_start.h"
 #include "fusion/curve_graph/candidate_curves.h"
 #include "fusion/curve_graph/colour_candidates.h"
-#include "fusion/curve_graph/mesh_places.h"
 #include "fusion/curve_graph/selection.h"
 #include "fusion/curve_graph/strip_views.h"
 #include "fusion/curve_graph/tip_tracking.h"
@@ -95,38 +94,20 @@ void CorrectBySilhouettes(const ColourAdjustment& adjusted, const StripViews& st
   reporter.observer.OnGraph("corrected", result.skeleton);
 }
 
-// Deviation: wires of meshes that depth shows as surfaces. How many metres.
-double AddMeshes(const ColourAdjustment& adjusted, const StripViews& views,
-                 const RidgeOptions& options, const StageReporter& reporter,
-                 Reconstruction& result) {
-  const double radius = result.radii.unmeasured_radius;
-  const ObservedPoints places =
-      FindMeshPlaces(result.sequence, adjusted.frames, adjusted.posteriors, views.bounds(), radius);
-  const double added = AddMeshCurves(result.sequence, places, options, radius, result.skeleton);
-  reporter.log.Count("wires from colour", "meshes, m", added);
-  reporter.observer.OnPoints("mesh_places", places);
-  if (added > 0) reporter.observer.OnGraph("with_meshes", result.skeleton);
-  return added;
-}
-
 // Deviation: wires that depth has lost, where colour images show strips that no curve explains.
-// `adjusted` holds the images that meshes are looked for in, if they are. How many metres.
-double AddWiresFromColour(const ColourAdjustment* adjusted, StripViews& views,
-                          const RidgeOptions& options, const StageReporter& reporter,
-                          Reconstruction& result) {
+// How many metres.
+double AddWiresFromColour(StripViews& views, const RidgeOptions& options,
+                          const StageReporter& reporter, Reconstruction& result) {
   const char* stage = "wires from colour";
   const StageLog::Timer timer = reporter.Begin(stage);
-  const double meshes =
-      adjusted != nullptr ? AddMeshes(*adjusted, views, options, reporter, result) : 0;
   views.ExplainAll(result.skeleton);
   const double radius = result.radii.unmeasured_radius;
   const double followed = TrackTips(radius, views, result.skeleton);
   const ObservedPoints candidates = FindColourCandidates(
       views, {},
       [&](int64_t done, int64_t total) { reporter.observer.OnProgress(stage, done, total); });
-  const double added =
-      meshes + followed +
-      AddCandidateCurves(result.sequence, candidates, options, radius, views, result.skeleton);
+  const double added = followed + AddCandidateCurves(result.sequence, candidates, options, radius,
+                                                     views, result.skeleton);
   reporter.log.Count(stage, "followed, m", followed);
   reporter.log.Count(stage, "points", static_cast<double>(candidates.size()));
   reporter.log.Count(stage, "added, m", added);
@@ -216,17 +197,13 @@ void StartFromColourWhereDepthFails(const Sequence& given, const WireColours& co
 // until little is added: a new curve lies where places were found, some millimetres beside its
 // strips, and explains strips for which lines of sight had several places. Depth looks past most of
 // these wires: they have their proof from the images that show them.
-void CompleteByColour(const AdjustmentStart& start, std::optional<ColourAdjustment> adjusted,
-                      std::optional<StripViews> strips, double array_diameter, RunSize size,
-                      const BestOptions& options, const StageReporter& reporter,
-                      Reconstruction& result) {
+void CompleteByColour(const AdjustmentStart& start, std::optional<StripViews> strips,
+                      double array_diameter, RunSize size, const BestOptions& options,
+                      const StageReporter& reporter, Reconstruction& result) {
   for (int round = 0; round < kColourRounds; ++round) {
     TellPlan(size, options, reporter, result);
-    const bool has_meshes = round == 0 && start.depth == WireDepth::kShown;
-    const double added = AddWiresFromColour(has_meshes ? &*adjusted : nullptr, *strips,
-                                            options.ridge, reporter, result);
+    const double added = AddWiresFromColour(*strips, options.ridge, reporter, result);
     strips.reset();  // its images take as much memory as the next adjustment
-    adjusted.reset();
     // Without depth, silhouettes have bridged gaps that nothing was adjusted to yet.
     const bool is_rough = round == 0 && !result.sequence.has_depth;
     const bool is_little = added <= 0 || added < kLittle * result.skeleton.TotalLength();
@@ -236,7 +213,8 @@ void CompleteByColour(const AdjustmentStart& start, std::optional<ColourAdjustme
     if (added != 0) AssignMeasuredRadii(array_diameter, options.radius, reporter, result);
     if (size.has_last_round) break;
     const auto before = result.trust;
-    adjusted = AdjustCurvesAndPoses(start, options.colour_adjustment, reporter, result);
+    const std::optional<ColourAdjustment> adjusted =
+        AdjustCurvesAndPoses(start, options.colour_adjustment, reporter, result);
     if (!adjusted) {
       result.trust = before;  // of the adjustment that stands
       break;
@@ -292,9 +270,9 @@ void RefineByColour(const Sequence& given, const LearnedWires& wires, RunSize si
   measure_radii();
   keep_proven("evidence", 1);
   if (adjusted) {
-    CompleteByColour(start, std::move(adjusted), std::move(strips), wires.array_diameter, size,
-                     options, reporter, result);
-    adjusted.reset();
+    adjusted.reset();  // its images are not needed any more
+    CompleteByColour(start, std::move(strips), wires.array_diameter, size, options, reporter,
+                     result);
     strips.reset();
   }
   if (!Violations(result.skeleton, kProximity).empty()) {

@@ -8,12 +8,10 @@
 #include "fusion/curve_graph/candidate_proof.h"
 #include "fusion/curve_graph/refuted_parts.h"
 #include "fusion/curve_graph/tip_tracking.h"
-#include "fusion/registration/ray_noise.h"
 #include "graph/connected_parts.h"
 #include "graph/edge_curve.h"
 #include "graph/edge_parts.h"
 #include "kernel/point_grid.h"
-#include "kernel/spatial_search.h"
 
 namespace curvefusion {
 
@@ -27,15 +25,6 @@ constexpr double kStep = 0.0015;  // metres
 constexpr double kMaxGap = 0.06;  // metres
 constexpr double kMaxGapPerLength = 1.2;
 
-// Of meshes. Chosen on 20 training scans (docs/lab_notebook.md).
-constexpr double kRayNoise = 4;          // of places, along lines of sight to across them
-constexpr double kMagnification = 1.4;   // as for wires 10 mm apart (docs/close_wires.md)
-constexpr double kBesideMesh = 0.008;    // metres; nearer to a curve places are on its surface
-constexpr double kNeighbourhood = 0.03;  // metres
-constexpr double kMinAround = 0.12;      // metres of curve there: two curves
-constexpr double kDensityStep = 0.004;   // metres
-constexpr double kMinMesh = 0.5;         // metres
-
 std::vector<Vec3> PointsOf(const SkeletonGraph& skeleton) {
   std::vector<Vec3> points;
   for (const EdgeId id : skeleton.Edges()) {
@@ -46,13 +35,13 @@ std::vector<Vec3> PointsOf(const SkeletonGraph& skeleton) {
 }
 
 // Leaves what lies beside the points of known curves.
-void KeepNewWires(const std::vector<Vec3>& known, double beside, SkeletonGraph& found) {
-  const PointGrid curves(known, beside);
+void KeepNewWires(const std::vector<Vec3>& known, SkeletonGraph& found) {
+  const PointGrid curves(known, kBeside);
   for (const EdgeId id : found.Edges()) {
     const Polyline points = found.edge(id).points;
     std::vector<EdgePart> parts;
     for (size_t i = 0; i < points.size(); ++i) {
-      if (curves.Nearest(points[i], beside) >= 0) continue;
+      if (curves.Nearest(points[i], kBeside) >= 0) continue;
       if (!parts.empty() && parts.back().last + 1 == i) {
         parts.back().last = i;
       } else {
@@ -114,27 +103,6 @@ void DropDetached(const std::vector<Vec3>& curves, SkeletonGraph& skeleton) {
   skeleton.RemoveIsolatedNodes();
 }
 
-// Leaves edges with much beside them.
-void KeepDense(SkeletonGraph& found) {
-  std::map<EdgeId, Polyline> places_of;
-  std::vector<Vec3> places;
-  for (const EdgeId id : found.Edges()) {
-    places_of[id] = Resampled(found.edge(id), kDensityStep).points;
-    places.insert(places.end(), places_of[id].begin(), places_of[id].end());
-  }
-  const PointIndex index(places);
-  std::vector<int> near;
-  for (const auto& [id, of_edge] : places_of) {
-    double sum = 0;
-    for (const Vec3& p : of_edge) {
-      index.WithinRadius(p, kNeighbourhood, near);
-      sum += kDensityStep * static_cast<double>(near.size());
-    }
-    if (sum < kMinAround * static_cast<double>(of_edge.size())) found.RemoveEdge(id);
-  }
-  found.RemoveIsolatedNodes();
-}
-
 }  // namespace
 
 double AddCandidateCurves(const Sequence& sequence, const ObservedPoints& candidates,
@@ -143,7 +111,7 @@ double AddCandidateCurves(const Sequence& sequence, const ObservedPoints& candid
   const std::vector<Vec3> known = PointsOf(skeleton);
   if (candidates.empty()) return 0;
   SkeletonGraph found = ExtractRidgeSkeleton(candidates, options);
-  KeepNewWires(known, kBeside, found);
+  KeepNewWires(known, found);
   KeepProvenCandidates(sequence, radius, views, found);
   if (found.empty()) return 0;
   const double length = skeleton.TotalLength();
@@ -156,32 +124,6 @@ double AddCandidateCurves(const Sequence& sequence, const ObservedPoints& candid
   CloseFreeEnds(skeleton, reach, candidates);
   DropJoinsNotShown(with_candidates, views, skeleton);
   DropDetached(known, skeleton);
-  return skeleton.TotalLength() - length;
-}
-
-SkeletonGraph MeshCurves(const ObservedPoints& places, const RidgeOptions& options,
-                         const SkeletonGraph& known) {
-  if (places.empty()) return {};
-  SkeletonGraph found = ExtractRidgeSkeleton(
-      places, options,
-      AffineTransform(Eigen::Scaling(kMagnification) * NoiseMetric(places, kRayNoise)));
-  KeepNewWires(PointsOf(known), kBesideMesh, found);
-  KeepDense(found);
-  return found;
-}
-
-double AddMeshCurves(const Sequence& sequence, const ObservedPoints& places,
-                     const RidgeOptions& options, double radius, SkeletonGraph& skeleton) {
-  SkeletonGraph found = MeshCurves(places, options, skeleton);
-  if (found.TotalLength() < kMinMesh) return 0;
-  KeepOpenTogether(sequence, found);
-  if (found.TotalLength() < kMinMesh) return 0;
-  const double length = skeleton.TotalLength();
-  AddGraph(found, radius, skeleton);
-  FreeEndOptions reach = options.free_ends;
-  reach.max_gap = kMaxGap;
-  reach.max_gap_per_length = kMaxGapPerLength;
-  CloseFreeEnds(skeleton, reach, places);
   return skeleton.TotalLength() - length;
 }
 

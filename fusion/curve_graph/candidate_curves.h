@@ -16,15 +16,4 @@ double AddCandidateCurves(const Sequence& sequence, const ObservedPoints& candid
                           const RidgeOptions& options, double radius, StripViews& views,
                           SkeletonGraph& skeleton);
 
-/// The curves of `places` (FindMeshPlaces), contracted with `options`, but for what runs along
-/// `known` curves and what has too little beside it to be part of a mesh.
-SkeletonGraph MeshCurves(const ObservedPoints& places, const RidgeOptions& options,
-                         const SkeletonGraph& known);
-
-/// Adds those MeshCurves beside which colours tell that it is open (KeepOpenTogether), where they
-/// come to half a metre. What is new has the radius given, in metres, and may hang together with
-/// nothing. Returns the metres added.
-double AddMeshCurves(const Sequence& sequence, const ObservedPoints& places,
-                     const RidgeOptions& options, double radius, SkeletonGraph& skeleton);
-
 }  // namespace curvefusion

@@ -9,7 +9,6 @@
 #include "fusion/curve_graph/stretch_evidence.h"
 #include "fusion/curve_graph/wire_proof.h"
 #include "graph/edge_parts.h"
-#include "kernel/spatial_search.h"
 
 namespace curvefusion {
 
@@ -18,7 +17,6 @@ namespace {
 // Chosen on training scans chair (the paper's, seed 4) and rack 2 (docs/lab_notebook.md): true
 // stretches have .5 and .036 in the median, false ones 0 and .014.
 constexpr double kMinColourLogOdds = 0.2;
-constexpr double kTogether = 0.06;           // metres; chosen: several gaps of a mesh
 constexpr double kMinMiddleEvidence = 0.03;  // of an image that shows a strip
 constexpr double kMinLooks = 8;              // images that no other curve explains, in the mean
 constexpr double kMinSupport = 0.6;          // share of these that show a strip
@@ -50,13 +48,18 @@ bool IsOpenInColour(const StretchEvidence& stretch, const std::vector<StripAgree
          support.middle_evidence > kMinMiddleEvidence * support.seen;
 }
 
-template <typename Stays>  // of StretchEvidence
-void KeepStretches(const std::vector<StretchEvidence>& evidence, const Stays& stays,
-                   SkeletonGraph& curves) {
+void KeepOpenStretches(const Sequence& sequence, const StripViews& views, SkeletonGraph& curves) {
+  std::map<EdgeId, std::vector<StripAgreement>> along;
   std::map<EdgeId, std::vector<EdgePart>> kept;
-  for (const EdgeId id : curves.Edges()) kept[id];
-  for (const StretchEvidence& stretch : evidence) {
-    if (!stays(stretch)) continue;
+  for (const EdgeId id : curves.Edges()) {
+    along[id] = views.AgreementsAlong(curves.edge(id).points);
+    kept[id];
+  }
+  for (const StretchEvidence& stretch : CollectEvidence(curves, {}, sequence, 0)) {
+    const Polyline& points = curves.edge(stretch.edge).points;
+    const bool stays = IsMostlyFree(views, points, stretch.part) ||
+                       IsOpenInColour(stretch, along.at(stretch.edge));
+    if (!stays) continue;
     std::vector<EdgePart>& parts = kept[stretch.edge];
     if (!parts.empty() && parts.back().last == stretch.part.first) {
       parts.back().last = stretch.part.last;
@@ -66,16 +69,6 @@ void KeepStretches(const std::vector<StretchEvidence>& evidence, const Stays& st
   }
   for (const auto& [id, parts] : kept) KeepParts(id, parts, kMinPiece, curves);
   curves.RemoveIsolatedNodes();
-}
-
-void KeepOpenStretches(const Sequence& sequence, const StripViews& views, SkeletonGraph& curves) {
-  std::map<EdgeId, std::vector<StripAgreement>> along;
-  for (const EdgeId id : curves.Edges()) along[id] = views.AgreementsAlong(curves.edge(id).points);
-  const auto stays = [&](const StretchEvidence& stretch) {
-    return IsMostlyFree(views, curves.edge(stretch.edge).points, stretch.part) ||
-           IsOpenInColour(stretch, along.at(stretch.edge));
-  };
-  KeepStretches(CollectEvidence(curves, {}, sequence, 0), stays, curves);
 }
 
 void ExplainAway(double radius, StripViews& views, SkeletonGraph& curves) {
@@ -111,21 +104,6 @@ void KeepProvenCandidates(const Sequence& sequence, double radius, StripViews& v
   if (curves.empty()) return;
   KeepOpenStretches(sequence, views, curves);
   ExplainAway(radius, views, curves);
-}
-
-void KeepOpenTogether(const Sequence& sequence, SkeletonGraph& curves) {
-  const std::vector<StretchEvidence> evidence = CollectEvidence(curves, {}, sequence, 0);
-  std::vector<Vec3> middles;
-  for (const StretchEvidence& stretch : evidence) middles.push_back(stretch.middle);
-  const PointIndex index(middles);
-  std::vector<int> near;
-  const auto stays = [&](const StretchEvidence& stretch) {
-    index.WithinRadius(stretch.middle, kTogether, near);
-    double sum = 0;
-    for (const int i : near) sum += evidence[i].length * ColourLogOdds(evidence[i]);
-    return sum > 0;
-  };
-  KeepStretches(evidence, stays, curves);
 }
 
 }  // namespace curvefusion

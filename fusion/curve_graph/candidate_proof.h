@@ -16,10 +16,4 @@ namespace curvefusion {
 void KeepProvenCandidates(const Sequence& sequence, double radius, StripViews& views,
                           SkeletonGraph& curves);
 
-/// Leaves stretches of curves that are close together where the colours beside these, on average
-/// within 60 mm, tell that no surface goes on there: of a mesh some stretches have a surface behind
-/// them, but few all around. Where colours tell nothing, none stays. Throws Error(kBadInput) for an
-/// image that cannot be decoded.
-void KeepOpenTogether(const Sequence& sequence, SkeletonGraph& curves);
-
 }  // namespace curvefusion

@@ -9,7 +9,6 @@
 #include <opencv2/imgproc.hpp>
 
 #include "fusion/curve_graph/colour_candidates.h"
-#include "fusion/curve_graph/mesh_places.h"
 
 namespace curvefusion {
 
@@ -58,21 +57,6 @@ PosteriorImage Render(const std::vector<Polyline>& wires,
   return posterior;
 }
 
-// Of something everywhere so far away, or of a wall.
-void WriteDepth(double depth, bool is_wall, const PinholeCamera& camera,
-                const RigidTransform& T_world_camera, const std::filesystem::path& path) {
-  cv::Mat image(camera.height, camera.width, CV_16U);
-  const Vec3 from = T_world_camera.translation();
-  for (int v = 0; v < camera.height; ++v) {
-    for (int u = 0; u < camera.width; ++u) {
-      const Vec3 ray = T_world_camera.linear() * camera.Unproject(u, v, 1);
-      const double z = is_wall ? (depth - kDistance - from.z()) / ray.z() : depth;
-      image.at<uint16_t>(v, u) = cv::saturate_cast<uint16_t>(z * kDepthScale);
-    }
-  }
-  cv::imwrite(path.string(), image);
-}
-
 void WriteColor(const PosteriorImage& posterior, const std::filesystem::path& path) {
   cv::Mat image(posterior.height(), posterior.width(), CV_8UC3);
   for (int v = 0; v < posterior.height(); ++v) {
@@ -88,19 +72,21 @@ void WriteColor(const PosteriorImage& posterior, const std::filesystem::path& pa
 
 SilhouetteScan::SilhouetteScan(const std::vector<Polyline>& wires,
                                const std::vector<std::vector<Vec3>>& plates, double depth,
-                               double spread, bool is_wall) {
+                               double spread) {
   static int count = 0;
   folder_ = std::filesystem::temp_directory_path() /
             fmt::format("curvefusion_silhouettes_{}_{}", getpid(), ++count);
   std::filesystem::create_directories(folder_);
+  const std::filesystem::path depth_path = folder_ / "depth.png";
   sequence_.depth_camera = sequence_.color_camera = {320, 240, 480, 480, 159.5, 119.5};
   sequence_.depth_scale = kDepthScale;
+  cv::imwrite(depth_path.string(),
+              cv::Mat(240, 320, CV_16U, cv::Scalar(std::lround(depth * kDepthScale))));
   for (int row = 0; row < kRows; ++row) {
     for (int column = 0; column < kColumns; ++column) {
       SequenceFrame frame;
       frame.T_world_camera = Pose(row, column, spread);
-      frame.depth_path = folder_ / fmt::format("{}_{}_depth.png", row, column);
-      WriteDepth(depth, is_wall, sequence_.depth_camera, frame.T_world_camera, frame.depth_path);
+      frame.depth_path = depth_path;
       posteriors_.push_back(
           Render(wires, plates, sequence_.color_camera, frame.T_world_camera.inverse()));
       frame.color_path = folder_ / fmt::format("{}_{}.png", row, column);
@@ -132,10 +118,6 @@ StripViews SilhouetteScan::Strips(const SkeletonGraph& known,
   StripViews views(sequence_, frames_, posteriors_, box);
   views.ExplainAll(known);
   return views;
-}
-
-ObservedPoints SilhouetteScan::MeshPlaces(const Eigen::AlignedBox3d& bounds) const {
-  return FindMeshPlaces(sequence_, frames_, posteriors_, bounds, kTestRadius);
 }
 
 Polyline TestLine(const Vec3& a, const Vec3& b) { return Resample({a, b}, 0.002); }

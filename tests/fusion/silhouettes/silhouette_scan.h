@@ -17,13 +17,12 @@ inline constexpr double kTestRadius = 0.0025;
 
 /// Silhouettes of wires of 5 mm around the origin, seen by 24 cameras .6 m away, spread over 80
 /// degrees and 40 degrees, or a share of that. A plate is wire-coloured all over. Depth images show
-/// nothing, or something `depth` metres away everywhere; where `is_wall`, a wall so far before the
-/// middle of the cameras.
+/// nothing, or something `depth` metres away everywhere.
 class SilhouetteScan {
  public:
   explicit SilhouetteScan(const std::vector<Polyline>& wires,
                           const std::vector<std::vector<Vec3>>& plates = {}, double depth = 0,
-                          double spread = 1, bool is_wall = false);
+                          double spread = 1);
   ~SilhouetteScan();
   SilhouetteScan(const SilhouetteScan&) = delete;
   SilhouetteScan& operator=(const SilhouetteScan&) = delete;
@@ -37,9 +36,6 @@ class SilhouetteScan {
   /// Strips of the same images in colour, dark wires before something bright, around these curves,
   /// which explain theirs, and `around`.
   StripViews Strips(const SkeletonGraph& known, const Eigen::AlignedBox3d& around = {}) const;
-
-  /// FindMeshPlaces in the same images.
-  ObservedPoints MeshPlaces(const Eigen::AlignedBox3d& bounds) const;
 
  private:
   std::filesystem::path folder_;
