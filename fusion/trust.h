@@ -5,9 +5,6 @@
 
 namespace curvefusion {
 
-struct Sequence;
-struct Reconstruction;
-
 /// How far a result may be trusted. Shares are of the length of its curves.
 struct Trust {
   double length = 0;          ///< metres
@@ -28,9 +25,9 @@ struct Trust {
   bool is_judged() const { return length > 0; }
 };
 
-/// Adds shares and poses to result.trust, which holds what the adjustment to colours told. `given`
-/// has the poses of the input.
-Trust MeasureTrust(const Sequence& given, const Reconstruction& result);
+/// Whether so little of `length` metres of curve is wire that most of what looks like wires in that
+/// scan is none.
+bool IsHardlyWire(double wire_length, double length);
 
 /// Why the result cannot be trusted, a sentence each; empty where nothing speaks against it, or
 /// where there is no result.

@@ -230,8 +230,8 @@ void AddRequestOptions(CLI::App& command, ExperimentArguments& arguments) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command
       .add_option("--objects", arguments.request.objects,
-                  "Objects of the studies objects, bundle-size, comparisons and ablation, or "
-                  "families of the study families, separated by commas")
+                  "Objects of the studies objects, bundle-size and comparisons, or families of "
+                  "the studies families and ablation, separated by commas")
       ->delimiter(',');
   command
       .add_option(

@@ -1,5 +1,6 @@
-// What every deviation of the best profile from the paper is worth: each is switched off in turn.
-// Nothing is chosen by it, so that it may be reported on the test split too.
+// What every deviation of the best profile from the paper is worth on random scans of all families:
+// each is switched off in turn. Nothing is chosen by it, so that it may be reported on the test
+// split too.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -31,12 +32,12 @@ std::vector<Variant> Variants() {
 std::vector<StudyCase> Cases(const StudyRequest& request) {
   const std::vector<Variant> variants = Variants();
   std::vector<StudyCase> cases;
-  for (const std::string& object : ObjectsOf(request)) {
+  for (const std::string& family : FamiliesOf(request)) {
     for (const uint64_t seed : SeedsOf(request)) {
       for (const Variant& variant : variants) {
-        Labels labels = {{"object", object}};
+        Labels labels = {{"object", family}};
         labels.insert(labels.end(), variant.labels.begin(), variant.labels.end());
-        cases.push_back({labels, seed, ObjectScan(request, object, seed),
+        cases.push_back({labels, seed, FamilyScan(request, family, seed),
                          CaseConfig(request, Profile::kBest, variant.assignments)});
       }
     }

@@ -21,6 +21,7 @@ struct Panel {
   double least_range;
 };
 constexpr Panel kPanels[] = {{"F2 aligned", "F at 2 mm,\\naligned", 0.05},
+                             {"false length (m)", "False\\nlength, m", 0.05},
                              {"junction recall", "Junction\\nrecall", 0.05},
                              {"junction precision", "Junction\\nprecision", 0.05},
                              {"diameter error (mm)", "Diameter\\nerror, mm", 0.1},

@@ -13,8 +13,6 @@
 #include "experiments/studies/recordings.h"
 #include "experiments/studies/studies.h"
 #include "graph/io/graph_io.h"
-#include "kernel/error.h"
-#include "kernel/options.h"
 
 namespace curvefusion {
 
@@ -22,25 +20,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kQuickFrames = 60;
 constexpr int kPicture = 360;          // pixels
 constexpr double kFilled = 0.9;        // of a picture by the true object
 constexpr double kLowContrast = 0.12;  // chosen: a white wire before a middling grey wall is at .3,
 constexpr double kHighContrast = 0.3;  // one as different from it as wood from cardboard at .1
-
-std::vector<std::string> FamiliesOf(const StudyRequest& request) {
-  const std::vector<std::string> known = FamilyNames();
-  if (request.objects.empty()) {
-    if (request.quick) return {"cage", "tree", "cables", "furnished", "room"};
-    return known;
-  }
-  for (const std::string& family : request.objects) {
-    if (std::find(known.begin(), known.end(), family) != known.end()) continue;
-    throw Error(ErrorKind::kUsage, "there is no family " + family + "; did you mean " +
-                                       NearestName(family, known) + "?");
-  }
-  return request.objects;
-}
 
 std::string ContrastName(const SimulationOptions& scan) {
   const Scene scene =
@@ -54,8 +37,7 @@ std::string ContrastName(const SimulationOptions& scan) {
 void AddSimulatedCases(const StudyRequest& request, std::vector<StudyCase>& cases) {
   for (const std::string& family : FamiliesOf(request)) {
     for (const uint64_t seed : SeedsOf(request)) {
-      SimulationOptions scan = DrawScan(family, seed);
-      if (request.quick) scan.frames = std::min(scan.frames, kQuickFrames);
+      const SimulationOptions scan = FamilyScan(request, family, seed);
       const std::string contrast = ContrastName(scan);
       for (const Profile profile : request.profiles) {
         const Labels labels = {{"family", family},

@@ -13,9 +13,13 @@ constexpr const char* kNothing = "nothing found";
 std::optional<double> ValueOf(const StudyRun& run, const HeadlineFigure& figure) {
   const auto found = run.figures.find(figure.figure);
   if (found != run.figures.end()) return found->second;
-  // F has no value where there is no precision; such a result is worth nothing all the same.
-  const bool is_f = figure.figure.ends_with(".f");
-  return run.outcome == kNothing && is_f ? std::optional(0.0) : std::nullopt;
+  // F has no value where there is no precision; such a result is worth nothing all the same. Of a
+  // room without wires it is all that is wanted.
+  const auto true_length = run.figures.find("true_length");
+  const bool has_wires = true_length == run.figures.end() || true_length->second > 0;
+  const bool counts =
+      (figure.figure.ends_with(".f") && has_wires) || figure.figure.ends_with(".false_length");
+  return run.outcome == kNothing && counts ? std::optional(0.0) : std::nullopt;
 }
 
 std::optional<double> MeanOfMedians(const RunGroup& group, const HeadlineFigure& figure) {
@@ -58,6 +62,9 @@ const std::vector<HeadlineFigure>& HeadlineFigures() {
       {.name = "F2 aligned", .figure = "aligned.curves.2mm.f"},
       {.name = "F2 raw", .figure = "raw.curves.2mm.f"},
       {.name = "F1 aligned", .figure = "aligned.curves.1mm.f"},
+      {.name = "false length (m)",
+       .figure = "aligned.curves.false_length",
+       .more_is_better = false},
       {.name = "junction recall",
        .pooling = Pooling::kRatioOfSums,
        .figure = "aligned.junctions_10mm.matched",

@@ -26,7 +26,7 @@ struct HeadlineFigure {
   bool is_cost = false;  ///< depends on the machine
 };
 
-/// F within 5, 2 and 1 mm, junctions within 10 mm, cycles, diameters, cost.
+/// F within 5, 2 and 1 mm, false length, junctions within 10 mm, cycles, diameters, cost.
 const std::vector<HeadlineFigure>& HeadlineFigures();
 
 /// Where the figure of that name stands in HeadlineFigures(); there must be one.
@@ -37,7 +37,8 @@ size_t HeadlineIndex(const std::string& name);
 std::optional<double> HeadlineValue(const RunGroup& group, const HeadlineFigure& figure);
 
 /// Their values for a group of runs, in that order; none where no run has the figure. A result
-/// without any curve counts with F = 0; failed runs are left out.
+/// without any curve counts with F = 0 where there are wires, and with no false length; failed runs
+/// are left out.
 std::vector<std::optional<double>> HeadlineValues(const RunGroup& group);
 
 /// Appends a column for every headline figure to a table that has a row a group;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "experiments/simulation/families/scan_draw.h"
 #include "kernel/error.h"
 #include "kernel/options.h"
 
@@ -15,6 +16,17 @@ constexpr int kQuickFrames = 60;
 constexpr int kSeeds = 3;
 // Of train, validation and test: apart by more than the 99 seeds that may be asked for.
 constexpr uint64_t kFirstSeeds[] = {1, 201, 101};
+
+// The names asked for. Throws Error(kUsage) for the first that is not known.
+std::vector<std::string> KnownNames(const std::vector<std::string>& asked,
+                                    const std::vector<std::string>& known, const char* kind) {
+  for (const std::string& name : asked) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    throw Error(ErrorKind::kUsage, std::string("there is no ") + kind + " " + name +
+                                       "; did you mean " + NearestName(name, known) + "?");
+  }
+  return asked;
+}
 
 }  // namespace
 
@@ -43,13 +55,22 @@ std::vector<std::string> ObjectsOf(const StudyRequest& request) {
     if (request.quick) return {"cat", "deco"};
     return {"dish", "cage", "cat", "deco", "hanger", "rack", "chair", "wine"};
   }
-  const std::vector<std::string> known = ObjectNames();
-  for (const std::string& object : request.objects) {
-    if (std::find(known.begin(), known.end(), object) != known.end()) continue;
-    throw Error(ErrorKind::kUsage, "there is no object " + object + "; did you mean " +
-                                       NearestName(object, known) + "?");
+  return KnownNames(request.objects, ObjectNames(), "object");
+}
+
+std::vector<std::string> FamiliesOf(const StudyRequest& request) {
+  if (request.objects.empty()) {
+    if (request.quick) return {"cage", "tree", "cables", "furnished", "room"};
+    return FamilyNames();
   }
-  return request.objects;
+  return KnownNames(request.objects, FamilyNames(), "family");
+}
+
+SimulationOptions FamilyScan(const StudyRequest& request, const std::string& family,
+                             uint64_t seed) {
+  SimulationOptions scan = DrawScan(family, seed);
+  if (request.quick) scan.frames = std::min(scan.frames, kQuickFrames);
+  return scan;
 }
 
 SimulationOptions ObjectScan(const StudyRequest& request, const std::string& object,

@@ -33,7 +33,7 @@ struct StudyRequest {
   int seeds = 0;  ///< how many; 0 = 3, or 1 of a quick study
   Split split = Split::kTrain;
   std::vector<std::string> assignments;      ///< "section.key=value" for the config of every case
-  std::vector<std::string> objects;          ///< of studies of the paper's objects; empty = theirs
+  std::vector<std::string> objects;          ///< objects or families; empty = those of the study
   std::vector<std::filesystem::path> scans;  ///< folders of scans for `check` and `families`
   std::filesystem::path data;                ///< whose sim/ and real/ hold more for `families`
 };
@@ -48,6 +48,13 @@ std::vector<std::string> ObjectsOf(const StudyRequest& request);
 /// The scan of an object that studies of the paper's objects look at: a Kinect V1 with the poses of
 /// ORB-SLAM2, 150 frames, or 60 of a quick study.
 SimulationOptions ObjectScan(const StudyRequest& request, const std::string& object, uint64_t seed);
+
+/// The families of random scans a request asks for: otherwise all, or five of a quick study. Throws
+/// Error(kUsage) naming the nearest one for a family that does not exist.
+std::vector<std::string> FamiliesOf(const StudyRequest& request);
+
+/// The random scan of a family that studies look at: 60 frames at most of a quick study.
+SimulationOptions FamilyScan(const StudyRequest& request, const std::string& family, uint64_t seed);
 
 /// The config of a case: the profile's, with the request's assignments, then `more`.
 Config CaseConfig(const StudyRequest& request, Profile profile,

@@ -9,6 +9,7 @@
 #include "fusion/best/colour_fit.h"
 #include "fusion/best/colour_stages.h"
 #include "fusion/best/contraction_space.h"
+#include "fusion/best/measure_trust.h"
 #include "fusion/best/scale_of_poses.h"
 #include "fusion/best/weak_colour.h"
 #include "fusion/registration/axis_correction.h"

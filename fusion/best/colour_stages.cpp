@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>
@@ -29,6 +30,8 @@ constexpr const char* kImagesDoNotTell =
     "skipped: the images do not show the curves as wire throughout";
 // Chosen: before poses and curves are adjusted to colours more is given the benefit of the doubt.
 constexpr double kHardlyAWire = 0.4;  // times evidence.min_probability
+// The least probability where most candidates are no wires.
+constexpr double kRatherAWire = 0.5;
 // Measured: 1.7 to 4.7 where depth shows wires in their places, 5.7 and more with time of flight
 // (docs/wires_from_colour.md); 19 of a cable by a D400 from .3 m, where colour's curves are not
 // taken (docs/lab_notebook.md).
@@ -246,16 +249,16 @@ void RefineByColour(const Sequence& given, const LearnedWires& wires, RunSize si
   AdjustmentStart start = {CameraPoses(given), PoseErrors::kDrift,
                            given.has_depth ? WireDepth::kShown : WireDepth::kNotShown,
                            wires.colours.posterior};
-  const auto keep_proven = [&](const std::string& name, double share) {
-    const double min_probability = share * options.evidence.min_probability;
+  const double min_probability = options.evidence.min_probability;
+  const auto keep_proven = [&](const std::string& name, double least) {
     // Depth that does not show wires says nothing for or against them.
     const int depth_images = start.depth == WireDepth::kShown ? options.evidence.max_frames : 0;
-    if (KeepProvenWires(name, min_probability, depth_images, reporter, result)) measure_radii();
+    if (KeepProvenWires(name, least, depth_images, reporter, result)) measure_radii();
   };
   TellPlan(size, options, reporter, result);
   measure_radii();
   // Nothing is to be added to what is hardly a wire.
-  keep_proven("evidence_before_colour", kHardlyAWire);
+  keep_proven("evidence_before_colour", kHardlyAWire * min_probability);
   std::optional<ColourAdjustment> adjusted =
       AdjustCurvesAndPoses(start, options.colour_adjustment, reporter, result);
   StartFromColourWhereDepthFails(given, wires.colours, size, options, reporter, start, adjusted,
@@ -268,7 +271,11 @@ void RefineByColour(const Sequence& given, const LearnedWires& wires, RunSize si
     PruneUnadjusted(wires.colours, options.silhouettes, reporter, result);
   }
   measure_radii();
-  keep_proven("evidence", 1);
+  keep_proven("evidence", min_probability);
+  if (min_probability > 0 &&
+      IsHardlyWire(result.trust.wire_length, result.skeleton.TotalLength())) {
+    keep_proven("evidence_where_few_are_wires", std::max(min_probability, kRatherAWire));
+  }
   if (adjusted) {
     adjusted.reset();  // its images are not needed any more
     CompleteByColour(start, std::move(strips), wires.array_diameter, size, options, reporter,

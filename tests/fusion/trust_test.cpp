@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 
+#include "fusion/best/measure_trust.h"
 #include "fusion/pipeline.h"
 
 namespace curvefusion {
@@ -67,6 +68,12 @@ TEST(Trust, TellsHowFarPosesWereMoved) {
   EXPECT_NEAR(trust.pose_shift, 0.003, 1e-12);
   EXPECT_NEAR(trust.max_pose_shift, 0.008, 1e-12);
   EXPECT_NEAR(trust.pose_turn, 0.01, 1e-9);
+}
+
+TEST(Trust, IsHardlyWireWhereLittleMoreThanHalfIs) {
+  EXPECT_TRUE(IsHardlyWire(0.5, 1));
+  EXPECT_FALSE(IsHardlyWire(0.6, 1));
+  EXPECT_FALSE(IsHardlyWire(0, 0));  // there is nothing
 }
 
 TEST(Trust, IsDoubtedWhereMuchIsHardlyAWire) {

@@ -7,6 +7,8 @@
 #include <set>
 
 #include "experiments/config.h"
+#include "experiments/simulation/families/scan_draw.h"
+#include "experiments/studies/studies.h"
 
 namespace curvefusion {
 namespace {
@@ -102,6 +104,16 @@ TEST(Ablations, PartsAndFixedOnesExist) {
   for (const FixedDeviation& fixed : FixedDeviations()) {
     ASSERT_EQ(best.count(fixed.option), 1u) << fixed.option;
   }
+}
+
+TEST(Ablations, AreRunOnScansOfEveryFamily) {
+  std::set<std::string> families;
+  const auto cases = AblationStudy().cases({.seeds = 1});
+  for (const StudyCase& study_case : cases) families.insert(study_case.scan->object);
+  EXPECT_EQ(cases.size(), FamilyNames().size() * (Ablations().size() + 1));
+  std::set<std::string> drawn;
+  for (const std::string& family : FamilyNames()) drawn.insert(DrawScan(family, 1).object);
+  EXPECT_EQ(families, drawn);
 }
 
 TEST(Ablations, NamesAreUnique) {

@@ -51,6 +51,21 @@ TEST(HeadlineFigures, NothingFoundIsWorthNothingButFailedRunsAreLeftOut) {
   EXPECT_EQ(*Value({RunOf("a", 1, half), RunOf("b", 1, {}, "failed")}, "F5 aligned"), 0.5);
 }
 
+TEST(HeadlineFigures, NothingIsWhatIsWantedOfARoomWithoutWires) {
+  const Figures wires = {{"true_length", 2}, {"aligned.curves.5mm.f", 0.5}};
+  const std::vector<StudyRun> runs = {RunOf("a", 1, wires),
+                                      RunOf("room", 1, {{"true_length", 0}}, "nothing found")};
+  EXPECT_EQ(*Value(runs, "F5 aligned"), 0.5);
+}
+
+TEST(HeadlineFigures, FalseLengthIsThatOfRoomsToo) {
+  const std::string length = "aligned.curves.false_length";
+  const std::vector<StudyRun> runs = {RunOf("a", 1, {{length, 0.3}}),
+                                      RunOf("room", 1, {{"true_length", 0}}, "nothing found"),
+                                      RunOf("chair", 1, {}, "failed")};
+  EXPECT_NEAR(*Value(runs, "false length (m)"), 0.15, 1e-12);
+}
+
 TEST(HeadlineFigures, ChangesNeedBothSides) {
   const auto changes = ChangesOf({1, 2, std::nullopt}, {3, std::nullopt, 4});
   EXPECT_EQ(changes, (std::vector<std::optional<double>>{2, std::nullopt, std::nullopt}));
