@@ -17,14 +17,18 @@ constexpr int kSeeds = 3;
 // Of train, validation and test: apart by more than the 99 seeds that may be asked for.
 constexpr uint64_t kFirstSeeds[] = {1, 201, 101};
 
+// Where a name stands among the known ones. Throws Error(kUsage) naming the nearest for another.
+size_t PlaceOf(const std::string& name, const std::vector<std::string>& known, const char* kind) {
+  const auto found = std::find(known.begin(), known.end(), name);
+  if (found != known.end()) return static_cast<size_t>(found - known.begin());
+  throw Error(ErrorKind::kUsage, std::string("there is no ") + kind + " " + name +
+                                     "; did you mean " + NearestName(name, known) + "?");
+}
+
 // The names asked for. Throws Error(kUsage) for the first that is not known.
 std::vector<std::string> KnownNames(const std::vector<std::string>& asked,
                                     const std::vector<std::string>& known, const char* kind) {
-  for (const std::string& name : asked) {
-    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-    throw Error(ErrorKind::kUsage, std::string("there is no ") + kind + " " + name +
-                                       "; did you mean " + NearestName(name, known) + "?");
-  }
+  for (const std::string& name : asked) PlaceOf(name, known, kind);
   return asked;
 }
 
@@ -35,11 +39,7 @@ std::vector<std::string> SplitNames() { return {"train", "validation", "test"}; 
 std::string SplitName(Split split) { return SplitNames()[static_cast<size_t>(split)]; }
 
 Split SplitNamed(const std::string& name) {
-  const std::vector<std::string> names = SplitNames();
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found != names.end()) return static_cast<Split>(found - names.begin());
-  throw Error(ErrorKind::kUsage,
-              "there is no split " + name + "; did you mean " + NearestName(name, names) + "?");
+  return static_cast<Split>(PlaceOf(name, SplitNames(), "split"));
 }
 
 std::vector<uint64_t> SeedsOf(const StudyRequest& request) {

@@ -134,6 +134,7 @@ std::vector<PlannedStage> BestStages(const Costs& costs, const RunSize& size, bo
   Append(costs.ByColour(), size.by_colour ? 1 : 0, plan);
   Append({costs.Strips(), costs.Silhouettes(), costs.Radius(), costs.Evidence(), radii_again}, 1,
          plan);
+  Append({{"evidence again", 0}, radii_again}, 1, plan);  // where few are wires
   double probability = 1;
   for (int round = 0; round < kColourRounds; ++round) {
     Append({costs.Wires(), costs.Radius()}, probability, plan);

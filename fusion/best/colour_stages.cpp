@@ -30,7 +30,7 @@ constexpr const char* kImagesDoNotTell =
     "skipped: the images do not show the curves as wire throughout";
 // Chosen: before poses and curves are adjusted to colours more is given the benefit of the doubt.
 constexpr double kHardlyAWire = 0.4;  // times evidence.min_probability
-// The least probability where most candidates are no wires.
+// Derived: where most candidates are no wires, what stays is more likely one than not.
 constexpr double kRatherAWire = 0.5;
 // Measured: 1.7 to 4.7 where depth shows wires in their places, 5.7 and more with time of flight
 // (docs/wires_from_colour.md); 19 of a cable by a D400 from .3 m, where colour's curves are not
@@ -41,9 +41,9 @@ constexpr double kLittle = 0.01;  // of the length; less is not worth another ro
 // Thin by proof: what is a wire with less than `min_probability` leaves the result, by so many
 // depth images at most and the strips of all radii, which come before. Whether any wire left: then
 // edges were cut, and radii are to be measured again.
-bool KeepProvenWires(const std::string& name, double min_probability, int depth_images,
-                     const StageReporter& reporter, Reconstruction& result) {
-  const StageLog::Timer timer = reporter.Begin("evidence");
+bool KeepProvenWires(const std::string& stage, const std::string& name, double min_probability,
+                     int depth_images, const StageReporter& reporter, Reconstruction& result) {
+  const StageLog::Timer timer = reporter.Begin(stage);
   const double uncertain = result.uncertain.lengths.Sum();
   const std::vector<StretchEvidence> evidence =
       CollectEvidence(result.skeleton, result.radii, result.sequence, depth_images);
@@ -53,7 +53,7 @@ bool KeepProvenWires(const std::string& name, double min_probability, int depth_
   result.trust.wire_length =
       KeepProven(evidence, proofs, min_probability, result.skeleton, result.uncertain);
   result.funnel.curves.unproven = result.uncertain.lengths;
-  reporter.log.Count("evidence", "uncertain, m", result.uncertain.lengths.Sum());
+  reporter.log.Count(stage, "uncertain, m", result.uncertain.lengths.Sum());
   return result.uncertain.lengths.Sum() > uncertain;
 }
 
@@ -250,15 +250,15 @@ void RefineByColour(const Sequence& given, const LearnedWires& wires, RunSize si
                            given.has_depth ? WireDepth::kShown : WireDepth::kNotShown,
                            wires.colours.posterior};
   const double min_probability = options.evidence.min_probability;
-  const auto keep_proven = [&](const std::string& name, double least) {
+  const auto keep_proven = [&](const std::string& stage, const std::string& name, double least) {
     // Depth that does not show wires says nothing for or against them.
     const int depth_images = start.depth == WireDepth::kShown ? options.evidence.max_frames : 0;
-    if (KeepProvenWires(name, least, depth_images, reporter, result)) measure_radii();
+    if (KeepProvenWires(stage, name, least, depth_images, reporter, result)) measure_radii();
   };
   TellPlan(size, options, reporter, result);
   measure_radii();
   // Nothing is to be added to what is hardly a wire.
-  keep_proven("evidence_before_colour", kHardlyAWire * min_probability);
+  keep_proven("evidence", "evidence_before_colour", kHardlyAWire * min_probability);
   std::optional<ColourAdjustment> adjusted =
       AdjustCurvesAndPoses(start, options.colour_adjustment, reporter, result);
   StartFromColourWhereDepthFails(given, wires.colours, size, options, reporter, start, adjusted,
@@ -271,10 +271,10 @@ void RefineByColour(const Sequence& given, const LearnedWires& wires, RunSize si
     PruneUnadjusted(wires.colours, options.silhouettes, reporter, result);
   }
   measure_radii();
-  keep_proven("evidence", min_probability);
+  keep_proven("evidence", "evidence", min_probability);
   if (min_probability > 0 &&
       IsHardlyWire(result.trust.wire_length, result.skeleton.TotalLength())) {
-    keep_proven("evidence_where_few_are_wires", std::max(min_probability, kRatherAWire));
+    keep_proven("evidence again", "evidence_again", std::max(min_probability, kRatherAWire));
   }
   if (adjusted) {
     adjusted.reset();  // its images are not needed any more

@@ -9,6 +9,7 @@
 #include "experiments/simulation/families/scan_draw.h"
 #include "experiments/simulation/simulate.h"
 #include "fusion/pipeline.h"
+#include "tests/fusion/plan_follower.h"
 #include "tests/temporary_path.h"
 
 namespace curvefusion {
@@ -23,10 +24,11 @@ TEST(RoomWithoutWires, GivesWhatIsRatherNoWireAsUncertain) {
   SimulateScan(scan, folder, NoProgress);
   Sequence sequence = OpenSequence(folder);
   UseFittedColourCamera(sequence);  // as the command does
-  PipelineObserver silent;
-  const Reconstruction result = Reconstruct(sequence, ProfileOptions(Profile::kBest), silent);
+  PlanFollower follower;
+  const Reconstruction result = Reconstruct(sequence, ProfileOptions(Profile::kBest), follower);
   EXPECT_EQ(result.skeleton.TotalLength(), 0);
   EXPECT_GT(result.uncertain.graph.TotalLength(), 0.1);
+  EXPECT_EQ(follower.unplanned, std::vector<std::string>());
   std::filesystem::remove_all(folder);
 }
 
