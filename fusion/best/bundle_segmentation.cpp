@@ -87,8 +87,9 @@ void SegmentBundles(const Sequence& sequence, const TsdfVolume& volume, BundleRa
                     const BundleSink& sink) {
   const SegmentationModel model =
       LearnSegmentationOfRun(sequence, volume, options.segmentation, reporter);
-  sink.on_learned({FiguresOf(volume, FramesInVolume(sequence, options)),
-                   {model.frame_stride, model.array_spacing, model.array_diameter, model.colours}});
+  sink.on_learned(
+      {FiguresOf(volume, FramesInVolume(sequence, options)),
+       {model.frame_stride, model.array_spacing, model.array_diameter, model.colours, model.nets}});
   const StageLog::Timer timer(reporter.log, "segmentation");
   const FrameRanges ranges = FramesOf(sequence, range, options);
   StageProgress progress(reporter.observer, "segmentation",
@@ -117,6 +118,8 @@ SegmentedScan GatherBundles(const BundleSource& source, const Sequence& sequence
   source({[&](const LearnedScan& learned) {
             scan.wires = learned.wires;
             count("spacing in wire arrays, mm", scan.wires.array_spacing / kMillimetre);
+            count("cells of nets", static_cast<double>(scan.wires.nets.cells.size()));
+            count("spacing in nets, mm", scan.wires.nets.spacing / kMillimetre);
             count("frame stride", scan.wires.frame_stride);
           },
           [&](const SegmentedBundle& bundle) {

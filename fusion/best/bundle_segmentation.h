@@ -32,6 +32,7 @@ struct LearnedWires {
   double array_spacing = 0;   ///< of the wires of wire arrays, metres; 0 where there are none
   double array_diameter = 0;  ///< of their wires, metres, roughly
   WireColours colours;
+  Nets nets;
 };
 
 /// What has been learned of all frames: the same, whichever bundles are segmented.

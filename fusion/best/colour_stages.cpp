@@ -38,15 +38,31 @@ constexpr double kRatherAWire = 0.5;
 constexpr double kWrongScatter = 5;
 constexpr double kLittle = 0.01;  // of the length; less is not worth another round
 
+// Depth shows a net as one surface: that it goes on beside a curve says nothing there.
+void DisregardNets(const Nets& nets, const SkeletonGraph& skeleton,
+                   std::vector<StretchEvidence>& evidence) {
+  if (nets.empty()) return;
+  for (StretchEvidence& stretch : evidence) {
+    const Polyline& points = skeleton.edge(stretch.edge).points;
+    size_t inside = 0;
+    for (size_t i = stretch.part.first; i <= stretch.part.last; ++i)
+      inside += nets.Contains(points[i]);
+    const auto count = static_cast<double>(stretch.part.last - stretch.part.first + 1);
+    stretch.same *= 1 - static_cast<double>(inside) / count;
+  }
+}
+
 // Thin by proof: what is a wire with less than `min_probability` leaves the result, by so many
 // depth images at most and the strips of all radii, which come before. Whether any wire left: then
 // edges were cut, and radii are to be measured again.
 bool KeepProvenWires(const std::string& stage, const std::string& name, double min_probability,
-                     int depth_images, const StageReporter& reporter, Reconstruction& result) {
+                     int depth_images, const Nets& nets, const StageReporter& reporter,
+                     Reconstruction& result) {
   const StageLog::Timer timer = reporter.Begin(stage);
   const double uncertain = result.uncertain.lengths.Sum();
-  const std::vector<StretchEvidence> evidence =
+  std::vector<StretchEvidence> evidence =
       CollectEvidence(result.skeleton, result.radii, result.sequence, depth_images);
+  DisregardNets(nets, result.skeleton, evidence);
   reporter.observer.OnEvidence(name, result.skeleton, evidence);
   const std::vector<WireProof> proofs =
       ProveWires(result.skeleton, evidence, result.uncertain.beside_kept);
@@ -253,7 +269,8 @@ void RefineByColour(const Sequence& given, const LearnedWires& wires, RunSize si
   const auto keep_proven = [&](const std::string& stage, const std::string& name, double least) {
     // Depth that does not show wires says nothing for or against them.
     const int depth_images = start.depth == WireDepth::kShown ? options.evidence.max_frames : 0;
-    if (KeepProvenWires(stage, name, least, depth_images, reporter, result)) measure_radii();
+    if (KeepProvenWires(stage, name, least, depth_images, wires.nets, reporter, result))
+      measure_radii();
   };
   TellPlan(size, options, reporter, result);
   measure_radii();

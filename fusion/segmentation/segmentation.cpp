@@ -198,6 +198,19 @@ bool LearnWireArrays(const Sequence& sequence, const SegmentationOptions& option
   return true;
 }
 
+// Adds the wires of nets, which depth shows as one surface; what each frame saw goes to `frames`.
+// Pixels count as on an edge: it is colour that found them.
+void AddNetWires(const Sequence& sequence, int first, int last, const Nets& nets,
+                 const RigidTransform& T_bundle_world, BundleDifferenceSet& difference_set,
+                 std::vector<int>& frames) {
+  if (nets.empty()) return;
+  for (const NetWires& wires : FindNetWires(sequence, first, last, nets)) {
+    difference_set.AddFrame(wires.mask, wires.mask, wires.depth, sequence.depth_camera,
+                            T_bundle_world * wires.T_world_camera);
+    frames.push_back(wires.frame);
+  }
+}
+
 }  // namespace
 
 void VisitOptions(SegmentationOptions& options, OptionVisitor& visitor) {
@@ -216,10 +229,11 @@ void VisitOptions(SegmentationOptions& options, OptionVisitor& visitor) {
                  "rendered belong to the set; 0 = never."},
                 options.min_measured_share);
   VisitOptions(options.gate, visitor);
-  visitor.Visit({"max_array_spacing", "m", 0, 0.1,
-                 "Deviation: surfaces that float in space and have straight stripes of wire colour "
-                 "no farther apart than this are wire arrays; 0 = not asked."},
-                options.max_array_spacing);
+  visitor.Visit(
+      {"max_array_spacing", "m", 0, 0.1,
+       "Deviation: surfaces that float in space and have straight stripes of wire colour "
+       "no farther apart than this are wire arrays; 0 = neither these nor nets are sought."},
+      options.max_array_spacing);
   visitor.Visit(
       {"max_frame_points", "points", 0, 1000000,
        "Deviation: where the frames of a video show more points of wires than this, on "
@@ -254,6 +268,7 @@ SegmentationModel LearnSegmentation(const Sequence& sequence, const TsdfVolume& 
     candidates = CandidatesOf(sequence, frames, volume, model, options);
   }
   model.colours = LearnWireColours(candidates, sequence, options.gate);
+  if (options.max_array_spacing > 0) model.nets = FindNets(sequence);
   if (options.max_frame_points > 0 && IsVideo(sequence) &&
       PointsPerFrame(sequence, model.colours, options, candidates) > options.max_frame_points) {
     model.frame_stride = kCrowdedStride;
@@ -289,6 +304,8 @@ SegmentedBundle SegmentBundle(const Sequence& sequence, int first, int last,
           segmented.T_world_bundle.inverse() * sequence.frames[at_once[i]].T_world_camera);
     }
   }
+  AddNetWires(sequence, first, last, model.nets, segmented.T_world_bundle.inverse(), difference_set,
+              frames);
   BundlePoints candidates = difference_set.Points();
   PointFunnel& funnel = segmented.funnel;
   funnel.merged_points = static_cast<int64_t>(difference_set.voxel_count());
@@ -297,8 +314,7 @@ SegmentedBundle SegmentBundle(const Sequence& sequence, int first, int last,
   funnel.points = static_cast<int64_t>(remaining.points.size());
   std::vector<ObservedPoints> seen = difference_set.FramePoints(remaining.voxels);
   segmented.frames.resize(last - first);
-  for (size_t i = 0; i < frames.size(); ++i)
-    segmented.frames[frames[i] - first] = std::move(seen[i]);
+  for (size_t i = 0; i < frames.size(); ++i) Append(segmented.frames[frames[i] - first], seen[i]);
   segmented.difference_set = std::move(candidates.points);
   segmented.points = std::move(remaining.points);
   return segmented;

@@ -5,6 +5,7 @@
 
 #include "capture/sequence.h"
 #include "fusion/funnel.h"
+#include "fusion/nets/net_wires.h"
 #include "fusion/segmentation/bundle.h"
 #include "fusion/segmentation/colour_gate.h"
 #include "fusion/segmentation/colour_verification.h"
@@ -43,6 +44,7 @@ struct SegmentationModel {
   double array_spacing = 0;   ///< of their wires, metres; 0 where there are none
   double array_diameter = 0;  ///< of their wires, metres, roughly
   WireColours colours;
+  Nets nets;
 };
 
 /// Learns it from frames spread over the sequence, against the volume of all frames.

@@ -24,7 +24,7 @@ namespace {
 
 constexpr std::string_view kBegin = "CFSHARD\n";
 constexpr std::string_view kEnd = "CFSHEND\n";
-constexpr uint32_t kVersion = 1;
+constexpr uint32_t kVersion = 2;
 constexpr uint64_t kTrailerBytes = 16;  // kEnd and the checksum
 constexpr uint64_t kPointBytes = 2 * sizeof(Vec3) + sizeof(float);
 
@@ -66,6 +66,11 @@ void PutLearned(const LearnedScan& learned, ShardFields& fields) {
   fields.Put(wires.colours.shift_px.y());
   fields.Put(static_cast<uint64_t>(wires.colours.posterior.size()));
   fields.PutBytes(wires.colours.posterior.data(), wires.colours.posterior.size());
+  fields.Put(wires.nets.spacing);
+  fields.Put(wires.nets.noise);
+  fields.Put(static_cast<uint64_t>(wires.nets.cells.size()));
+  for (const VoxelKey& cell : wires.nets.cells)
+    for (const int32_t number : {cell.x, cell.y, cell.z}) fields.Put(number);
 }
 
 void PutPoints(const ObservedPoints& points, ShardFields& fields) {
@@ -222,6 +227,13 @@ LearnedScan NextLearned(ShardReader& reader) {
   reader.fields().Read(posterior.data(), posterior.size());
   reader.Require(posterior.empty() || posterior.size() == WireColourModel().Posterior().size(),
                  "another number of colours");
+  wires.nets.spacing = reader.NextFinite();
+  wires.nets.noise = reader.NextFinite();
+  wires.nets.cells.resize(reader.NextCount(3 * sizeof(int32_t)));
+  for (VoxelKey& cell : wires.nets.cells)
+    for (int* number : {&cell.x, &cell.y, &cell.z}) *number = reader.fields().Next<int32_t>();
+  reader.Require(std::is_sorted(wires.nets.cells.begin(), wires.nets.cells.end()),
+                 "cells of nets out of order");
   return learned;
 }
 

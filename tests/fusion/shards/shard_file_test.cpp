@@ -111,10 +111,10 @@ TEST_F(ShardFile, EveryFlippedBitIsFound) {
 TEST_F(ShardFile, AnotherVersionAndOtherFilesAreNamed) {
   const fs::path file = Write({1, 3});
   std::string bytes = Bytes(file);
-  bytes[8] = 2;
+  bytes[8] = 1;
   Sign(bytes);
   WriteBytes(file, bytes);
-  EXPECT_THAT(Refusal([&] { OpenShard(file); }), HasSubstr("version 2"));
+  EXPECT_THAT(Refusal([&] { OpenShard(file); }), HasSubstr("version 1"));
   WriteBytes(file, "{}");
   EXPECT_THAT(Refusal([&] { OpenShard(file); }), HasSubstr("is no shard"));
   EXPECT_THAT(Refusal([&] { OpenShard(folder_ / "none"); }), HasSubstr("is not there"));

@@ -52,6 +52,7 @@ class ShardFixture : public testing::Test {
     learned.volume = {50, 1234, 5678910};
     learned.wires = {2, 0.1 / 3, 1e-310, {std::vector<uint8_t>(24 * 24 * 24, 7), {-0.0, 1.0 / 7}}};
     learned.wires.colours.posterior[5] = 255;
+    learned.wires.nets = {{{-3, 0, 7}, {2, 1, -1}}, 0.1 / 7, 1.0 / 3};
     return learned;
   }
 
