@@ -117,20 +117,15 @@ ObservedPoints LargestBundle(const SegmentedScan& scan) {
   return largest == scan.bundles.end() ? ObservedPoints{} : *largest;
 }
 
-// Between wires that stand too close for depth, metres; 0 where there are none.
-double ClosestSpacing(const LearnedWires& wires) {
-  const double array = wires.array_spacing, net = wires.nets.spacing;
-  return array > 0 && net > 0 ? std::min(array, net) : std::max(array, net);
-}
-
 // Bundles, then single frames, are registered to the curves they see; their points
 // are carried along and contracted once. Where noise blurs the curves, single frames would be
 // registered to noise: they keep the poses of their bundles.
 void ContractCarriedPoints(SegmentedScan scan, const BestOptions& options,
                            const StageReporter& reporter, Reconstruction& result) {
-  const ContractionSpace space = {
-      Magnification(ClosestSpacing(scan.wires), options.resolved_spacing),
-      RayNoiseRatio(LargestBundle(scan), options.min_linearity)};
+  // Nets are sought only where there are no arrays.
+  const double spacing = std::max(scan.wires.array_spacing, scan.wires.nets.spacing);
+  const ContractionSpace space = {Magnification(spacing, options.resolved_spacing),
+                                  RayNoiseRatio(LargestBundle(scan), options.min_linearity)};
   const RidgeProjectionOptions ridges =
       ForCloseWires(options.ridge.projection, space.magnification);
   const RegisteredBundles bundles = RegisterBundles(scan, ridges, options, reporter);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "kernel/geometry.h"
 #include "kernel/image.h"
 
 namespace curvefusion {
@@ -14,13 +15,12 @@ class BoxSums {
   explicit BoxSums(const Image<float>& values)
       : width_(values.width()),
         height_(values.height()),
-        sums_(static_cast<size_t>(width_ + 1) * (height_ + 1)) {
+        sums_(static_cast<size_t>(width_ + 1) * (height_ + 1), Vec2::Zero()) {
     for (int v = 0; v < height_; ++v) {
-      Sum row;
+      Vec2 row = Vec2::Zero();
       for (int u = 0; u < width_; ++u) {
-        if (values(u, v) >= 0) row += {values(u, v), 1};
-        At(u + 1, v + 1) = At(u + 1, v);
-        At(u + 1, v + 1) += row;
+        if (values(u, v) >= 0) row += Vec2(values(u, v), 1);
+        At(u + 1, v + 1) = At(u + 1, v) + row;
       }
     }
   }
@@ -29,27 +29,17 @@ class BoxSums {
   float Mean(int u, int v, int reach) const {
     const int u0 = std::clamp(u - reach, 0, width_), u1 = std::clamp(u + reach + 1, 0, width_);
     const int v0 = std::clamp(v - reach, 0, height_), v1 = std::clamp(v + reach + 1, 0, height_);
-    const Sum &a = At(u0, v0), &b = At(u1, v0), &c = At(u0, v1), &d = At(u1, v1);
-    const double count = d.count - b.count - c.count + a.count;
-    if (!(count > 0)) return -1;
-    return static_cast<float>(std::max(0.0, d.value - b.value - c.value + a.value) / count);
+    const Vec2 sum = At(u1, v1) - At(u1, v0) - At(u0, v1) + At(u0, v0);
+    if (!(sum.y() > 0)) return -1;
+    return static_cast<float>(std::max(0.0, sum.x()) / sum.y());
   }
 
  private:
-  struct Sum {
-    double value = 0;
-    double count = 0;
-    Sum& operator+=(const Sum& other) {
-      value += other.value;
-      count += other.count;
-      return *this;
-    }
-  };
-  Sum& At(int u, int v) { return sums_[static_cast<size_t>(v) * (width_ + 1) + u]; }
-  const Sum& At(int u, int v) const { return sums_[static_cast<size_t>(v) * (width_ + 1) + u]; }
+  Vec2& At(int u, int v) { return sums_[static_cast<size_t>(v) * (width_ + 1) + u]; }
+  const Vec2& At(int u, int v) const { return sums_[static_cast<size_t>(v) * (width_ + 1) + u]; }
 
   int width_, height_;
-  std::vector<Sum> sums_;  ///< of all pixels above and to the left
+  std::vector<Vec2> sums_;  ///< of values and their number, of all pixels above and to the left
 };
 
 }  // namespace curvefusion

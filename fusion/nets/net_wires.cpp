@@ -4,8 +4,10 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <set>
 
+#include "capture/frame_stream.h"
 #include "fusion/nets/box_sums.h"
 #include "fusion/nets/surface_views.h"
 #include "kernel/quantile.h"
@@ -18,6 +20,7 @@ constexpr int kFrames = 6;          // looked at: of a scan to find nets, of a b
 constexpr int kCoarse = 2;          // pixels that are one where nets are looked for
 constexpr int kMinFrames = 2;       // of the scan that must show a net in a cell
 constexpr double kPixelsOff = 0.2;  // by which images remain displaced after they were aligned
+// The next ones were chosen on the training scans of docs/nets.md, rooms among them.
 // Change over what noise and displacement give.
 constexpr float kGap = 1.4f;       // above: the images show different things
 constexpr double kClearly = 3;     // and above, without displacement: brightness differs by less
@@ -201,12 +204,13 @@ void CountCells(const SurfaceViews& surface, const MaskImage& net, CellMap& coun
   for (const VoxelKey& cell : seen) ++counts[cell].seen;
 }
 
-std::vector<int> SpreadFrames(int first, int last, int count) {
-  count = std::min(count, last - first);
-  std::vector<int> frames;
-  for (int i = 0; i < count; ++i)
-    frames.push_back(first + (2 * i + 1) * (last - first) / (2 * count));
-  return frames;
+// Ascending.
+std::vector<VoxelKey> WithThoseBeside(const std::vector<VoxelKey>& cells) {
+  std::set<VoxelKey> all;
+  for (const VoxelKey& cell : cells)
+    for (int i = 0; i < 27; ++i)
+      all.insert({cell.x + i % 3 - 1, cell.y + i / 3 % 3 - 1, cell.z + i / 9 - 1});
+  return {all.begin(), all.end()};
 }
 
 // Where at least so many of the frames, and most of those that look there, show a net. What is
@@ -226,28 +230,23 @@ Nets NetsIn(const std::vector<SurfaceViews>& surfaces, int min_frames) {
     if (AnySet(patches)) spacings.push_back(SpacingIn(surface, patches, parts.above));
     CountCells(surface, NetPixels(patches, surface, nets.noise), counts);
   }
+  std::vector<VoxelKey> cells;
   for (const auto& [cell, frames] : counts)
-    if (frames.net >= min_frames && 2 * frames.net > frames.seen) nets.cells.push_back(cell);
-  const double area = static_cast<double>(nets.cells.size()) * Nets::kCell * Nets::kCell;
-  if (area < kMinArea) nets.cells.clear();
-  if (!nets.empty()) nets.spacing = Median(spacings);
+    if (frames.net >= min_frames && 2 * frames.net > frames.seen) cells.push_back(cell);
+  if (static_cast<double>(cells.size()) * Nets::kCell * Nets::kCell < kMinArea) return nets;
+  nets.cells = WithThoseBeside(cells);
+  nets.spacing = Median(spacings);
   return nets;
 }
 
 }  // namespace
 
 bool Nets::Contains(const Vec3& p_world) const {
-  if (empty()) return false;
-  const VoxelKey key = VoxelOf(p_world, kCell);
-  for (int i = 0; i < 27; ++i) {
-    const VoxelKey beside = {key.x + i % 3 - 1, key.y + i / 3 % 3 - 1, key.z + i / 9 - 1};
-    if (std::binary_search(cells.begin(), cells.end(), beside)) return true;
-  }
-  return false;
+  return std::binary_search(cells.begin(), cells.end(), VoxelOf(p_world, kCell));
 }
 
 Nets FindNets(const Sequence& sequence) {
-  const std::vector<int> frames = SpreadFrames(0, sequence.frame_count(), kFrames);
+  const std::vector<int> frames = EvenlyThinned(AllFrames(sequence), kFrames);
   std::vector<SurfaceViews> surfaces;
   Nets nets;
   // Most scans show no net in the first half of these frames.
@@ -265,9 +264,11 @@ Nets FindNets(const Sequence& sequence) {
 std::vector<NetWires> FindNetWires(const Sequence& sequence, int first, int last,
                                    const Nets& nets) {
   std::vector<NetWires> found;
+  std::vector<int> frames(last - first);
+  std::iota(frames.begin(), frames.end(), first);
   int earlier = first;
   RigidTransform T_world_camera = sequence.frames[first].T_world_camera;
-  for (const int frame : SpreadFrames(first, last, kFrames)) {
+  for (const int frame : EvenlyThinned(frames, kFrames)) {
     if (frame != earlier) T_world_camera = PoseAfter(sequence, earlier, T_world_camera, frame);
     earlier = frame;
     const SurfaceViews surface = LookAtSurface(

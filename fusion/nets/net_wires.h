@@ -11,12 +11,12 @@ namespace curvefusion {
 /// Where in space wires stand so close that depth shows one surface: nets, grilles, woven seats.
 struct Nets {
   static constexpr double kCell = 0.015;  ///< metres
-  std::vector<VoxelKey> cells;            ///< ascending
+  std::vector<VoxelKey> cells;            ///< that hold net, and those beside them, ascending
   double spacing = 0;                     ///< of their wires, metres, roughly
   double noise = 0;  ///< grey levels: the change of colours on surfaces (SurfaceViews::noise)
 
   bool empty() const { return cells.empty(); }
-  /// Whether a point lies in a cell or in one beside it.
+  /// Whether a point lies in one of the cells.
   bool Contains(const Vec3& p_world) const;
 };
 

@@ -330,11 +330,7 @@ SurfaceViews LookAtSurface(const Sequence& sequence, int frame,
   surface.T_world_camera = T_world_camera;
   const DepthImage depth = LoadDepth(sequence, frame);
   const SmoothDepth smooth(depth);
-  surface.camera = sequence.depth_camera.Scaled(1.0 / look.divisor);
-  surface.camera.cx = sequence.depth_camera.cx / look.divisor;
-  surface.camera.cy = sequence.depth_camera.cy / look.divisor;
-  surface.camera.width = depth.width() / look.divisor;
-  surface.camera.height = depth.height() / look.divisor;
+  surface.camera = EveryNth(sequence.depth_camera, look.divisor);
   surface.depth = DepthImage(surface.camera.width, surface.camera.height, 0);
   bool any = false;
   for (int v = 0; v < surface.depth.height(); ++v) {

@@ -314,7 +314,13 @@ SegmentedBundle SegmentBundle(const Sequence& sequence, int first, int last,
   funnel.points = static_cast<int64_t>(remaining.points.size());
   std::vector<ObservedPoints> seen = difference_set.FramePoints(remaining.voxels);
   segmented.frames.resize(last - first);
-  for (size_t i = 0; i < frames.size(); ++i) Append(segmented.frames[frames[i] - first], seen[i]);
+  for (size_t i = 0; i < frames.size(); ++i) {
+    ObservedPoints& points = segmented.frames[frames[i] - first];
+    if (points.empty())
+      points = std::move(seen[i]);
+    else
+      Append(points, seen[i]);
+  }
   segmented.difference_set = std::move(candidates.points);
   segmented.points = std::move(remaining.points);
   return segmented;

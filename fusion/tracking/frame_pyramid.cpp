@@ -99,9 +99,9 @@ void AddGreyLevels(const ColorImage& color, const PinholeCamera& camera, int wid
 
 }  // namespace
 
-PinholeCamera EverySecond(const PinholeCamera& camera) {
-  return {camera.width / 2, camera.height / 2, 0.5 * camera.fx,
-          0.5 * camera.fy,  0.5 * camera.cx,   0.5 * camera.cy};
+PinholeCamera EveryNth(const PinholeCamera& camera, int n) {
+  return {camera.width / n, camera.height / n, camera.fx / n,
+          camera.fy / n,    camera.cx / n,     camera.cy / n};
 }
 
 DepthImage ReducedDepth(const DepthImage& depth, int divisor, double max_depth) {
@@ -125,7 +125,7 @@ TrackingFrame MakeTrackingFrame(const DepthImage& depth, const ColorImage& color
   frame.levels[0].depth_camera = DividedCamera(cameras.depth, divisor);
   for (size_t i = 1; i < frame.levels.size(); ++i) {
     frame.levels[i].depth = EverySecond(frame.levels[i - 1].depth);
-    frame.levels[i].depth_camera = EverySecond(frame.levels[i - 1].depth_camera);
+    frame.levels[i].depth_camera = EveryNth(frame.levels[i - 1].depth_camera, 2);
   }
   if (!color.empty()) AddGreyLevels(color, cameras.color, options.image_width, frame);
   return frame;

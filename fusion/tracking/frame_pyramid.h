@@ -41,8 +41,8 @@ struct TrackingCameras {
   RigidTransform T_color_depth = RigidTransform::Identity();
 };
 
-/// The camera of an image that has every second pixel of every second row of another's.
-PinholeCamera EverySecond(const PinholeCamera& camera);
+/// The camera of an image that has every n-th pixel of every n-th row of another's.
+PinholeCamera EveryNth(const PinholeCamera& camera, int n);
 
 /// Depth divided by a whole number: the mean of those in a square that are, by the sensor's noise,
 /// of one surface with the square's median; 0 where fewer than half of its pixels are.

@@ -31,7 +31,7 @@ Vec3f NormalAt(const Image<Vec3f>& points, int u, int v, float pixel_size) {
 // Every second pixel: averages would move points off the surface.
 ModelLevel Halved(const ModelLevel& fine) {
   ModelLevel half;
-  half.camera = EverySecond(fine.camera);
+  half.camera = EveryNth(fine.camera, 2);
   half.points = Image<Vec3f>(half.camera.width, half.camera.height, Vec3f::Zero());
   half.normals = Image<Vec3f>(half.camera.width, half.camera.height, Vec3f::Zero());
   for (int v = 0; v < half.camera.height; ++v) {
