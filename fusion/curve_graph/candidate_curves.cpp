@@ -112,7 +112,7 @@ double AddCandidateCurves(const Sequence& sequence, const ObservedPoints& candid
   if (candidates.empty()) return 0;
   SkeletonGraph found = ExtractRidgeSkeleton(candidates, options);
   KeepNewWires(known, found);
-  KeepProvenCandidates(sequence, radius, views, found);
+  std::vector<Vec3> proven = KeepProvenCandidates(sequence, radius, views, found);
   if (found.empty()) return 0;
   const double length = skeleton.TotalLength();
   AddGraph(found, radius, skeleton);
@@ -123,7 +123,8 @@ double AddCandidateCurves(const Sequence& sequence, const ObservedPoints& candid
   const std::vector<Vec3> with_candidates = PointsOf(skeleton);
   CloseFreeEnds(skeleton, reach, candidates);
   DropJoinsNotShown(with_candidates, views, skeleton);
-  DropDetached(known, skeleton);
+  proven.insert(proven.end(), known.begin(), known.end());
+  DropDetached(proven, skeleton);
   return skeleton.TotalLength() - length;
 }
 

@@ -20,6 +20,10 @@ constexpr double kMinColourLogOdds = 0.2;
 constexpr double kMinMiddleEvidence = 0.03;  // of an image that shows a strip
 constexpr double kMinLooks = 8;              // images that no other curve explains, in the mean
 constexpr double kMinSupport = 0.6;          // share of these that show a strip
+// Of a wire that hangs together with no other: its places with free space behind them, and
+// evidence of middles times metres. Chosen on 26 training scans (docs/lab_notebook.md).
+constexpr double kMinFreeAlone = 0.9;
+constexpr double kMinMiddleEvidenceAlone = 0.2;
 
 // What images tell of a part of a curve, sums over its points.
 struct Support {
@@ -36,10 +40,10 @@ Support SupportOf(const std::vector<StripAgreement>& along, const EdgePart& part
   return support;
 }
 
-bool IsMostlyFree(const StripViews& views, const Polyline& points, const EdgePart& part) {
+double FreeShare(const StripViews& views, const Polyline& points, const EdgePart& part) {
   size_t free = 0;
   for (size_t i = part.first; i <= part.last; ++i) free += views.IsFree(points[i]);
-  return 2 * free > part.last - part.first + 1;
+  return static_cast<double>(free) / static_cast<double>(part.last - part.first + 1);
 }
 
 bool IsOpenInColour(const StretchEvidence& stretch, const std::vector<StripAgreement>& along) {
@@ -57,7 +61,7 @@ void KeepOpenStretches(const Sequence& sequence, const StripViews& views, Skelet
   }
   for (const StretchEvidence& stretch : CollectEvidence(curves, {}, sequence, 0)) {
     const Polyline& points = curves.edge(stretch.edge).points;
-    const bool stays = IsMostlyFree(views, points, stretch.part) ||
+    const bool stays = FreeShare(views, points, stretch.part) > 0.5 ||
                        IsOpenInColour(stretch, along.at(stretch.edge));
     if (!stays) continue;
     std::vector<EdgePart>& parts = kept[stretch.edge];
@@ -71,11 +75,20 @@ void KeepOpenStretches(const Sequence& sequence, const StripViews& views, Skelet
   curves.RemoveIsolatedNodes();
 }
 
-void ExplainAway(double radius, StripViews& views, SkeletonGraph& curves) {
+// Whether a curve is a wire even where it hangs together with nothing.
+bool StandsAlone(const Support& support, const StripViews& views, const Polyline& points) {
+  const auto count = static_cast<double>(points.size());
+  return support.middle_evidence / count * Length(points) >= kMinMiddleEvidenceAlone &&
+         FreeShare(views, points, {0, points.size() - 1}) >= kMinFreeAlone;
+}
+
+// Returns the points of curves that stand alone.
+std::vector<Vec3> ExplainAway(double radius, StripViews& views, SkeletonGraph& curves) {
   const auto support_of = [&](EdgeId id) {
     const Polyline& points = curves.edge(id).points;
     return SupportOf(views.AgreementsAlong(points), {0, points.size() - 1});
   };
+  std::vector<Vec3> alone;
   std::vector<std::pair<double, EdgeId>> by_evidence;
   for (const EdgeId id : curves.Edges())
     by_evidence.emplace_back(-support_of(id).middle_evidence, id);
@@ -87,23 +100,26 @@ void ExplainAway(double radius, StripViews& views, SkeletonGraph& curves) {
                               support.seen >= kMinSupport * support.looked &&
                               support.middle_evidence > 0;
     if (is_supported) {
+      if (StandsAlone(support, views, points))
+        alone.insert(alone.end(), points.begin(), points.end());
       views.Explain(points, std::vector<double>(points.size(), radius));
     } else {
       curves.RemoveEdge(id);
     }
   }
   curves.RemoveIsolatedNodes();
+  return alone;
 }
 
 }  // namespace
 
-void KeepProvenCandidates(const Sequence& sequence, double radius, StripViews& views,
-                          SkeletonGraph& curves) {
+std::vector<Vec3> KeepProvenCandidates(const Sequence& sequence, double radius, StripViews& views,
+                                       SkeletonGraph& curves) {
   DropRefutedParts([&views](const Polyline& points) { return views.SharesAlong(points); },
                    kMinStripShare, {}, curves);
-  if (curves.empty()) return;
+  if (curves.empty()) return {};
   KeepOpenStretches(sequence, views, curves);
-  ExplainAway(radius, views, curves);
+  return ExplainAway(radius, views, curves);
 }
 
 }  // namespace curvefusion

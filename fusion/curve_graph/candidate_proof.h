@@ -1,8 +1,11 @@
 #pragma once
 
+#include <vector>
+
 #include "capture/sequence.h"
 #include "fusion/curve_graph/strip_views.h"
 #include "graph/skeleton_graph.h"
+#include "kernel/geometry.h"
 
 namespace curvefusion {
 
@@ -11,9 +14,10 @@ namespace curvefusion {
 /// it tell that no surface goes on there (ColourLogOdds) and the strips' middles lie near it: depth
 /// fills the gaps between close wires. Then every strip speaks for one curve only: that with most
 /// evidence is taken first and explains its strips in `views`, and a curve stays only where enough
-/// of the others are left to it. `radius` (metres) is that of all curves. Throws Error(kBadInput)
-/// for an image that cannot be decoded.
-void KeepProvenCandidates(const Sequence& sequence, double radius, StripViews& views,
-                          SkeletonGraph& curves);
+/// of the others are left to it. `radius` (metres) is that of all curves. Returns the points of
+/// curves that are wires even if they hang together with nothing: long ones before free space whose
+/// strips' middles lie near them. Throws Error(kBadInput) for an image that cannot be decoded.
+std::vector<Vec3> KeepProvenCandidates(const Sequence& sequence, double radius, StripViews& views,
+                                       SkeletonGraph& curves);
 
 }  // namespace curvefusion

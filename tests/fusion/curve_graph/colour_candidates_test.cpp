@@ -94,15 +94,24 @@ TEST(CandidateCurves, JoinWhatIsThere) {
   EXPECT_TRUE(Faults(graph).empty());
 }
 
-TEST(CandidateCurves, ThatHangTogetherWithNothingAreLeftOut) {
-  const Polyline far = TestLine({0.055, -0.05, 0}, {0.055, 0.05, 0});
-  const SilhouetteScan scan({kStem, far}, {}, kBehind);
+// Of a wire beside the stem, so long: what is added.
+double AddedBesideStem(double length, double behind) {
+  const Polyline beside = TestLine({0.055, -length / 2, 0}, {0.055, length / 2, 0});
+  const SilhouetteScan scan({kStem, beside}, {}, behind);
   SkeletonGraph graph = Known();
   StripViews views = scan.Strips(graph);
-  const ObservedPoints candidates = FindCandidates(views);
+  const ObservedPoints candidates = FindCandidates(views, CandidatePlaces::kAll);
   EXPECT_FALSE(candidates.empty());
-  EXPECT_EQ(AddCandidateCurves(scan.sequence(), candidates, {}, kTestRadius, views, graph), 0);
-  EXPECT_EQ(graph.edge_count(), 1);
+  return AddCandidateCurves(scan.sequence(), candidates, {}, kTestRadius, views, graph);
+}
+
+TEST(CandidateCurves, ThatHangTogetherWithNothingStayWhereTheyAreLong) {
+  EXPECT_NEAR(AddedBesideStem(0.2, kBehind), 0.2, 0.02);
+  EXPECT_EQ(AddedBesideStem(0.03, kBehind), 0);
+}
+
+TEST(CandidateCurves, ThatHangTogetherWithNothingAreLeftOutBeforeASurface) {
+  EXPECT_EQ(AddedBesideStem(0.2, 0.605), 0);
 }
 
 TEST(CandidateCurves, NothingWithoutCandidates) {
