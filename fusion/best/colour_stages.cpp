@@ -18,6 +18,7 @@
 #include "fusion/curve_graph/tip_tracking.h"
 #include "fusion/curve_graph/wire_proof.h"
 #include "fusion/silhouettes/colour_pruning.h"
+#include "graph/crossings.h"
 #include "graph/intersections.h"
 #include "graph/validate.h"
 
@@ -299,10 +300,11 @@ void RefineByColour(const Sequence& given, const LearnedWires& wires, RunSize si
                      result);
     strips.reset();
   }
-  if (!Violations(result.skeleton, kProximity).empty()) {
-    ResolveIntersections(result.skeleton, kProximity);
-    measure_radii();
-  }
+  const int crossings = result.trust.adjusted ? SeparateCrossings(result.skeleton) : 0;
+  const bool has_contacts = !Violations(result.skeleton, kProximity).empty();
+  if (has_contacts) ResolveIntersections(result.skeleton, kProximity);
+  if (crossings > 0 || has_contacts) measure_radii();
+  reporter.log.Count("radius", "crossings taken apart", crossings);
   LookForEvidence(options.evidence, reporter, result);
 }
 
