@@ -24,9 +24,11 @@ namespace {
 // Chosen on 20 training scans, four of them of cables (docs/lab_notebook.md).
 constexpr double kDrawn = 10 * kMillimetre;   // so far contraction draws crossing curves together
 constexpr double kFitted = 25 * kMillimetre;  // of each branch beyond that
+constexpr double kLeastFitted = 2.5 * kMillimetre;  // likewise; shorter branches tell nothing
 constexpr double kMaxResidual = 0.8 * kMillimetre;
 constexpr double kMaxTurn = 0.35;  // radians, from branch to branch; wires that meet turn by more
-// Of the sum of the radii: axes that meet have less than .5, cables that touch .6 to 1.3.
+// Of the sum of the radii: axes that meet have .14 and less in the median of a scan, cables that
+// touch .9 to 1.2.
 constexpr double kMinApart = 0.6;
 constexpr double kMaxApart = 1.5;
 constexpr double kMinApartShare = 0.5;       // of the crossings of a connected part
@@ -72,7 +74,7 @@ std::optional<Samples> SamplesOf(const SkeletonGraph& graph, const BranchEnd& br
   const SkeletonEdge edge = FromJunction(graph, branch);
   const std::vector<double> arc_lengths = CumulativeLength(edge.points);
   const double length = std::min(kFitted, arc_lengths.back() - kDrawn);
-  if (edge.radii.empty() || length < 0.5 * kDrawn) return std::nullopt;
+  if (edge.radii.empty() || length < kLeastFitted) return std::nullopt;
   Samples samples;
   samples.step = length / (kSamples - 1);
   for (int i = 0; i < kSamples; ++i)

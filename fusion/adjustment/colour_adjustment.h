@@ -24,7 +24,11 @@ struct ColourAdjustmentOptions {
 void VisitOptions(ColourAdjustmentOptions& options, OptionVisitor& visitor);
 
 /// Whether depth images show wires where they are. Where they do not, colour images alone count.
-enum class WireDepth { kShown, kNotShown };
+enum class WireDepth {
+  kShown,
+  kNotShown,    ///< in wrong places, or there are no depth images
+  kLookedPast,  ///< only what is behind them
+};
 
 /// What an adjustment starts from.
 struct AdjustmentStart {

@@ -30,8 +30,10 @@ struct Look {
   CandidateOptions candidates;
 };
 
-Look LookOf(int round, bool has_depth) {
-  if (has_depth) return {1, {.places = CandidatePlaces::kFree}};
+Look LookOf(int round, bool has_depth, WireDepth depth) {
+  if (has_depth) {
+    return {1, {.places = CandidatePlaces::kFree, .follow = depth == WireDepth::kLookedPast}};
+  }
   return {round == 0 ? kFirstScale : 1, {.same_place_px = kSamePlacePx}};
 }
 
@@ -100,7 +102,8 @@ std::optional<ColourCurves> FitCurvesOfColour(const Sequence& sequence,
   for (int round = 0; round < kRounds; ++round) {
     Reconstruction next;
     next.sequence = colour.sequence;
-    FindCurves(images, around, LookOf(round, sequence.has_depth), options, reporter, next);
+    FindCurves(images, around, LookOf(round, sequence.has_depth, start.depth), options, reporter,
+               next);
     if (next.skeleton.empty()) break;
     std::optional<ColourAdjustment> again =
         AdjustCurvesAndPoses(start, options.colour_adjustment, reporter, next);

@@ -116,7 +116,7 @@ void CorrectBySilhouettes(const ColourAdjustment& adjusted, const StripViews& st
 
 // Deviation: wires that depth has lost, where colour images show strips that no curve explains.
 // How many metres.
-double AddWiresFromColour(StripViews& views, const RidgeOptions& options,
+double AddWiresFromColour(StripViews& views, WireDepth depth, const RidgeOptions& options,
                           const StageReporter& reporter, Reconstruction& result) {
   const char* stage = "wires from colour";
   const StageLog::Timer timer = reporter.Begin(stage);
@@ -124,7 +124,7 @@ double AddWiresFromColour(StripViews& views, const RidgeOptions& options,
   const double radius = result.radii.unmeasured_radius;
   const double followed = TrackTips(radius, views, result.skeleton);
   const ObservedPoints candidates = FindColourCandidates(
-      views, {},
+      views, {.follow = depth == WireDepth::kLookedPast},
       [&](int64_t done, int64_t total) { reporter.observer.OnProgress(stage, done, total); });
   const double added = followed + AddCandidateCurves(result.sequence, candidates, options, radius,
                                                      views, result.skeleton);
@@ -222,7 +222,7 @@ void CompleteByColour(const AdjustmentStart& start, std::optional<StripViews> st
                       const StageReporter& reporter, Reconstruction& result) {
   for (int round = 0; round < kColourRounds; ++round) {
     TellPlan(size, options, reporter, result);
-    const double added = AddWiresFromColour(*strips, options.ridge, reporter, result);
+    const double added = AddWiresFromColour(*strips, start.depth, options.ridge, reporter, result);
     strips.reset();  // its images take as much memory as the next adjustment
     // Without depth, silhouettes have bridged gaps that nothing was adjusted to yet.
     const bool is_rough = round == 0 && !result.sequence.has_depth;

@@ -26,7 +26,11 @@ constexpr double kShownAsWire = 0.9;  // of the images
 // whose curves from colour .84 and more lie where depth shows something thin, and five rooms
 // without any, where .42 at most do (docs/lab_notebook.md).
 constexpr double kMinThinInDepth = 0.6;
+// Or depth does not show them at all, but what is behind: .96 of a white grid's places by an SR300;
+// .39 to .88 of what three rooms without wires give.
+constexpr double kMinFreeInDepth = 0.9;
 constexpr int kThinImages = 20;    // chosen: enough for a share
+constexpr double kBehind = 0.03;   // metres; what is so far behind a place is another thing
 constexpr double kThinCellPx = 8;  // chosen: of images 640 pixels wide
 
 // Metres of curve, and how many of them the images show as wire.
@@ -101,6 +105,28 @@ double ShareThinInDepth(const Reconstruction& depth, const Reconstruction& colou
   return looked > 0 ? static_cast<double>(thin) / static_cast<double>(looked) : 0;
 }
 
+// How much of the curves from colour lies in free space: a share of their places in all images in
+// which depth shows something there, or behind it.
+double ShareFreeInDepth(const Sequence& sequence, const SkeletonGraph& skeleton,
+                        const std::vector<int>& frames) {
+  size_t told = 0, free = 0;
+  for (const int frame : EvenlyThinned(frames, kThinImages)) {
+    const DepthImage depth = LoadDepth(sequence, frame);
+    const RigidTransform T_camera_world = sequence.frames[frame].T_world_camera.inverse();
+    for (const EdgeId id : skeleton.Edges()) {
+      for (const Vec3& point : Resample(skeleton.edge(id).points, kStep)) {
+        const Vec3 p = T_camera_world * point;
+        if (p.z() <= 0) continue;
+        const Eigen::Vector2i at = PinholeCamera::Rounded(sequence.depth_camera.Project(p));
+        if (!depth.Contains(at.x(), at.y()) || depth(at.x(), at.y()) < p.z() - kBehind) continue;
+        ++told;
+        free += depth(at.x(), at.y()) > p.z() + kBehind;
+      }
+    }
+  }
+  return told > 0 ? static_cast<double>(free) / static_cast<double>(told) : 0;
+}
+
 // Depth that shows wires in wrong places still shows surfaces where they are.
 std::optional<Sequence> HoldToSurfaces(const Sequence& given, const StageReporter& reporter) {
   const StageLog::Timer timer = reporter.Begin(kWiresFromColour);
@@ -145,49 +171,74 @@ Eigen::AlignedBox3d RegionOf(const Sequence& sequence, const ObservedPoints& poi
   return around.isEmpty() ? RegionSeenByMost(sequence) : around;
 }
 
+// Curves from colour and what they were fitted with.
+struct ColourFit {
+  WireImages images;
+  Reconstruction colour;
+  std::optional<ColourCurves> curves;
+  bool is_held = true;  // in poses that are held to surfaces
+};
+
+ColourFit FitAroundPoints(const Sequence& given, const std::optional<Sequence>& held,
+                          WireDepth depth, const WireColours& colours, const BestOptions& options,
+                          const StageReporter& reporter, const Reconstruction& result) {
+  ColourFit fit;
+  fit.images = colours.posterior.empty() ? LookForContrast(given) : LookForColours(given, colours);
+  const Eigen::AlignedBox3d around = RegionOf(given, result.points);
+  const auto curves_in = [&](const Sequence& poses, PoseErrors errors) {
+    const AdjustmentStart start = {CameraPoses(poses), errors, depth, colours.posterior};
+    return FitCurvesOfColour(poses, start, around, options, reporter, fit.images, fit.colour);
+  };
+  // A camera before a plane and wires alone may slip along it: curves then fit no image.
+  if (held) fit.curves = curves_in(*held, PoseErrors::kJitter);
+  if (fit.curves) return fit;
+  fit.is_held = false;
+  fit.curves = curves_in(given, PoseErrors::kDrift);
+  return fit;
+}
+
+// Whether curves from colour agree with what depth shows, if it shows wires like that.
+bool IsLikely(WireDepth depth, const Reconstruction& result, const ColourFit& fit,
+              const StageReporter& reporter) {
+  if (depth == WireDepth::kNotShown) {
+    const double thin = ShareThinInDepth(result, fit.colour, fit.images.frames);
+    reporter.log.Count(kWiresFromColour, "share thin in depth", thin);
+    return thin >= kMinThinInDepth;
+  }
+  const double free = ShareFreeInDepth(fit.colour.sequence, fit.colour.skeleton, fit.images.frames);
+  reporter.log.Count(kWiresFromColour, "share free in depth", free);
+  return free >= kMinFreeInDepth;
+}
+
 }  // namespace
 
 std::optional<ColourCurves> StartFromColour(const Sequence& given, const WireColours& colours,
                                             DepthCurves depth_curves, const BestOptions& options,
                                             const StageReporter& reporter, Reconstruction& result) {
   const bool is_asked_for = options.depth.use == DepthRole::kBackground;
-  const bool has_colours = !colours.posterior.empty();
-  if (!is_asked_for && (!has_colours || result.points.empty())) return std::nullopt;
-  const Eigen::AlignedBox3d around = RegionOf(given, result.points);
-  Reconstruction colour;
-  WireImages images = has_colours ? LookForColours(given, colours) : LookForContrast(given);
-  std::optional<ColourCurves> fitted;
-  // A camera before a plane and wires alone may slip along it: curves then fit no image.
-  bool is_held = true;
-  const auto fit = [&](const Sequence& poses, PoseErrors errors) {
-    const AdjustmentStart start = {CameraPoses(poses), errors, WireDepth::kNotShown,
-                                   colours.posterior};
-    return FitCurvesOfColour(poses, start, around, options, reporter, images, colour);
-  };
-  if (const std::optional<Sequence> held = HoldToSurfaces(given, reporter))
-    fitted = fit(*held, PoseErrors::kJitter);
-  if (!fitted) {
-    is_held = false;
-    fitted = fit(given, PoseErrors::kDrift);
+  if (!is_asked_for && (colours.posterior.empty() || result.points.empty())) return std::nullopt;
+  const std::optional<Sequence> held = HoldToSurfaces(given, reporter);
+  for (const WireDepth depth : {WireDepth::kNotShown, WireDepth::kLookedPast}) {
+    ColourFit fit = FitAroundPoints(given, held, depth, colours, options, reporter, result);
+    if (!fit.curves) continue;
+    const Sequence& fitted = fit.colour.sequence;
+    const ShownCurves before = CountShown(
+        fitted, fit.images,
+        Transformed(result.skeleton, AffineTransform(MeanMotion(result.sequence, fitted))));
+    const ShownCurves after = CountShown(fitted, fit.images, fit.colour.skeleton);
+    reporter.log.Count(kWiresFromColour, "of depth shown as wire, m", before.shown);
+    reporter.log.Count(kWiresFromColour, "shown as wire, m", after.shown);
+    const bool is_likely = IsLikely(depth, result, fit, reporter);
+    if (!is_asked_for && !(is_likely && after.IsBetterThan(before, depth_curves))) continue;
+    TakeCurves(std::move(fit.colour), result);
+    result.warnings.push_back(fmt::format(
+        "the curves come from the colour images alone, and their scale from {}: the images show "
+        "{:.2f} m of them as wire, and {:.2f} of {:.2f} m of depth's",
+        fit.is_held ? "the surfaces that depth shows" : "the poses", after.shown, before.shown,
+        before.length));
+    return std::move(fit.curves);
   }
-  if (!fitted) return std::nullopt;
-  const ShownCurves before = CountShown(
-      colour.sequence, images,
-      Transformed(result.skeleton, AffineTransform(MeanMotion(result.sequence, colour.sequence))));
-  const ShownCurves after = CountShown(colour.sequence, images, colour.skeleton);
-  reporter.log.Count(kWiresFromColour, "of depth shown as wire, m", before.shown);
-  reporter.log.Count(kWiresFromColour, "shown as wire, m", after.shown);
-  const double thin = ShareThinInDepth(result, colour, images.frames);
-  reporter.log.Count(kWiresFromColour, "share thin in depth", thin);
-  const bool is_better = after.IsBetterThan(before, depth_curves) && thin >= kMinThinInDepth;
-  if (!is_asked_for && !is_better) return std::nullopt;
-  TakeCurves(std::move(colour), result);
-  result.warnings.push_back(fmt::format(
-      "the curves come from the colour images alone, and their scale from {}: the images show "
-      "{:.2f} m of them as wire, and {:.2f} of {:.2f} m of depth's",
-      is_held ? "the surfaces that depth shows" : "the poses", after.shown, before.shown,
-      before.length));
-  return fitted;
+  return std::nullopt;
 }
 
 std::optional<ColourCurves> StartWithoutDepth(const Sequence& given, const BestOptions& options,

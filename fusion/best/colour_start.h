@@ -31,7 +31,9 @@ enum class DepthCurves {
 /// new curves as wire than of those that were there, metres that they do not show taken off; where
 /// these are only doubtful, also more without taking any off: images that hardly show depth's
 /// curves may hardly show wires at all. Most of the new curves must lie in pixels in which depth
-/// shows something thin, as wires do and what is painted on surfaces does not. With
+/// shows something thin, as wires do and what is painted on surfaces does not; or depth, which then
+/// does not show them at all, must show something behind nearly all of them, and strips are
+/// followed from place to place. With
 /// DepthRole::kBackground wherever there are any; where depth has then shown nothing thin, places
 /// are sought where most cameras look, in what stands out from its surroundings. Nothing otherwise.
 /// Throws Error(kBadInput) for an image that cannot be read. Costs about .1 s an image, at most 90

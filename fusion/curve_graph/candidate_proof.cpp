@@ -21,7 +21,7 @@ constexpr double kMinMiddleEvidence = 0.03;  // of an image that shows a strip
 constexpr double kMinLooks = 8;              // images that no other curve explains, in the mean
 constexpr double kMinSupport = 0.6;          // share of these that show a strip
 // Of a wire that hangs together with no other: its places with free space behind them, and
-// evidence of middles times metres. Chosen on 26 training scans (docs/lab_notebook.md).
+// evidence of middles times metres. Chosen on 25 training scans (docs/lab_notebook.md).
 constexpr double kMinFreeAlone = 0.9;
 constexpr double kMinMiddleEvidenceAlone = 0.2;
 

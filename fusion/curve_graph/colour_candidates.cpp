@@ -29,6 +29,11 @@ constexpr int64_t kReports = 50;   // chosen: of progress
 // Lines of sight, evenly thinned: more tell the same again. Chosen on the four shared scans without
 // depth, between numbers that 15 training scans do not tell apart (docs/lab_notebook.md).
 constexpr size_t kMaxRays = 5000;
+// Wires are followed along their strips from places found.
+constexpr int kFollowPx = 5;            // to the next pixel, at most
+constexpr int kDonePx = 2;              // around pixels that were looked at
+constexpr double kFollowRange = 0.01;   // metres along the line of sight, to both sides
+constexpr size_t kMaxFollowed = 20000;  // places
 
 using View = StripViews::View;
 using Ray = std::pair<size_t, Eigen::Vector2i>;  // number of a view, and a pixel
@@ -67,17 +72,104 @@ class CandidateSearch {
       ParallelFor(part * count / kReports, (part + 1) * count / kReports, 16,
                   [&](int64_t i) { places[i] = PlaceOn(rays[i].first, rays[i].second); });
     }
+    std::vector<Found> found;
+    for (size_t i = 0; i < rays.size(); ++i)
+      if (places[i]) found.push_back({rays[i], *places[i]});
+    if (options_.follow) Follow(found);
     ObservedPoints points;
-    for (size_t i = 0; i < rays.size(); ++i) {
-      if (!places[i]) continue;
-      const Vec3& p = places[i]->position;
-      points.Add(p, (p - views_.views()[rays[i].first].center).normalized(),
-                 static_cast<float>(places[i]->agreement.seen));
+    for (const auto& [ray, place] : found) {
+      const Vec3& p = place.position;
+      points.Add(p, (p - views_.views()[ray.first].center).normalized(),
+                 static_cast<float>(place.agreement.seen));
     }
     return points;
   }
 
  private:
+  struct Found {
+    Ray ray;
+    Place place;
+  };
+
+  // Where to look next, and how far away what lies beside it is.
+  struct Next {
+    Ray ray;
+    double distance = 0;
+  };
+
+  // Pixels of strips that were not looked at, for each view that lines of sight start in.
+  std::vector<MaskImage> OpenPixels() const {
+    std::vector<MaskImage> open(views_.views().size());
+    for (size_t i = 0; i < views_.views().size(); i += kReferenceStride) {
+      open[i] = MaskImage(views_.color_camera().width, views_.color_camera().height, 0);
+      const StripImage& strips = views_.views()[i].strips;
+      for (const Eigen::Vector2i& pixel : strips.unexplained())
+        if (!strips.IsExplained(pixel.x(), pixel.y())) open[i](pixel.x(), pixel.y()) = 1;
+    }
+    return open;
+  }
+
+  static void Close(const Eigen::Vector2i& pixel, MaskImage& open) {
+    for (int v = pixel.y() - kDonePx; v <= pixel.y() + kDonePx; ++v)
+      for (int u = pixel.x() - kDonePx; u <= pixel.x() + kDonePx; ++u)
+        if (open.Contains(u, v)) open(u, v) = 0;
+  }
+
+  // Goes on from places to pixels of strips beside theirs, as long as places are found there.
+  void Follow(std::vector<Found>& found) const {
+    std::vector<MaskImage> open = OpenPixels();
+    for (const Found& one : found) Close(one.ray.second, open[one.ray.first]);
+    for (size_t first = 0; first < found.size() && found.size() < kMaxFollowed;) {
+      std::vector<Next> next;
+      for (; first < found.size(); ++first)
+        AddBeside(found[first], open[found[first].ray.first], next);
+      std::vector<std::optional<Place>> places(next.size());
+      ParallelFor(0, static_cast<int64_t>(next.size()), 16,
+                  [&](int64_t i) { places[i] = PlaceBeside(next[i]); });
+      for (size_t i = 0; i < next.size(); ++i)
+        if (places[i]) found.push_back({next[i].ray, *places[i]});
+    }
+  }
+
+  static void AddBeside(const Found& found, MaskImage& open, std::vector<Next>& next) {
+    const auto& [view, pixel] = found.ray;
+    for (int v = pixel.y() - kFollowPx; v <= pixel.y() + kFollowPx; ++v) {
+      for (int u = pixel.x() - kFollowPx; u <= pixel.x() + kFollowPx; ++u) {
+        if (!open.Contains(u, v) || !open(u, v)) continue;
+        next.push_back({{view, {u, v}}, found.place.distance});
+        Close({u, v}, open);
+      }
+    }
+  }
+
+  // The place of a pixel that is about as far away as one beside it.
+  std::optional<Place> PlaceBeside(const Next& next) const {
+    const View& view = views_.views()[next.ray.first];
+    const Vec3 ray = DirectionOf(next.ray);
+    const StripViews::LineOfSight sight(views_, next.ray.first, ray);
+    if (sight.IsHidden(next.distance)) return std::nullopt;
+    std::vector<Place> places;
+    AddPlaces(sight, Baseline(view, ray), next.distance - kFollowRange,
+              next.distance + kFollowRange, places);
+    return BestOf(places);
+  }
+
+  Vec3 DirectionOf(const Ray& ray) const {
+    const RigidTransform T_world_color = views_.views()[ray.first].T_color_world.inverse();
+    const Vec3 in_camera = views_.color_camera().Unproject(ray.second.x(), ray.second.y(), 1);
+    return (T_world_color.linear() * in_camera).normalized();
+  }
+
+  std::optional<Place> BestOf(const std::vector<Place>& places) const {
+    if (places.empty()) return std::nullopt;
+    const Place& best = *std::max_element(
+        places.begin(), places.end(),
+        [](const Place& a, const Place& b) { return a.agreement.Sum() < b.agreement.Sum(); });
+    if (options_.places == CandidatePlaces::kFree && !views_.IsFree(best.position))
+      return std::nullopt;
+    return best;
+  }
+
   static std::vector<Ray> Thinned(std::vector<Ray> rays) {
     if (rays.size() <= kMaxRays) return rays;
     std::vector<Ray> some(kMaxRays);
@@ -118,9 +210,7 @@ class CandidateSearch {
   // All places of the line of sight of a pixel where a wire may be.
   std::vector<Place> PlacesOn(size_t number, const Eigen::Vector2i& pixel) const {
     const View& view = views_.views()[number];
-    const RigidTransform T_world_color = view.T_color_world.inverse();
-    const Vec3 in_camera = views_.color_camera().Unproject(pixel.x(), pixel.y(), 1);
-    const Vec3 ray = (T_world_color.linear() * in_camera).normalized();
+    const Vec3 ray = DirectionOf({number, pixel});
     const auto range = RangeWithin(view.center, ray);
     if (!range) return {};
     const StripViews::LineOfSight sight(views_, number, ray);

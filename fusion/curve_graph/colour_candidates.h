@@ -20,6 +20,8 @@ struct CandidateOptions {
   /// Two places of one line of sight are one also where they lie no more pixels apart in the image
   /// in which they do most: short paths know no better.
   double same_place_px = 0;
+  /// Strips are followed from places found, to such as are about as far away.
+  bool follow = false;
 };
 
 /// Places of wires that the colour images show and no curve explains: thin wires that depth loses.

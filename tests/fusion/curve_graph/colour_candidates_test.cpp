@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 
 #include "fusion/curve_graph/candidate_curves.h"
@@ -38,6 +39,31 @@ TEST(ColourCandidates, LieOnTheWireThatNoCurveExplains) {
   for (const Vec3& p : candidates.positions) distances.push_back(DistanceTo(kTwig, p));
   EXPECT_LT(Median(distances), kTestRadius);
   EXPECT_LT(Quantile(distances, 1), 0.006);  // along the line of sight, by a pixel in 40 degrees
+}
+
+// Of many strips only some lines of sight are searched; places beside those found tell the rest.
+TEST(ColourCandidates, FollowedAlongTheirStripsAreMore) {
+  std::vector<Polyline> wires = {kStem};
+  for (int i = 1; i < 10; ++i) {
+    const double x = 0.02 * (i % 2 == 0 ? i / 2 : -(i + 1) / 2);
+    wires.push_back(TestLine({x, 0.1, 0.1 * x}, {x, -0.1, 0.3 * x}));
+  }
+  const SilhouetteScan scan(wires, {}, kBehind);
+  const StripViews views = scan.Strips(Known());
+  const ObservedPoints few = FindCandidates(views);
+  const ObservedPoints followed = FindColourCandidates(
+      views, {.places = CandidatePlaces::kFree, .follow = true}, [](int64_t, int64_t) {});
+  EXPECT_GT(followed.size(), few.size());
+  const auto share_on_wires = [&wires](const ObservedPoints& places) {
+    const auto is_on_wire = [&wires](const Vec3& p) {
+      return std::any_of(wires.begin(), wires.end(),
+                         [&p](const Polyline& wire) { return DistanceTo(wire, p) < 0.006; });
+    };
+    return static_cast<double>(
+               std::count_if(places.positions.begin(), places.positions.end(), is_on_wire)) /
+           static_cast<double>(places.size());
+  };
+  EXPECT_GT(share_on_wires(followed), 0.98 * share_on_wires(few));
 }
 
 TEST(ColourCandidates, NoneWhereCurvesExplainAllStrips) {
