@@ -100,10 +100,11 @@ class Costs {
             {"contraction", 0.05 + 0.25 * a_.points}};
   }
 
+  PlannedStage Tracking() const { return {"track camera", 0.035 * a_.size * a_.frames}; }
+
   // Where curves are sought in colour images alone: places that these agree on, twice.
   std::vector<PlannedStage> ByColour() const {
-    std::vector<PlannedStage> stages = {{"wires from colour", 0},
-                                        {"track camera", 0.035 * a_.size * a_.frames}};
+    std::vector<PlannedStage> stages;
     for (int round = 0; round < 2; ++round) {
       stages.insert(stages.end(),
                     {{"wires from colour", 0.06 * a_.searched}, Radius(), Adjustment()});
@@ -131,7 +132,10 @@ std::vector<PlannedStage> BestStages(const Costs& costs, const RunSize& size, bo
     plan = costs.UntilContracted();
     Append({costs.Radius(), costs.Evidence(), radii_again, costs.Adjustment()}, 1, plan);
   }
-  Append(costs.ByColour(), size.by_colour ? 1 : 0, plan);
+  const double by_colour = size.by_colour ? 1 : 0;
+  Append({{"wires from colour", 0}, costs.Tracking()}, by_colour, plan);
+  Append(costs.ByColour(), by_colour, plan);
+  Append(costs.ByColour(), 0.5 * by_colour, plan);  // where that gives nothing
   Append({costs.Strips(), costs.Silhouettes(), costs.Radius(), costs.Evidence(), radii_again}, 1,
          plan);
   Append({{"evidence again", 0}, radii_again}, 1, plan);  // where few are wires

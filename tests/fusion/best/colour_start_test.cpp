@@ -71,9 +71,28 @@ class ColourStart : public testing::Test {
 
   std::optional<ColourCurves> StartWithCurves(const BestOptions& options,
                                               DepthCurves depth_curves) {
-    result_.sequence = scan_.sequence();
-    return StartFromColour(scan_.sequence(), ColoursOf(scan_.sequence()), depth_curves, options,
+    return StartIn(scan_, options, depth_curves);
+  }
+
+  std::optional<ColourCurves> StartIn(const SilhouetteScan& scan, const BestOptions& options,
+                                      DepthCurves depth_curves) {
+    result_.sequence = scan.sequence();
+    return StartFromColour(scan.sequence(), ColoursOf(scan.sequence()), depth_curves, options,
                            StageReporter{observer_, log_}, result_);
+  }
+
+  // Depth shows something thin at one of the wires only.
+  void AddPointsAtOneWire() {
+    for (const Vec3& p : Resample(kWires[0], 0.004)) result_.points.Add(p, Vec3::UnitZ(), 1);
+    for (const double x : {-0.1, 0.1}) result_.points.Add({x, x, 0}, Vec3::UnitZ(), 1);
+  }
+
+  double Count(const std::string& name) const {
+    double count = 0;
+    for (const StageReport& stage : log_.stages())
+      for (const auto& [what, value] : stage.counts)
+        if (what == name) count = value;
+    return count;
   }
 
   double MedianDistance() const {
@@ -105,16 +124,26 @@ TEST_F(ColourStart, FindsWiresThatDepthShowsInWrongPlaces) {
 
 // Strips where depth shows nothing thin are painted on something.
 TEST_F(ColourStart, LeavesCurvesWhereDepthShowsNothingThinAtTheNewOnes) {
+  const SilhouetteScan near_wall(kWires, {}, 0.655);
   result_.skeleton = WiresOffBy(0.04);
-  for (const Vec3& p : Resample(kWires[0], 0.004)) result_.points.Add(p, Vec3::UnitZ(), 1);
-  for (const double x : {-0.1, 0.1}) result_.points.Add({x, x, 0}, Vec3::UnitZ(), 1);
-  EXPECT_FALSE(StartWithCurves(DefaultBestOptions(), DepthCurves::kDoubtful).has_value());
-  double share = 0;
-  for (const StageReport& stage : log_.stages())
-    for (const auto& [what, value] : stage.counts)
-      if (what == "share thin in depth") share = value;
-  EXPECT_GT(share, 0.1);
-  EXPECT_LT(share, 0.6);
+  AddPointsAtOneWire();
+  EXPECT_FALSE(StartIn(near_wall, DefaultBestOptions(), DepthCurves::kDoubtful).has_value());
+  EXPECT_GT(Count("share thin in depth"), 0.1);
+  EXPECT_LT(Count("share thin in depth"), 0.6);
+  EXPECT_LT(Count("share free in depth"), 0.9);
+}
+
+// Depth shows what is far behind them: it does not show the wires at all.
+TEST_F(ColourStart, TakesCurvesThatDepthLooksPast) {
+  result_.skeleton = WiresOffBy(0.04);
+  AddPointsAtOneWire();
+  const std::optional<ColourCurves> started =
+      StartWithCurves(DefaultBestOptions(), DepthCurves::kDoubtful);
+  ASSERT_TRUE(started.has_value());
+  EXPECT_EQ(started->start.depth, WireDepth::kLookedPast);
+  EXPECT_LT(Count("share thin in depth"), 0.6);
+  EXPECT_GT(Count("share free in depth"), 0.9);
+  EXPECT_LT(MedianDistance(), 0.001);
 }
 
 TEST_F(ColourStart, LeavesCurvesThatTheImagesShow) {
