@@ -271,7 +271,9 @@ bool IsLoose(const SkeletonGraph& graph, const Continuations& next, const Passag
 // The branch from a node on, along a passage and then as it was.
 SkeletonEdge Along(const Polyline& passage, double radius, const SkeletonEdge& branch) {
   const std::vector<double> arc_lengths = CumulativeLength(branch.points);
-  SkeletonEdge rest = PartOfEdge(branch, arc_lengths, kDrawn, arc_lengths.back());
+  // The passage at its other end may have made the branch shorter.
+  const double from = std::min(kDrawn, arc_lengths.back() - kLeastFitted);
+  const SkeletonEdge rest = PartOfEdge(branch, arc_lengths, from, arc_lengths.back());
   SkeletonEdge edge;
   edge.points = passage;
   edge.points.insert(edge.points.end(), rest.points.begin() + 1, rest.points.end());

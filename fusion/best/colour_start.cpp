@@ -26,11 +26,12 @@ constexpr double kShownAsWire = 0.9;  // of the images
 // whose curves from colour .84 and more lie where depth shows something thin, and five rooms
 // without any, where .42 at most do (docs/lab_notebook.md).
 constexpr double kMinThinInDepth = 0.6;
-// Or depth does not show them at all, but what is behind: .96 of a white grid's places by an SR300;
-// .39 to .88 of what three rooms without wires give.
+// Or depth does not show them at all, but what is behind: .96 and .98 of the places of a white grid
+// by an SR300 and of springs; .39 to .88 of what three rooms without wires give. All are training
+// scans.
 constexpr double kMinFreeInDepth = 0.9;
 constexpr int kThinImages = 20;    // chosen: enough for a share
-constexpr double kBehind = 0.03;   // metres; what is so far behind a place is another thing
+constexpr double kBehind = 0.03;   // metres; likewise what hides it: that of StripViews
 constexpr double kThinCellPx = 8;  // chosen: of images 640 pixels wide
 
 // Metres of curve, and how many of them the images show as wire.
@@ -116,11 +117,13 @@ double ShareFreeInDepth(const Sequence& sequence, const SkeletonGraph& skeleton,
     for (const EdgeId id : skeleton.Edges()) {
       for (const Vec3& point : Resample(skeleton.edge(id).points, kStep)) {
         const Vec3 p = T_camera_world * point;
-        if (p.z() <= 0) continue;
+        if (p.z() <= 0 || !sequence.depth_camera.Contains(sequence.depth_camera.Project(p)))
+          continue;
         const Eigen::Vector2i at = PinholeCamera::Rounded(sequence.depth_camera.Project(p));
-        if (!depth.Contains(at.x(), at.y()) || depth(at.x(), at.y()) < p.z() - kBehind) continue;
+        const float there = depth(at.x(), at.y());
+        if (there < p.z() - kBehind) continue;  // hidden, or not measured
         ++told;
-        free += depth(at.x(), at.y()) > p.z() + kBehind;
+        free += there > p.z() + kBehind;
       }
     }
   }
@@ -179,12 +182,12 @@ struct ColourFit {
   bool is_held = true;  // in poses that are held to surfaces
 };
 
-ColourFit FitAroundPoints(const Sequence& given, const std::optional<Sequence>& held,
-                          WireDepth depth, const WireColours& colours, const BestOptions& options,
-                          const StageReporter& reporter, const Reconstruction& result) {
+ColourFit FitAround(const Sequence& given, const std::optional<Sequence>& held, WireDepth depth,
+                    const WireColours& colours, const WireImages& images,
+                    const Eigen::AlignedBox3d& around, const BestOptions& options,
+                    const StageReporter& reporter) {
   ColourFit fit;
-  fit.images = colours.posterior.empty() ? LookForContrast(given) : LookForColours(given, colours);
-  const Eigen::AlignedBox3d around = RegionOf(given, result.points);
+  fit.images = images;
   const auto curves_in = [&](const Sequence& poses, PoseErrors errors) {
     const AdjustmentStart start = {CameraPoses(poses), errors, depth, colours.posterior};
     return FitCurvesOfColour(poses, start, around, options, reporter, fit.images, fit.colour);
@@ -218,8 +221,11 @@ std::optional<ColourCurves> StartFromColour(const Sequence& given, const WireCol
   const bool is_asked_for = options.depth.use == DepthRole::kBackground;
   if (!is_asked_for && (colours.posterior.empty() || result.points.empty())) return std::nullopt;
   const std::optional<Sequence> held = HoldToSurfaces(given, reporter);
+  const WireImages images =
+      colours.posterior.empty() ? LookForContrast(given) : LookForColours(given, colours);
+  const Eigen::AlignedBox3d around = RegionOf(given, result.points);
   for (const WireDepth depth : {WireDepth::kNotShown, WireDepth::kLookedPast}) {
-    ColourFit fit = FitAroundPoints(given, held, depth, colours, options, reporter, result);
+    ColourFit fit = FitAround(given, held, depth, colours, images, around, options, reporter);
     if (!fit.curves) continue;
     const Sequence& fitted = fit.colour.sequence;
     const ShownCurves before = CountShown(
