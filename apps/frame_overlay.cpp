@@ -122,7 +122,8 @@ struct TubePainter {
   }
 };
 
-void PaintTubes(const SkeletonGraph& graph, const TubePainter& painter, cv::Mat& image) {
+void PaintTubes(const SkeletonGraph& graph, const TubePainter& painter,
+                const std::optional<Rgb>& color, cv::Mat& image) {
   std::vector<std::pair<double, EdgeId>> by_depth;
   for (const EdgeId edge : graph.Edges()) {
     const Polyline& points = graph.edge(edge).points;
@@ -132,7 +133,7 @@ void PaintTubes(const SkeletonGraph& graph, const TubePainter& painter, cv::Mat&
   cv::Mat painted = image.clone();
   for (const auto& [depth, edge] : by_depth) {
     painter.Paint(painted, graph.edge(edge), kWhite, 2 * kSupersampling);
-    painter.Paint(painted, graph.edge(edge), EdgeColor(edge), 0);
+    painter.Paint(painted, graph.edge(edge), color.value_or(EdgeColor(edge)), 0);
   }
   cv::addWeighted(painted, kOpacity, image, 1 - kOpacity, 0, image);
 }
@@ -156,7 +157,7 @@ int FrameSeeingMost(const SkeletonGraph& graph, const Sequence& sequence) {
 }
 
 ColorImage DrawFrameOverlay(const SkeletonGraph& graph, const Sequence& sequence, int frame,
-                            int width, int height) {
+                            int width, int height, const std::optional<Rgb>& color) {
   const cv::Size size(width * kSupersampling, height * kSupersampling);
   const RigidTransform T_color_world = ColorFromWorld(sequence, frame);
   const cv::Rect2d cut =
@@ -164,7 +165,7 @@ ColorImage DrawFrameOverlay(const SkeletonGraph& graph, const Sequence& sequence
              static_cast<double>(width) / height);
   const CutOutMap map{size.width / cut.width, {cut.x, cut.y}};
   cv::Mat image = CutAndScale(LoadColor(sequence, frame), map, size);
-  PaintTubes(graph, {sequence.color_camera, T_color_world, map}, image);
+  PaintTubes(graph, {sequence.color_camera, T_color_world, map}, color, image);
   ColorImage result(width, height);
   cv::Mat reduced(height, width, CV_8UC3, result.data());
   cv::resize(image, reduced, reduced.size(), 0, 0, cv::INTER_AREA);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 
 #include "apps/frame_overlay.h"
 #include "experiments/pictures/orthographic_view.h"
@@ -102,16 +103,22 @@ ColorImage DrawPreview(const SkeletonGraph& graph, const SkeletonGraph& uncertai
   ColorImage preview(kWidth, kHeight, kWhite);
   cv::Mat canvas = View(preview);
   const auto views = Views(MeanCameraAxes(sequence));
-  const double scale = CommonScale(graph, views);
+  const SkeletonGraph& shown = graph.empty() ? uncertain : graph;
+  const double scale = CommonScale(shown, views);
   ObservedPoints grey = points;
   AddPointsOf(uncertain, grey);
-  const int frame = FrameSeeingMost(graph, sequence);
+  const int frame = FrameSeeingMost(shown, sequence);
+  const auto draw_view = [&](const OrthographicView& view) {
+    return DrawFramedView(graph, grey, view, ViewBounds(shown, view.R_view_world), kPanelWidth,
+                          kPanelHeight, scale);
+  };
   constexpr int kPanels = 4;
   ParallelFor(0, frame >= 0 ? kPanels : kPanels - 1, 1, [&](int64_t i) {
     const auto panel = static_cast<size_t>(i);
     Paste(panel < views.size()
-              ? DrawOrthographicView(graph, grey, views[panel], kPanelWidth, kPanelHeight, scale)
-              : DrawFrameOverlay(graph, sequence, frame, kPanelWidth, kPanelHeight),
+              ? draw_view(views[panel])
+              : DrawFrameOverlay(shown, sequence, frame, kPanelWidth, kPanelHeight,
+                                 graph.empty() ? std::optional(kPaleInk) : std::nullopt),
           static_cast<int>(i), canvas);
   });
   const int text_width = kWidth - 4 * kGap;

@@ -11,7 +11,8 @@ namespace curvefusion {
 
 /// The result at a glance: the graph over the points it was made from, seen from where the camera
 /// was, from the side and from above, and the tubes drawn into the frame that sees most of them.
-/// The graph must not be empty. Uncertain curves are drawn as the points are.
+/// Uncertain curves are drawn as the points are; where the graph is empty, they are what the
+/// picture shows. One of both must not be empty.
 ColorImage DrawPreview(const SkeletonGraph& graph, const SkeletonGraph& uncertain,
                        const ObservedPoints& points, const Sequence& sequence,
                        const std::string& title);

@@ -64,18 +64,18 @@ std::string Summary(const RunRecord& record, const std::filesystem::path& folder
   const auto add_file = [&](const char* what, const std::filesystem::path& file) {
     text += fmt::format("  {:<9} {}\n", what, file.string());
   };
+  const bool has_uncertain = !record.reconstruction.uncertain.graph.empty();
+  const bool replaces = !skeleton.empty() || report.filename() == "report.json";
   add_file("page", page);
+  if (replaces && (!skeleton.empty() || has_uncertain)) add_file("picture", folder / "preview.png");
   if (!skeleton.empty()) {
-    add_file("picture", folder / "preview.png");
     add_file("mesh", folder / "mesh.ply");
     if (record.hybrid) add_file("hybrid", folder / "hybrid.ply");
     add_file("skeleton", folder / "skeleton.json");
-    if (!record.reconstruction.uncertain.graph.empty()) {
-      add_file("uncertain", folder / "uncertain.json");
-    }
   }
+  if (replaces && has_uncertain) add_file("uncertain", folder / "uncertain.json");
   add_file("report", report);
-  if (skeleton.empty() && report.filename() != "report.json") {
+  if (!replaces) {
     text += fmt::format("  the result of an earlier run stays in {}\n", folder.string());
   }
   for (const std::string& warning : AllWarnings(record)) text += "  warning: " + warning + "\n";

@@ -101,7 +101,9 @@ std::string ForScriptElement(const std::string& json) {
 PagePictures MakePagePictures(const Reconstruction& reconstruction, const ColorImage& preview) {
   PagePictures pictures{JpegUrl(preview, kPreviewWidth), {}};
   const Sequence& sequence = reconstruction.sequence;
-  for (const int frame : ShownFrames(reconstruction.skeleton, sequence, kFrames)) {
+  const SkeletonGraph& shown =
+      reconstruction.skeleton.empty() ? reconstruction.uncertain.graph : reconstruction.skeleton;
+  for (const int frame : ShownFrames(shown, sequence, kFrames)) {
     pictures.frames.push_back(MakePageFrame(sequence, frame));
   }
   return pictures;

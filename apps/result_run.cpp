@@ -46,17 +46,28 @@ void WriteUncertain(const Reconstruction& reconstruction, const fs::path& folder
   WriteSkeleton(folder / "uncertain.json", reconstruction.uncertain.graph);
 }
 
+ColorImage WritePicture(const Reconstruction& reconstruction, const std::string& title,
+                        const fs::path& folder) {
+  ColorImage preview = DrawPreview(reconstruction.skeleton, reconstruction.uncertain.graph,
+                                   reconstruction.points, reconstruction.sequence, title);
+  WritePng(folder / "preview.png", preview);
+  return preview;
+}
+
 // Returns the picture.
 ColorImage WriteSkeletonAndPicture(const RunRecord& record, const fs::path& folder) {
   const Reconstruction& reconstruction = record.reconstruction;
   WriteSkeleton(folder / "skeleton.json", reconstruction.skeleton);
   WriteUncertain(reconstruction, folder);
   WriteTumTrajectory(folder / "trajectory.txt", PosesOf(reconstruction.sequence));
-  ColorImage preview =
-      DrawPreview(reconstruction.skeleton, reconstruction.uncertain.graph, reconstruction.points,
-                  reconstruction.sequence, FiguresLine(MeasureGraph(reconstruction.skeleton)));
-  WritePng(folder / "preview.png", preview);
-  return preview;
+  return WritePicture(reconstruction, FiguresLine(MeasureGraph(reconstruction.skeleton)), folder);
+}
+
+// Likewise where nothing is certain; nothing where nothing is uncertain either.
+ColorImage WriteUncertainAndPicture(const Reconstruction& reconstruction, const fs::path& folder) {
+  if (reconstruction.uncertain.graph.empty()) return {};
+  WriteUncertain(reconstruction, folder);
+  return WritePicture(reconstruction, "nothing thin that is proven", folder);
 }
 
 MeshRecord WriteTubes(const RunRecord& record, const fs::path& folder) {
@@ -145,8 +156,8 @@ int ReconstructInto(const ResultFolder& output, Sequence sequence, const ResultR
     WriteResult(record, run, output, InterruptibleProgress(printer));
   } else {
     output.AddNothingFound([&](const fs::path& folder) {
-      WriteUncertain(reconstruction, folder);
-      WriteReport(record, {}, run.start, output, folder);
+      const ColorImage preview = WriteUncertainAndPicture(reconstruction, folder);
+      WriteReport(record, preview, run.start, output, folder);
     });
   }
   printer.Finish();

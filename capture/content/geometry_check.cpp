@@ -210,15 +210,20 @@ void RequireFittingPoses(Sequence& sequence) {
   });
 }
 
-bool DepthDisagrees(const Sequence& sequence) {
+std::optional<double> DepthMisfit(const Sequence& sequence) {
   const std::vector<FramePair> pairs = SpreadPairs(sequence.frame_count(), kSampledStarts);
   const Thumbnails thumbnails = DepthThumbnails(sequence, FramesOf(pairs));
-  if (thumbnails.depth.empty()) return false;
+  if (thumbnails.depth.empty()) return std::nullopt;
   FramePoses poses;
   for (const SequenceFrame& frame : sequence.frames) poses.emplace_back(frame.T_world_camera);
   const DepthViews views(thumbnails, sequence.depth_scale);
   const PoseAgreement agreement = MeasureAgreement(views, pairs, poses);
-  return agreement.usable >= kMinJudgedPairs && WideResidual(pairs, agreement) > kMaxWideResidual;
+  if (agreement.usable < kMinJudgedPairs) return std::nullopt;
+  return WideResidual(pairs, agreement);
+}
+
+bool DepthDisagrees(const Sequence& sequence) {
+  return DepthMisfit(sequence).value_or(0) > kMaxWideResidual;
 }
 
 }  // namespace curvefusion

@@ -75,8 +75,11 @@ GeometryReport CheckClocks(const Sequence& sequence, const FindingHandler& on_fi
 /// what is in doubt.
 void RequireFittingPoses(Sequence& sequence);
 
-/// Whether depth of frames up to 30 apart disagrees, whatever the cause; not where it cannot tell.
-/// Decodes about 30 depth images.
+/// How far depth of frames some 10 to 30 apart disagrees, as a share of depth, in the median;
+/// nothing where it cannot tell. Decodes about 30 depth images.
+std::optional<double> DepthMisfit(const Sequence& sequence);
+
+/// Whether depth disagrees by more than sensors err, whatever the cause.
 bool DepthDisagrees(const Sequence& sequence);
 
 }  // namespace curvefusion

@@ -7,6 +7,9 @@ namespace {
 // Steps up to the points of bundles, CurveFusion 4.1.
 std::vector<Ablation> OfSegmentation() {
   return {
+      {"poses held to surfaces",
+       {"depth.hold_to_surfaces=false"},
+       "What stands behind the wires shows how the camera moved better than trackers do."},
       {"volume stride", {"volume.stride=1"}, "Time: large surfaces are seen often enough."},
       {"volume grid",
        {"volume.voxel_size=0.005", "volume.truncation_voxels=8"},

@@ -8,6 +8,7 @@ namespace curvefusion {
 BestOptions DefaultBestOptions() {
   BestOptions options;
   options.volume.voxel_size = 0.01;
+  options.holds_to_surfaces = true;
   options.volume_stride = 2;
   options.segmentation.render_divisor = 2;
   options.segmentation.opening.solid_depth = 0.03;
@@ -56,6 +57,10 @@ void VisitOptions(DepthOptions& options, OptionVisitor& visitor) {
 void VisitOptions(BestOptions& options, OptionVisitor& visitor) {
   visitor.BeginSection("depth");
   VisitOptions(options.depth, visitor);
+  visitor.Visit({"hold_to_surfaces", "", 0, 1,
+                 "Deviation: before all else, poses are corrected to fit the surfaces that depth "
+                 "shows behind the wires, where depth images then agree better."},
+                options.holds_to_surfaces);
   visitor.BeginSection("volume");
   VisitOptions(options.volume, visitor);
   visitor.Visit(

@@ -39,6 +39,7 @@ void VisitOptions(DepthOptions& options, OptionVisitor& visitor);
 /// default-constructed one most extensions of the paper are off.
 struct BestOptions {
   TsdfOptions volume;
+  bool holds_to_surfaces = false;
   int volume_stride = 1;
   SegmentationOptions segmentation;
   CarriedPointsOptions carried;

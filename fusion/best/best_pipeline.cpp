@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "fusion/best/best_plan.h"
@@ -19,6 +20,7 @@
 #include "fusion/registration/ray_noise.h"
 #include "fusion/stage_progress.h"
 #include "fusion/stage_reporter.h"
+#include "fusion/tracking/tracked_poses.h"
 #include "kernel/parallel.h"
 
 namespace curvefusion {
@@ -153,13 +155,34 @@ void ContractCarriedPoints(SegmentedScan scan, const BestOptions& options,
       Contract(result.points, std::nullopt, "registered_frames", space, options.ridge, reporter);
 }
 
+// A scan as it was given, and what its frames are taken for.
+struct PosedScan {
+  const Sequence& given;
+  Sequence sequence;
+  PoseErrors errors = PoseErrors::kDrift;
+};
+
+// With poses that fit the surfaces behind the wires, which all frames see, where depth shows any.
+PosedScan HoldToSurfaces(const Sequence& given, const BestOptions& options,
+                         const StageReporter& reporter) {
+  if (!options.holds_to_surfaces) return {given, given};
+  const StageLog::Timer timer = reporter.Begin("hold to surfaces");
+  std::optional<Sequence> held =
+      HeldToItsSurfaces(given, [&](std::string_view stage, int64_t done, int64_t total) {
+        reporter.observer.OnProgress(std::string(stage), done, total);
+      });
+  reporter.log.Count("hold to surfaces", "frames moved", held ? given.frame_count() : 0);
+  if (!held) return {given, given};
+  return {given, *std::move(held), PoseErrors::kJitter};
+}
+
 // What colour images make of curves, and how far the result may be trusted.
-void RefineAndJudge(const Sequence& sequence, const LearnedWires& wires, RunSize size,
+void RefineAndJudge(const PosedScan& scan, const LearnedWires& wires, RunSize size,
                     const BestOptions& options, const StageReporter& reporter,
                     Reconstruction& result) {
-  RefineByColour(sequence, wires, size, options, reporter, result);
+  RefineByColour(scan.sequence, scan.errors, wires, size, options, reporter, result);
   result.funnel.curves.curves = result.skeleton.TotalLength();
-  result.trust = MeasureTrust(sequence, result);
+  result.trust = MeasureTrust(scan.given, result);
   const std::string places = PlacesWarning(result.trust);
   if (options.colour_adjustment.enabled && !places.empty()) result.warnings.push_back(places);
   result.stages = reporter.log.stages();
@@ -171,24 +194,24 @@ Reconstruction ReconstructWithoutDepth(const Sequence& sequence, const BestOptio
   Reconstruction result;
   result.sequence = sequence;
   result.warnings = sequence.warnings;
-  RefineAndJudge(sequence, {}, {.by_colour = true}, options, reporter, result);
+  RefineAndJudge({sequence, sequence}, {}, {.by_colour = true}, options, reporter, result);
   HoldToScaleOf(sequence, result);
   return result;
 }
 
 // What is thin, then all that is made of it.
-Reconstruction ReconstructThinParts(const BundleSource& source, const Sequence& sequence,
+Reconstruction ReconstructThinParts(const BundleSource& source, const PosedScan& scan,
                                     const BestOptions& options, const StageReporter& reporter) {
   Reconstruction result;
-  result.sequence = sequence;
-  result.warnings = sequence.warnings;
-  SegmentedScan scan = GatherBundles(source, sequence, options, reporter);
-  const LearnedWires wires = scan.wires;
-  const RunSize size = {.points = scan.points};
-  result.funnel.points = scan.funnel;
-  ContractCarriedPoints(std::move(scan), options, reporter, result);
+  result.sequence = scan.sequence;
+  result.warnings = scan.sequence.warnings;
+  SegmentedScan thin = GatherBundles(source, scan.sequence, options, reporter);
+  const LearnedWires wires = thin.wires;
+  const RunSize size = {.points = thin.points};
+  result.funnel.points = thin.funnel;
+  ContractCarriedPoints(std::move(thin), options, reporter, result);
   result.funnel.curves.contracted = result.skeleton.TotalLength();
-  RefineAndJudge(sequence, wires, size, options, reporter, result);
+  RefineAndJudge(scan, wires, size, options, reporter, result);
   return result;
 }
 
@@ -209,22 +232,26 @@ BundleSink CountingVolume(const BundleSink& sink, StageLog& log) {
 
 }  // namespace
 
-Reconstruction ReconstructBest(const Sequence& given_sequence, const BestOptions& given,
+Reconstruction ReconstructBest(const Sequence& all, const BestOptions& given_options,
                                PipelineObserver& observer) {
-  BestOptions options = given;
-  const bool is_used = given_sequence.has_depth && options.depth.use != DepthRole::kNone;
-  const Sequence sequence = is_used ? given_sequence : WithoutDepth(given_sequence);
-  const std::string useless_colour = SwitchOffUselessColour(sequence, options);
-  observer.OnPlan(PlanBest(sequence, options, {}));
+  BestOptions options = given_options;
+  const bool is_used = all.has_depth && options.depth.use != DepthRole::kNone;
+  const Sequence given = is_used ? all : WithoutDepth(all);
+  const std::string useless_colour = SwitchOffUselessColour(given, options);
+  observer.OnPlan(PlanBest(given, options, {}));
   StageLog log;
   const StageReporter reporter{observer, log};
-  const BundleSource source = [&](const BundleSink& sink) {
-    const TsdfVolume volume = FuseVolumeOfRun(sequence, options, reporter);
-    SegmentBundles(sequence, volume, AllBundles(sequence, options), options, reporter,
-                   CountingVolume(sink, log));
+  const auto with_depth = [&] {
+    const PosedScan scan = HoldToSurfaces(given, options, reporter);
+    const BundleSource source = [&](const BundleSink& sink) {
+      const TsdfVolume volume = FuseVolumeOfRun(scan.sequence, options, reporter);
+      SegmentBundles(scan.sequence, volume, AllBundles(given, options), options, reporter,
+                     CountingVolume(sink, log));
+    };
+    return ReconstructThinParts(source, scan, options, reporter);
   };
-  Reconstruction result = is_used ? ReconstructThinParts(source, sequence, options, reporter)
-                                  : ReconstructWithoutDepth(sequence, options, reporter);
+  Reconstruction result =
+      is_used ? with_depth() : ReconstructWithoutDepth(given, options, reporter);
   if (!useless_colour.empty()) result.warnings.push_back(useless_colour);
   return result;
 }
@@ -237,18 +264,19 @@ Reconstruction ReconstructBestAgainst(const TsdfVolume& volume, const Sequence& 
   const BundleSource source = [&](const BundleSink& sink) {
     SegmentBundles(sequence, volume, AllBundles(sequence, options), options, reporter, sink);
   };
-  return ReconstructThinParts(source, sequence, options, reporter);
+  return ReconstructThinParts(source, {sequence, sequence}, options, reporter);
 }
 
-void SegmentBest(const Sequence& sequence, const BestOptions& given, BundleRange range,
+void SegmentBest(const Sequence& given_sequence, const BestOptions& given, BundleRange range,
                  const BundleSink& sink, PipelineObserver& observer) {
   BestOptions options = given;
-  SwitchOffUselessColour(sequence, options);
+  SwitchOffUselessColour(given_sequence, options);
   const double share =
-      static_cast<double>(range.last - range.first) / AllBundles(sequence, options).last;
-  observer.OnPlan(PlanSegmentation(sequence, options, share));
+      static_cast<double>(range.last - range.first) / AllBundles(given_sequence, options).last;
+  observer.OnPlan(PlanSegmentation(given_sequence, options, share));
   StageLog log;
   const StageReporter reporter{observer, log};
+  const Sequence sequence = HoldToSurfaces(given_sequence, options, reporter).sequence;
   const TsdfVolume volume = FuseVolumeOfRun(sequence, options, reporter);
   SegmentBundles(sequence, volume, range, options, reporter, sink);
 }
@@ -261,12 +289,13 @@ Reconstruction ReconstructBestFrom(const BundleSource& shards, const Sequence& s
   observer.OnPlan(PlanBest(sequence, options, {}));
   StageLog log;
   const StageReporter reporter{observer, log};
-  if (fuse_volume) FuseVolumeOfRun(sequence, options, reporter);
+  const PosedScan scan = HoldToSurfaces(sequence, options, reporter);
+  if (fuse_volume) FuseVolumeOfRun(scan.sequence, options, reporter);
   const BundleSource source = [&](const BundleSink& sink) {
     const StageLog::Timer timer = reporter.Begin("segmentation");
     shards(CountingVolume(sink, log));
   };
-  Reconstruction result = ReconstructThinParts(source, sequence, options, reporter);
+  Reconstruction result = ReconstructThinParts(source, scan, options, reporter);
   if (!useless_colour.empty()) result.warnings.push_back(useless_colour);
   return result;
 }

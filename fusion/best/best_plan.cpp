@@ -29,6 +29,7 @@ constexpr double kMostRounds = 1.5, kUnknownRounds = 0.5;
 struct Amounts {
   double size;         // of images, in kPixels
   double looked_size;  // of those that strips are looked for in
+  double held;         // frames whose poses are held to surfaces
   double integrated;   // frames of the volume
   double frames;       // segmented
   double bundles;
@@ -52,6 +53,7 @@ Amounts AmountsOf(const Sequence& sequence, const BestOptions& options, const Ru
       ChooseColourFrames(sequence, options.colour_adjustment.frame_stride).size());
   return {.size = SizeOf(sequence.depth_camera),
           .looked_size = SizeOf(StripViews::CameraLookedThrough(sequence.color_camera)),
+          .held = options.holds_to_surfaces ? frames : 0,
           .integrated = frames / options.volume_stride,
           .frames = frames,
           .bundles = frames / options.segmentation.bundle.frames,
@@ -90,7 +92,8 @@ class Costs {
   PlannedStage Wires() const { return {"wires from colour", 0.02 * a_.searched}; }
 
   std::vector<PlannedStage> UntilContracted() const {
-    return {{"volume", 0.0083 * a_.size * a_.integrated},
+    return {{"hold to surfaces", 0.035 * a_.size * a_.held},
+            {"volume", 0.0083 * a_.size * a_.integrated},
             {"surfaces and colours", 0.09 * a_.size * a_.learned},
             {"segmentation", 0.031 * a_.size * a_.frames + 0.5 * a_.points},
             {"bundle registration", (0.2 + 0.05 * a_.bundles) * a_.points},
@@ -99,8 +102,6 @@ class Costs {
             {"frame registration", 0.004 * a_.frames + 0.3 * a_.points},
             {"contraction", 0.05 + 0.25 * a_.points}};
   }
-
-  PlannedStage Tracking() const { return {"track camera", 0.035 * a_.size * a_.frames}; }
 
   // Where curves are sought in colour images alone: places that these agree on, twice.
   std::vector<PlannedStage> ByColour() const {
@@ -133,7 +134,6 @@ std::vector<PlannedStage> BestStages(const Costs& costs, const RunSize& size, bo
     Append({costs.Radius(), costs.Evidence(), radii_again, costs.Adjustment()}, 1, plan);
   }
   const double by_colour = size.by_colour ? 1 : 0;
-  Append({{"wires from colour", 0}, costs.Tracking()}, by_colour, plan);
   Append(costs.ByColour(), by_colour, plan);
   Append(costs.ByColour(), 0.5 * by_colour, plan);  // where that gives nothing
   Append({costs.Strips(), costs.Silhouettes(), costs.Radius(), costs.Evidence(), radii_again}, 1,

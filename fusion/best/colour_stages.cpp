@@ -197,7 +197,8 @@ void StartFromColourWhereDepthFails(const Sequence& given, const WireColours& co
   TellPlan(size, options, reporter, result);
   const DepthCurves depth_curves = adjusted ? DepthCurves::kMisplaced : DepthCurves::kDoubtful;
   std::optional<ColourCurves> from_colour =
-      given.has_depth ? StartFromColour(given, colours, depth_curves, options, reporter, result)
+      given.has_depth ? StartFromColour(given, start.pose_errors, colours, depth_curves, options,
+                                        reporter, result)
                       : StartWithoutDepth(given, options, reporter, result);
   if (from_colour) {
     adjusted = std::move(from_colour->adjusted);
@@ -257,13 +258,13 @@ void LookForEvidence(const ViewEvidenceOptions& options, const StageReporter& re
 
 }  // namespace
 
-void RefineByColour(const Sequence& given, const LearnedWires& wires, RunSize size,
-                    const BestOptions& options, const StageReporter& reporter,
+void RefineByColour(const Sequence& given, PoseErrors pose_errors, const LearnedWires& wires,
+                    RunSize size, const BestOptions& options, const StageReporter& reporter,
                     Reconstruction& result) {
   const auto measure_radii = [&] {
     AssignMeasuredRadii(wires.array_diameter, options.radius, reporter, result);
   };
-  AdjustmentStart start = {CameraPoses(given), PoseErrors::kDrift,
+  AdjustmentStart start = {CameraPoses(given), pose_errors,
                            given.has_depth ? WireDepth::kShown : WireDepth::kNotShown,
                            wires.colours.posterior};
   const double min_probability = options.evidence.min_probability;

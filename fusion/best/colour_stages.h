@@ -12,12 +12,12 @@
 namespace curvefusion {
 
 /// What colour images tell of contracted curves: radii, wires that depth has missed, exact curves
-/// and poses, which curves are false or missing, and where they were seen. `given` are the poses of
-/// the input, which the adjustment's drift is counted from; `wires` what the segmentation learned
-/// of close wires and of colours; `size` what the run has found, for its plan. Throws like
-/// MeasureRadii.
-void RefineByColour(const Sequence& given, const LearnedWires& wires, RunSize size,
-                    const BestOptions& options, const StageReporter& reporter,
+/// and poses, which curves are false or missing, and where they were seen. `given` has the poses
+/// that the adjustment's corrections are counted from, which err as told; `wires` what the
+/// segmentation learned of close wires and of colours; `size` what the run has found, for its plan.
+/// Throws like MeasureRadii.
+void RefineByColour(const Sequence& given, PoseErrors pose_errors, const LearnedWires& wires,
+                    RunSize size, const BestOptions& options, const StageReporter& reporter,
                     Reconstruction& result);
 
 }  // namespace curvefusion

@@ -6,14 +6,12 @@
 #include <algorithm>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "capture/frame_stream.h"
 #include "fusion/curve_graph/viewed_region.h"
 #include "fusion/silhouettes/wire_silhouettes.h"
-#include "fusion/tracking/tracked_poses.h"
 #include "kernel/polyline.h"
 
 namespace curvefusion {
@@ -130,14 +128,6 @@ double ShareFreeInDepth(const Sequence& sequence, const SkeletonGraph& skeleton,
   return told > 0 ? static_cast<double>(free) / static_cast<double>(told) : 0;
 }
 
-// Depth that shows wires in wrong places still shows surfaces where they are.
-std::optional<Sequence> HoldToSurfaces(const Sequence& given, const StageReporter& reporter) {
-  const StageLog::Timer timer = reporter.Begin(kWiresFromColour);
-  return HeldToItsSurfaces(given, [&](std::string_view stage, int64_t done, int64_t total) {
-    reporter.observer.OnProgress(std::string(stage), done, total);
-  });
-}
-
 // The motion of the world that takes the cameras of one reconstruction to those of another.
 RigidTransform MeanMotion(const Sequence& from, const Sequence& to) {
   Mat3 turns = Mat3::Zero();
@@ -179,26 +169,7 @@ struct ColourFit {
   WireImages images;
   Reconstruction colour;
   std::optional<ColourCurves> curves;
-  bool is_held = true;  // in poses that are held to surfaces
 };
-
-ColourFit FitAround(const Sequence& given, const std::optional<Sequence>& held, WireDepth depth,
-                    const WireColours& colours, const WireImages& images,
-                    const Eigen::AlignedBox3d& around, const BestOptions& options,
-                    const StageReporter& reporter) {
-  ColourFit fit;
-  fit.images = images;
-  const auto curves_in = [&](const Sequence& poses, PoseErrors errors) {
-    const AdjustmentStart start = {CameraPoses(poses), errors, depth, colours.posterior};
-    return FitCurvesOfColour(poses, start, around, options, reporter, fit.images, fit.colour);
-  };
-  // A camera before a plane and wires alone may slip along it: curves then fit no image.
-  if (held) fit.curves = curves_in(*held, PoseErrors::kJitter);
-  if (fit.curves) return fit;
-  fit.is_held = false;
-  fit.curves = curves_in(given, PoseErrors::kDrift);
-  return fit;
-}
 
 // Whether curves from colour agree with what depth shows, if it shows wires like that.
 bool IsLikely(WireDepth depth, const Reconstruction& result, const ColourFit& fit,
@@ -215,17 +186,19 @@ bool IsLikely(WireDepth depth, const Reconstruction& result, const ColourFit& fi
 
 }  // namespace
 
-std::optional<ColourCurves> StartFromColour(const Sequence& given, const WireColours& colours,
-                                            DepthCurves depth_curves, const BestOptions& options,
+std::optional<ColourCurves> StartFromColour(const Sequence& given, PoseErrors pose_errors,
+                                            const WireColours& colours, DepthCurves depth_curves,
+                                            const BestOptions& options,
                                             const StageReporter& reporter, Reconstruction& result) {
   const bool is_asked_for = options.depth.use == DepthRole::kBackground;
   if (!is_asked_for && (colours.posterior.empty() || result.points.empty())) return std::nullopt;
-  const std::optional<Sequence> held = HoldToSurfaces(given, reporter);
   const WireImages images =
       colours.posterior.empty() ? LookForContrast(given) : LookForColours(given, colours);
   const Eigen::AlignedBox3d around = RegionOf(given, result.points);
   for (const WireDepth depth : {WireDepth::kNotShown, WireDepth::kLookedPast}) {
-    ColourFit fit = FitAround(given, held, depth, colours, images, around, options, reporter);
+    ColourFit fit = {images, {}, {}};
+    const AdjustmentStart start = {CameraPoses(given), pose_errors, depth, colours.posterior};
+    fit.curves = FitCurvesOfColour(given, start, around, options, reporter, fit.images, fit.colour);
     if (!fit.curves) continue;
     const Sequence& fitted = fit.colour.sequence;
     const ShownCurves before = CountShown(
@@ -240,8 +213,8 @@ std::optional<ColourCurves> StartFromColour(const Sequence& given, const WireCol
     result.warnings.push_back(fmt::format(
         "the curves come from the colour images alone, and their scale from {}: the images show "
         "{:.2f} m of them as wire, and {:.2f} of {:.2f} m of depth's",
-        fit.is_held ? "the surfaces that depth shows" : "the poses", after.shown, before.shown,
-        before.length));
+        pose_errors == PoseErrors::kJitter ? "the surfaces that depth shows" : "the poses",
+        after.shown, before.shown, before.length));
     return std::move(fit.curves);
   }
   return std::nullopt;

@@ -21,11 +21,8 @@ enum class DepthCurves {
 /// wrong places. Depth still tells where the object is (result.points), what stands before or
 /// behind a place (FindColourCandidates), and by its thin pixels the wires' colours (`colours`).
 /// Places that images agree on are contracted, and curves and poses adjusted to the images (`given`
-/// has the poses of the input, which are started from); with these poses and the colours then
-/// learned all of that once more.
-///
-/// Poses are held to the surfaces that depth shows (HeldToItsSurfaces); where curves cannot be
-/// fitted in these, the given ones are started from, and scale is theirs.
+/// has the poses that are started from, which err as told); with the poses and colours then learned
+/// all of that once more. Scale is that of the surfaces that poses are held to, or of the poses.
 ///
 /// Replaces curves, points, radii and poses of the result where the images show more metres of the
 /// new curves as wire than of those that were there, metres that they do not show taken off; where
@@ -38,8 +35,9 @@ enum class DepthCurves {
 /// are sought where most cameras look, in what stands out from its surroundings. Nothing otherwise.
 /// Throws Error(kBadInput) for an image that cannot be read. Costs about .1 s an image, at most 90
 /// of them.
-std::optional<ColourCurves> StartFromColour(const Sequence& given, const WireColours& colours,
-                                            DepthCurves depth_curves, const BestOptions& options,
+std::optional<ColourCurves> StartFromColour(const Sequence& given, PoseErrors pose_errors,
+                                            const WireColours& colours, DepthCurves depth_curves,
+                                            const BestOptions& options,
                                             const StageReporter& reporter, Reconstruction& result);
 
 /// Curves and poses from colour images and poses alone: what stands out from its surroundings,

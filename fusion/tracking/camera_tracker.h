@@ -33,6 +33,10 @@ class CameraTracker {
   /// before. Throws Error(kResource) where the volume grows beyond its memory.
   TrackedFrame Track(const TrackingFrame& frame);
 
+  /// Likewise from the motion since the frame tracked last, as another tracker gives it: what
+  /// surfaces and colours do not tell stays as it is. A frame that cannot be placed is not added.
+  TrackedFrame TrackNear(const TrackingFrame& frame, const RigidTransform& T_before_now);
+
   int keyframe_count() const { return keyframes_.size(); }
 
  private:
@@ -47,7 +51,8 @@ class CameraTracker {
   TrackedFrame Start(const TrackingFrame& frame);
   std::vector<RigidTransform> Guesses(const TrackingFrame& frame) const;
   TrackedFrame TryFrom(const TrackingFrame& frame,
-                       const std::vector<RigidTransform>& T_world_guesses) const;
+                       const std::vector<RigidTransform>& T_world_guesses,
+                       const PosePrior* prior = nullptr) const;
   TrackedFrame TryFromKeyframes(const TrackingFrame& frame) const;
   void Add(const TrackingFrame& frame, const RigidTransform& T_world_camera);
 
@@ -59,7 +64,8 @@ class CameraTracker {
   bool was_lost_ = false;
 };
 
-/// Why an alignment is not to be trusted, a clause with figures; empty where it is.
-std::string WhyNotTrusted(const FrameAlignment& alignment);
+/// Why an alignment is not to be trusted, a clause with figures; empty where it is. Where the
+/// motion is given, surfaces need not hold the camera, and less of them does.
+std::string WhyNotTrusted(const FrameAlignment& alignment, bool motion_is_given = false);
 
 }  // namespace curvefusion

@@ -33,12 +33,14 @@ using Vector8 = Eigen::Matrix<double, 8, 1>;
 class LevelSolver {
  public:
   LevelSolver(const TrackingFrame& frame, const ModelView& model, const Keyframe* keyframe,
-              const EarlierPose& earlier, const RigidTransform& T_color_depth)
+              const EarlierPose& earlier, const RigidTransform& T_color_depth,
+              const PosePrior* prior)
       : frame_(frame),
         model_(model),
         keyframe_(keyframe),
         earlier_(earlier),
-        T_color_depth_(T_color_depth) {}
+        T_color_depth_(T_color_depth),
+        prior_(prior) {}
 
   // A step at a level; whether it was large.
   bool Step(int level, RigidTransform& T_model_frame, GreyChange& change) {
@@ -52,6 +54,7 @@ class LevelSolver {
     H.topLeftCorner<6, 6>() = geometric.H();
     g.head<6>() = geometric.g();
     AddPhotometric(level, T_model_frame, change, H, g);
+    AddPrior(T_model_frame, H, g);
     H(6, 6) += 1 / (kGainPrior * kGainPrior);
     H(7, 7) += 1 / (kOffsetPrior * kOffsetPrior);
     g(6) += change.gain / (kGainPrior * kGainPrior);
@@ -135,11 +138,25 @@ class LevelSolver {
     g += sums.equations.g();
   }
 
+  // In the measure of the other terms, of which so many pixels count for one.
+  void AddPrior(const RigidTransform& T_model_frame, Matrix8& H, Vector8& g) const {
+    if (prior_ == nullptr) return;
+    const RigidTransform from_prior =
+        T_model_frame * (model_.T_world_model.inverse() * prior_->T_world_camera).inverse();
+    Vector8 difference = Vector8::Zero(), weights = Vector8::Zero();
+    difference.head<6>() << from_prior.translation(), RotationVector(from_prior);
+    weights.head<3>().setConstant(kCorrelatedPixels / (prior_->translation * prior_->translation));
+    weights.segment<3>(3).setConstant(kCorrelatedPixels / (prior_->rotation * prior_->rotation));
+    H.diagonal() += weights;
+    g += weights.cwiseProduct(difference);
+  }
+
   const TrackingFrame& frame_;
   const ModelView& model_;
   const Keyframe* keyframe_;
   const EarlierPose& earlier_;
   const RigidTransform& T_color_depth_;
+  const PosePrior* prior_;
   double deviation_ = 1;
   double grey_deviation_ = 0;
   int grey_points_ = 0;
@@ -195,8 +212,9 @@ RigidTransform ColorFromDepth(const TrackingFrame& frame, const EarlierPose& ear
 FrameAlignment AlignFrame(const TrackingFrame& frame, const ModelView& model,
                           const Keyframe* keyframe, const EarlierPose& earlier,
                           const RigidTransform& T_color_depth,
-                          const std::vector<RigidTransform>& T_world_guesses) {
-  LevelSolver solver(frame, model, keyframe, earlier, T_color_depth);
+                          const std::vector<RigidTransform>& T_world_guesses,
+                          const PosePrior* prior) {
+  LevelSolver solver(frame, model, keyframe, earlier, T_color_depth, prior);
   Start best;
   for (const RigidTransform& T_world_guess : T_world_guesses) {
     Start start;

@@ -21,6 +21,13 @@ RigidTransform ColorFromDepth(const TrackingFrame& frame, const EarlierPose& ear
                               const RigidTransform& T_world_frame,
                               const RigidTransform& T_color_depth);
 
+/// What is known of a frame's pose beforehand, with its standard deviations.
+struct PosePrior {
+  RigidTransform T_world_camera = RigidTransform::Identity();
+  double translation = 0;  ///< metres, in each direction
+  double rotation = 0;     ///< radians, about each axis
+};
+
 /// Where a frame was found to be and how well.
 struct FrameAlignment {
   RigidTransform T_world_camera = RigidTransform::Identity();
@@ -36,10 +43,11 @@ struct FrameAlignment {
 
 /// Finds the pose of a frame from its distances to the model and its grey differences from a
 /// keyframe (may be null), by Gauss-Newton steps from coarse to fine, from the guess that fits best
-/// at the coarse levels.
+/// at the coarse levels. `prior` may be null.
 FrameAlignment AlignFrame(const TrackingFrame& frame, const ModelView& model,
                           const Keyframe* keyframe, const EarlierPose& earlier,
                           const RigidTransform& T_color_depth,
-                          const std::vector<RigidTransform>& T_world_guesses);
+                          const std::vector<RigidTransform>& T_world_guesses,
+                          const PosePrior* prior = nullptr);
 
 }  // namespace curvefusion

@@ -51,6 +51,15 @@ TEST_F(Preview, ShowsTheCurveInItsColour) {
   EXPECT_GT(CountOf(preview, kWhite), static_cast<int>(preview.size() / 3));
 }
 
+TEST_F(Preview, WhatIsUncertainAloneIsDrawnInGrey) {
+  const ColorImage preview = DrawPreview({}, Upright(), {}, sequence_, "nothing proven");
+  EXPECT_EQ(CountOf(preview, EdgeColor(0)), 0);
+  const auto grey =
+      std::count_if(preview.data(), preview.data() + preview.size(),
+                    [](const Rgb& c) { return c[0] == c[1] && c[1] == c[2] && c[0] < 240; });
+  EXPECT_GT(grey, 500);
+}
+
 TEST_F(Preview, IsTheSameEveryTime) {
   const ColorImage a = DrawPreview(Upright(), {}, {}, sequence_, "one curve");
   const ColorImage b = DrawPreview(Upright(), {}, {}, sequence_, "one curve");

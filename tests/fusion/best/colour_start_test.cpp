@@ -77,8 +77,8 @@ class ColourStart : public testing::Test {
   std::optional<ColourCurves> StartIn(const SilhouetteScan& scan, const BestOptions& options,
                                       DepthCurves depth_curves) {
     result_.sequence = scan.sequence();
-    return StartFromColour(scan.sequence(), ColoursOf(scan.sequence()), depth_curves, options,
-                           StageReporter{observer_, log_}, result_);
+    return StartFromColour(scan.sequence(), PoseErrors::kDrift, ColoursOf(scan.sequence()),
+                           depth_curves, options, StageReporter{observer_, log_}, result_);
   }
 
   // Depth shows something thin at one of the wires only.
@@ -216,11 +216,12 @@ TEST_F(ColourStart, DoubtfulCurvesGiveWayOnlyWhereMoreIsShown) {
 TEST_F(ColourStart, NeedsColoursAndAPlaceToLookAt) {
   result_.sequence = scan_.sequence();
   const StageReporter reporter{observer_, log_};
-  EXPECT_FALSE(StartFromColour(scan_.sequence(), ColoursOf(scan_.sequence()),
+  EXPECT_FALSE(StartFromColour(scan_.sequence(), PoseErrors::kDrift, ColoursOf(scan_.sequence()),
                                DepthCurves::kDoubtful, {}, reporter, result_)
                    .has_value());
   result_.points.Add(Vec3::Zero(), Vec3::UnitZ(), 1);
-  EXPECT_FALSE(StartFromColour(scan_.sequence(), {}, DepthCurves::kDoubtful, {}, reporter, result_)
+  EXPECT_FALSE(StartFromColour(scan_.sequence(), PoseErrors::kDrift, {}, DepthCurves::kDoubtful, {},
+                               reporter, result_)
                    .has_value());
 }
 

@@ -134,6 +134,40 @@ TEST(CameraTracker, ThePatternOfAPlaneHoldsTheCamera) {
   ExpectTracked({Plane(Vec3::UnitZ(), 1.5)}, {}, 10);
 }
 
+// Motions that another tracker gives, each a degree and some millimetres off, are put right by what
+// the room shows.
+TEST(CameraTracker, AGivenMotionIsCorrectedBySurfaces) {
+  TrackingOptions options;
+  options.use_color = false;
+  CameraTracker tracker(Cameras(), options, Sway(0));
+  tracker.Track(Frame({Room()}, Sway(0), 0, options));
+  const RigidTransform off = RigidMotion(Vec3(0, kDegree, 0), Vec3(0.004, 0, 0));
+  for (int i = 1; i < 20; ++i) {
+    const RigidTransform motion = Sway(i - 1).inverse() * Sway(i) * (i % 2 ? off : off.inverse());
+    const TrackedFrame tracked = tracker.TrackNear(Frame({Room()}, Sway(i), i, options), motion);
+    ASSERT_TRUE(tracked.is_tracked) << i << ": " << tracked.why_lost;
+    const RigidTransform error = Sway(i).inverse() * tracked.T_world_camera;
+    EXPECT_LT(error.translation().norm(), 5 * kMillimetre) << i;
+    EXPECT_LT(RotationVector(error).norm(), 0.3 * kDegree) << i;
+  }
+}
+
+// Along a plane nothing is told: there the given motion stays.
+TEST(CameraTracker, WhatSurfacesDoNotTellStaysAsGiven) {
+  TrackingOptions options;
+  options.use_color = false;
+  const Scene wall = {Plane(Vec3::UnitZ(), 1.5)};
+  CameraTracker tracker(Cameras(), options, RigidTransform::Identity());
+  tracker.Track(Frame(wall, RigidTransform::Identity(), 0, options));
+  const RigidTransform motion = RigidMotion(Vec3::Zero(), Vec3(0.01, 0.005, 0));
+  const RigidTransform off = RigidMotion(Vec3::Zero(), Vec3(0, 0, 0.004));
+  const TrackedFrame tracked = tracker.TrackNear(Frame(wall, motion, 1, options), motion * off);
+  ASSERT_TRUE(tracked.is_tracked) << tracked.why_lost;
+  EXPECT_NEAR(tracked.T_world_camera.translation().x(), 0.01, 0.5 * kMillimetre);
+  EXPECT_NEAR(tracked.T_world_camera.translation().y(), 0.005, 0.5 * kMillimetre);
+  EXPECT_NEAR(tracked.T_world_camera.translation().z(), 0, 1 * kMillimetre);
+}
+
 TEST(CameraTracker, AFrameWithoutDepthIsLost) {
   const TrackingOptions options;
   CameraTracker tracker(Cameras(), options, Sway(0));
