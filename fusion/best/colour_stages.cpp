@@ -183,11 +183,13 @@ void TellPlan(RunSize& size, const BestOptions& options, const StageReporter& re
 }
 
 // Curves from colour alone where depth does not serve, and what depth then was used for.
-void StartFromColourWhereDepthFails(const Sequence& given, const WireColours& colours,
+void StartFromColourWhereDepthFails(const PosedScan& scan, const WireColours& colours,
                                     RunSize& size, const BestOptions& options,
                                     const StageReporter& reporter, AdjustmentStart& start,
                                     std::optional<ColourAdjustment>& adjusted,
                                     Reconstruction& result) {
+  const Sequence& given = scan.held ? *scan.held : scan.sequence;
+  const PoseErrors errors = scan.held ? PoseErrors::kJitter : scan.errors;
   const std::string why = WhyColourStart(given, options, adjusted, result);
   const bool is_asked_for = options.depth.use == DepthRole::kWires;
   result.depth = {DepthRoleName(DepthRole::kWires),
@@ -197,9 +199,9 @@ void StartFromColourWhereDepthFails(const Sequence& given, const WireColours& co
   TellPlan(size, options, reporter, result);
   const DepthCurves depth_curves = adjusted ? DepthCurves::kMisplaced : DepthCurves::kDoubtful;
   std::optional<ColourCurves> from_colour =
-      given.has_depth ? StartFromColour(given, start.pose_errors, colours, depth_curves, options,
-                                        reporter, result)
-                      : StartWithoutDepth(given, options, reporter, result);
+      given.has_depth
+          ? StartFromColour(given, errors, colours, depth_curves, options, reporter, result)
+          : StartWithoutDepth(given, options, reporter, result);
   if (from_colour) {
     adjusted = std::move(from_colour->adjusted);
     start = std::move(from_colour->start);
@@ -258,14 +260,14 @@ void LookForEvidence(const ViewEvidenceOptions& options, const StageReporter& re
 
 }  // namespace
 
-void RefineByColour(const Sequence& given, PoseErrors pose_errors, const LearnedWires& wires,
-                    RunSize size, const BestOptions& options, const StageReporter& reporter,
+void RefineByColour(const PosedScan& scan, const LearnedWires& wires, RunSize size,
+                    const BestOptions& options, const StageReporter& reporter,
                     Reconstruction& result) {
   const auto measure_radii = [&] {
     AssignMeasuredRadii(wires.array_diameter, options.radius, reporter, result);
   };
-  AdjustmentStart start = {CameraPoses(given), pose_errors,
-                           given.has_depth ? WireDepth::kShown : WireDepth::kNotShown,
+  AdjustmentStart start = {CameraPoses(scan.sequence), scan.errors,
+                           scan.given.has_depth ? WireDepth::kShown : WireDepth::kNotShown,
                            wires.colours.posterior};
   const double min_probability = options.evidence.min_probability;
   const auto keep_proven = [&](const std::string& stage, const std::string& name, double least) {
@@ -280,7 +282,7 @@ void RefineByColour(const Sequence& given, PoseErrors pose_errors, const Learned
   keep_proven("evidence", "evidence_before_colour", kHardlyAWire * min_probability);
   std::optional<ColourAdjustment> adjusted =
       AdjustCurvesAndPoses(start, options.colour_adjustment, reporter, result);
-  StartFromColourWhereDepthFails(given, wires.colours, size, options, reporter, start, adjusted,
+  StartFromColourWhereDepthFails(scan, wires.colours, size, options, reporter, start, adjusted,
                                  result);
   std::optional<StripViews> strips;
   if (adjusted) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "capture/sequence.h"
 #include "fusion/best/best_options.h"
 #include "fusion/best/best_plan.h"
@@ -11,13 +13,21 @@
 
 namespace curvefusion {
 
+/// A scan and its poses.
+struct PosedScan {
+  const Sequence& given;                        ///< as they came
+  Sequence sequence;                            ///< as curves are looked for with
+  PoseErrors errors = PoseErrors::kDrift;       ///< how those err
+  std::optional<Sequence> held = std::nullopt;  ///< held to surfaces, where `sequence` is not
+};
+
 /// What colour images tell of contracted curves: radii, wires that depth has missed, exact curves
-/// and poses, which curves are false or missing, and where they were seen. `given` has the poses
-/// that the adjustment's corrections are counted from, which err as told; `wires` what the
-/// segmentation learned of close wires and of colours; `size` what the run has found, for its plan.
-/// Throws like MeasureRadii.
-void RefineByColour(const Sequence& given, PoseErrors pose_errors, const LearnedWires& wires,
-                    RunSize size, const BestOptions& options, const StageReporter& reporter,
+/// and poses, which curves are false or missing, and where they were seen. Corrections of poses are
+/// counted from those of `scan.sequence`; curves from colour alone are looked for with held ones,
+/// where there are any. `wires` is what the segmentation learned of close wires and of colours;
+/// `size` what the run has found, for its plan. Throws like MeasureRadii.
+void RefineByColour(const PosedScan& scan, const LearnedWires& wires, RunSize size,
+                    const BestOptions& options, const StageReporter& reporter,
                     Reconstruction& result);
 
 }  // namespace curvefusion

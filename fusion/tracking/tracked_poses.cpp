@@ -1,6 +1,7 @@
 #include "fusion/tracking/tracked_poses.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "capture/content/geometry_check.h"
 #include "capture/detect_format.h"
@@ -9,15 +10,6 @@
 #include "kernel/error.h"
 
 namespace curvefusion {
-
-namespace {
-
-// Poses that are some pixels off are put right by the colour images themselves, to less than depth
-// knows. Chosen on 27 scans: those that did not gain had 1.0 to 1.5, those that gained most 1.6 to
-// 5.2 (docs/lab_notebook.md).
-constexpr double kMinGain = 1.5;  // of the misfit of depth images, as a ratio
-
-}  // namespace
 
 RigidTransform GivenStart(const Sequence& images) {
   const Sequence given =
@@ -46,7 +38,7 @@ std::string DoubtOfPoses(const Sequence& tracked) {
          "system (docs/tracking.md)";
 }
 
-std::optional<Sequence> HeldToItsSurfaces(const Sequence& given, const Progress& progress) {
+std::optional<HeldPoses> HeldToItsSurfaces(const Sequence& given, const Progress& progress) {
   const TrackingCameras cameras = {given.depth_camera, given.color_camera, given.T_color_depth};
   TrackingOptions options;
   options.use_color = false;  // what stands out in colour lies as far beside as colour cameras do
@@ -68,8 +60,8 @@ std::optional<Sequence> HeldToItsSurfaces(const Sequence& given, const Progress&
     progress("hold to surfaces", decoded.index + 1, count);
   });
   const std::optional<double> misfit_before = DepthMisfit(given), misfit = DepthMisfit(held);
-  if (!misfit_before || !misfit || *misfit_before < kMinGain * *misfit) return std::nullopt;
-  return held;
+  if (!misfit_before || !misfit || *misfit <= 0 || *misfit >= *misfit_before) return std::nullopt;
+  return HeldPoses{std::move(held), *misfit_before / *misfit};
 }
 
 std::optional<TrackingResult> FindPoses(Sequence& sequence, const Progress& progress) {

@@ -21,12 +21,17 @@ Trajectory PosesOf(const Sequence& sequence);
 /// agree, or where that cannot be told. About .1 s.
 std::string DoubtOfPoses(const Sequence& tracked);
 
-/// The sequence with poses that fit the surfaces its depth shows, from the first given one on: each
-/// frame moves as given since the one before, unless what stands behind the wires tells otherwise
-/// (CameraTracker::TrackNear). Nothing where depth images do not agree half as
-/// well again then. Exceptions of
+/// A sequence whose poses fit the surfaces that its depth shows.
+struct HeldPoses {
+  Sequence sequence;
+  double gain = 1;  ///< how many times less depth images disagree (DepthMisfit), more than 1
+};
+
+/// The poses of a sequence held to surfaces, from the first given one on: each frame moves as given
+/// since the one before, unless what stands behind the wires tells otherwise
+/// (CameraTracker::TrackNear). Nothing where depth images do not agree better then. Exceptions of
 /// `progress` pass through, and those for images that cannot be read. Costs 30 ms a frame.
-std::optional<Sequence> HeldToItsSurfaces(const Sequence& given, const Progress& progress);
+std::optional<HeldPoses> HeldToItsSurfaces(const Sequence& given, const Progress& progress);
 
 /// What a reconstruction needs of the poses of a sequence: those that it has must fit its depth;
 /// where it has none, they are tracked from the one that its folder gives to the first frame. The
