@@ -173,6 +173,27 @@ GeometryReport Judge(const Sequence& sequence, const Thumbnails& thumbnails,
   return report;
 }
 
+// Depth of some 30 frames of a sequence, to be compared by whatever poses.
+class SampledDepth {
+ public:
+  explicit SampledDepth(const Sequence& sequence)
+      : pairs_(SpreadPairs(sequence.frame_count(), kSampledStarts)),
+        thumbnails_(DepthThumbnails(sequence, FramesOf(pairs_))) {}
+
+  // A share of depth, in the median; nothing where it cannot tell.
+  std::optional<double> Misfit(const Sequence& poses) const {
+    if (thumbnails_.depth.empty()) return std::nullopt;
+    const DepthViews views(thumbnails_, poses.depth_scale);
+    const PoseAgreement agreement = MeasureAgreement(views, pairs_, GivenPoses(poses));
+    if (agreement.usable < kMinJudgedPairs) return std::nullopt;
+    return WideResidual(pairs_, agreement);
+  }
+
+ private:
+  std::vector<FramePair> pairs_;
+  Thumbnails thumbnails_;
+};
+
 }  // namespace
 
 GeometryReport CheckGeometry(const Sequence& sequence, const Thumbnails& thumbnails,
@@ -210,20 +231,15 @@ void RequireFittingPoses(Sequence& sequence) {
   });
 }
 
-std::optional<double> DepthMisfit(const Sequence& sequence) {
-  const std::vector<FramePair> pairs = SpreadPairs(sequence.frame_count(), kSampledStarts);
-  const Thumbnails thumbnails = DepthThumbnails(sequence, FramesOf(pairs));
-  if (thumbnails.depth.empty()) return std::nullopt;
-  FramePoses poses;
-  for (const SequenceFrame& frame : sequence.frames) poses.emplace_back(frame.T_world_camera);
-  const DepthViews views(thumbnails, sequence.depth_scale);
-  const PoseAgreement agreement = MeasureAgreement(views, pairs, poses);
-  if (agreement.usable < kMinJudgedPairs) return std::nullopt;
-  return WideResidual(pairs, agreement);
+bool DepthDisagrees(const Sequence& sequence) {
+  return SampledDepth(sequence).Misfit(sequence).value_or(0) > kMaxWideResidual;
 }
 
-bool DepthDisagrees(const Sequence& sequence) {
-  return DepthMisfit(sequence).value_or(0) > kMaxWideResidual;
+std::optional<double> DepthGain(const Sequence& given, const Sequence& corrected) {
+  const SampledDepth depth(given);
+  const std::optional<double> before = depth.Misfit(given), after = depth.Misfit(corrected);
+  if (!before || !after || *after <= 0) return std::nullopt;
+  return *before / *after;
 }
 
 }  // namespace curvefusion

@@ -75,11 +75,12 @@ GeometryReport CheckClocks(const Sequence& sequence, const FindingHandler& on_fi
 /// what is in doubt.
 void RequireFittingPoses(Sequence& sequence);
 
-/// How far depth of frames some 10 to 30 apart disagrees, as a share of depth, in the median;
-/// nothing where it cannot tell. Decodes about 30 depth images.
-std::optional<double> DepthMisfit(const Sequence& sequence);
-
-/// Whether depth disagrees by more than sensors err, whatever the cause.
+/// Whether depth of frames up to 30 apart disagrees, whatever the cause; not where it cannot tell.
+/// Decodes about 30 depth images.
 bool DepthDisagrees(const Sequence& sequence);
+
+/// How many times less depth disagrees with the poses of `corrected` than with those of `given`, a
+/// sequence of the same images; nothing where it cannot tell. Decodes about 30 depth images.
+std::optional<double> DepthGain(const Sequence& given, const Sequence& corrected);
 
 }  // namespace curvefusion

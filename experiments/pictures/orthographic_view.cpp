@@ -146,12 +146,6 @@ Vec2 ViewExtent(const SkeletonGraph& graph, const Mat3& R_view_world) {
   return bounds.isEmpty() ? Vec2::Zero() : Vec2(bounds.sizes().head<2>());
 }
 
-ColorImage DrawOrthographicView(const SkeletonGraph& graph, const ObservedPoints& points,
-                                const OrthographicView& view, int width, int height, double scale) {
-  return DrawFramedView(graph, points, view, ViewBounds(graph, view.R_view_world), width, height,
-                        scale);
-}
-
 ColorImage DrawFramedView(const SkeletonGraph& graph, const ObservedPoints& points,
                           const OrthographicView& view, const Eigen::AlignedBox3d& bounds,
                           int width, int height, double scale) {

@@ -24,13 +24,8 @@ Eigen::AlignedBox3d ViewBounds(const SkeletonGraph& graph, const Mat3& R_view_wo
 Vec2 ViewExtent(const SkeletonGraph& graph, const Mat3& R_view_world);
 
 /// Draws the graph, its junctions and free ends over the points it was made from, nearer points
-/// darker, with a scale bar; the middle of the graph in the middle of the picture. `scale` is in
-/// pixels per metre.
-ColorImage DrawOrthographicView(const SkeletonGraph& graph, const ObservedPoints& points,
-                                const OrthographicView& view, int width, int height, double scale);
-
-/// The same with the middle of another box (in the view's axes) in the middle of the picture, to
-/// draw several graphs of one object alike.
+/// darker, with a scale bar; the middle of `bounds` (in the view's axes) in the middle of the
+/// picture. `scale` is in pixels per metre.
 ColorImage DrawFramedView(const SkeletonGraph& graph, const ObservedPoints& points,
                           const OrthographicView& view, const Eigen::AlignedBox3d& bounds,
                           int width, int height, double scale);

@@ -8,7 +8,7 @@ namespace curvefusion {
 BestOptions DefaultBestOptions() {
   BestOptions options;
   options.volume.voxel_size = 0.01;
-  options.holds_to_surfaces = true;
+  options.depth.hold_to_surfaces = true;
   options.volume_stride = 2;
   options.segmentation.render_divisor = 2;
   options.segmentation.opening.solid_depth = 0.03;
@@ -52,15 +52,15 @@ void VisitOptions(DepthOptions& options, OptionVisitor& visitor) {
        "but background where depth shows them in wrong places, and none where there is no depth."},
       DepthRoleNames(), role);
   options.use = static_cast<DepthRole>(role);
+  visitor.Visit({"hold_to_surfaces", "", 0, 1,
+                 "Deviation: before all else, poses are corrected to fit the surfaces that depth "
+                 "shows behind the wires, where depth images then agree better."},
+                options.hold_to_surfaces);
 }
 
 void VisitOptions(BestOptions& options, OptionVisitor& visitor) {
   visitor.BeginSection("depth");
   VisitOptions(options.depth, visitor);
-  visitor.Visit({"hold_to_surfaces", "", 0, 1,
-                 "Deviation: before all else, poses are corrected to fit the surfaces that depth "
-                 "shows behind the wires, where depth images then agree better."},
-                options.holds_to_surfaces);
   visitor.BeginSection("volume");
   VisitOptions(options.volume, visitor);
   visitor.Visit(

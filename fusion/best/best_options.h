@@ -32,6 +32,7 @@ const std::string& DepthRoleName(DepthRole role);
 
 struct DepthOptions {
   DepthRole use = DepthRole::kAuto;
+  bool hold_to_surfaces = false;
 };
 void VisitOptions(DepthOptions& options, OptionVisitor& visitor);
 
@@ -39,7 +40,6 @@ void VisitOptions(DepthOptions& options, OptionVisitor& visitor);
 /// default-constructed one most extensions of the paper are off.
 struct BestOptions {
   TsdfOptions volume;
-  bool holds_to_surfaces = false;
   int volume_stride = 1;
   SegmentationOptions segmentation;
   CarriedPointsOptions carried;

@@ -53,7 +53,7 @@ Amounts AmountsOf(const Sequence& sequence, const BestOptions& options, const Ru
       ChooseColourFrames(sequence, options.colour_adjustment.frame_stride).size());
   return {.size = SizeOf(sequence.depth_camera),
           .looked_size = SizeOf(StripViews::CameraLookedThrough(sequence.color_camera)),
-          .held = options.holds_to_surfaces ? frames : 0,
+          .held = options.depth.hold_to_surfaces ? frames : 0,
           .integrated = frames / options.volume_stride,
           .frames = frames,
           .bundles = frames / options.segmentation.bundle.frames,

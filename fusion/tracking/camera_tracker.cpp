@@ -44,6 +44,13 @@ double MeasuredShare(const TrackingFrame& frame) {
   return static_cast<double>(count) / static_cast<double>(depth.size());
 }
 
+TrackedFrame LostWithoutDepth(const TrackingFrame& frame) {
+  TrackedFrame lost;
+  lost.why_lost = fmt::format("{:.0f} % of its pixels have a depth, {:.0f} % are needed",
+                              100 * MeasuredShare(frame), 100 * kMinMeasured);
+  return lost;
+}
+
 bool IsBetter(const TrackedFrame& a, const TrackedFrame& b) {
   if (a.is_tracked != b.is_tracked) return a.is_tracked;
   return a.is_tracked && a.alignment.cost < b.alignment.cost;
@@ -87,13 +94,7 @@ CameraTracker::CameraTracker(const TrackingCameras& cameras, const TrackingOptio
     : cameras_(cameras), T_world_start_(T_world_start), volume_(VolumeOptions(options)) {}
 
 TrackedFrame CameraTracker::Track(const TrackingFrame& frame) {
-  const double measured = MeasuredShare(frame);
-  if (measured < kMinMeasured) {
-    TrackedFrame lost;
-    lost.why_lost = fmt::format("{:.0f} % of its pixels have a depth, {:.0f} % are needed",
-                                100 * measured, 100 * kMinMeasured);
-    return lost;
-  }
+  if (MeasuredShare(frame) < kMinMeasured) return LostWithoutDepth(frame);
   if (!before_) return Start(frame);
   TrackedFrame tracked = TryFrom(frame, Guesses(frame));
   if (!tracked.is_tracked || was_lost_) {
@@ -107,8 +108,8 @@ TrackedFrame CameraTracker::Track(const TrackingFrame& frame) {
 
 TrackedFrame CameraTracker::TrackNear(const TrackingFrame& frame,
                                       const RigidTransform& T_before_now) {
+  if (MeasuredShare(frame) < kMinMeasured) return LostWithoutDepth(frame);
   if (!before_) return Start(frame);
-  if (MeasuredShare(frame) < kMinMeasured) return {};
   const PosePrior prior = {before_->pose.T_world_camera * T_before_now, kGivenTranslation,
                            kGivenRotation};
   const TrackedFrame tracked = TryFrom(frame, {prior.T_world_camera}, &prior);

@@ -104,6 +104,10 @@ PinholeCamera EveryNth(const PinholeCamera& camera, int n) {
           camera.fy / n,    camera.cx / n,     camera.cy / n};
 }
 
+TrackingCameras CamerasOf(const Sequence& sequence) {
+  return {sequence.depth_camera, sequence.color_camera, sequence.T_color_depth};
+}
+
 DepthImage ReducedDepth(const DepthImage& depth, int divisor, double max_depth) {
   const int side = std::min(divisor, kMaxSquare);
   DepthImage reduced(depth.width() / divisor, depth.height() / divisor, 0);
@@ -128,6 +132,15 @@ TrackingFrame MakeTrackingFrame(const DepthImage& depth, const ColorImage& color
     frame.levels[i].depth_camera = EveryNth(frame.levels[i - 1].depth_camera, 2);
   }
   if (!color.empty()) AddGreyLevels(color, cameras.color, options.image_width, frame);
+  return frame;
+}
+
+TrackingFrame MakeTrackingFrame(const SequenceFrame& stamps, const DepthImage& depth,
+                                const ColorImage& color, const TrackingCameras& cameras,
+                                const TrackingOptions& options) {
+  TrackingFrame frame = MakeTrackingFrame(depth, color, cameras, options);
+  frame.timestamp = stamps.timestamp;
+  frame.color_delay = stamps.color_delay;
   return frame;
 }
 

@@ -41,6 +41,8 @@ struct TrackingCameras {
   RigidTransform T_color_depth = RigidTransform::Identity();
 };
 
+TrackingCameras CamerasOf(const Sequence& sequence);
+
 /// The camera of an image that has every n-th pixel of every n-th row of another's.
 PinholeCamera EveryNth(const PinholeCamera& camera, int n);
 
@@ -51,6 +53,11 @@ DepthImage ReducedDepth(const DepthImage& depth, int divisor, double max_depth);
 /// The levels of a frame. `color` is empty where colour takes no part; grey is empty then.
 TrackingFrame MakeTrackingFrame(const DepthImage& depth, const ColorImage& color,
                                 const TrackingCameras& cameras, const TrackingOptions& options);
+
+/// Likewise, with the stamps of a frame of a sequence.
+TrackingFrame MakeTrackingFrame(const SequenceFrame& stamps, const DepthImage& depth,
+                                const ColorImage& color, const TrackingCameras& cameras,
+                                const TrackingOptions& options);
 
 /// Interpolated grey and gradient at a pixel; false within a pixel of the border or outside.
 bool SampleGrey(const Image<GreySample>& grey, float u, float v, GreySample& sample);

@@ -51,7 +51,7 @@ void Warn(const Sequence& images, TrackingResult& result) {
 
 TrackingResult TrackFrames(const Sequence& images, const RigidTransform& T_world_start,
                            const TrackingOptions& options, const Progress& progress) {
-  const TrackingCameras cameras = {images.depth_camera, images.color_camera, images.T_color_depth};
+  const TrackingCameras cameras = CamerasOf(images);
   CameraTracker tracker(cameras, options, T_world_start);
   TrackingResult result;
   result.sequence = images;
@@ -61,10 +61,8 @@ TrackingResult TrackFrames(const Sequence& images, const RigidTransform& T_world
   progress(kStage, 0, images.frame_count());
   ForEachFrame(images, 0, images.frame_count(), stream, [&](const DecodedFrame& decoded) {
     SequenceFrame entry = images.frames[static_cast<size_t>(decoded.index)];
-    TrackingFrame frame = MakeTrackingFrame(decoded.depth, decoded.color, cameras, options);
-    frame.timestamp = entry.timestamp;
-    frame.color_delay = entry.color_delay;
-    const TrackedFrame tracked = tracker.Track(frame);
+    const TrackedFrame tracked =
+        tracker.Track(MakeTrackingFrame(entry, decoded.depth, decoded.color, cameras, options));
     if (tracked.is_tracked) {
       entry.T_world_camera = tracked.T_world_camera;
       result.sequence.frames.push_back(std::move(entry));

@@ -47,30 +47,29 @@ std::string DoubtOfPoses(const Sequence& tracked) {
 }
 
 std::optional<HeldPoses> HeldToItsSurfaces(const Sequence& given, const Progress& progress) {
-  const TrackingCameras cameras = {given.depth_camera, given.color_camera, given.T_color_depth};
+  if (given.frames.empty()) return std::nullopt;
+  const TrackingCameras cameras = CamerasOf(given);
   TrackingOptions options;
-  options.use_color = false;  // what stands out in colour lies as far beside as colour cameras do
+  options.use_color = false;  // colour cameras lie some pixels beside depth
   CameraTracker tracker(cameras, options, given.frames.front().T_world_camera);
   Sequence held = given;
   size_t before = 0;  // the frame tracked last
   const int count = given.frame_count();
   ForEachFrame(given, 0, count, {.depth = true, .color = false}, [&](const DecodedFrame& decoded) {
     const auto i = static_cast<size_t>(decoded.index);
-    TrackingFrame frame = MakeTrackingFrame(decoded.depth, {}, cameras, options);
-    frame.timestamp = given.frames[i].timestamp;
     const RigidTransform T_before_now =
         given.frames[before].T_world_camera.inverse() * given.frames[i].T_world_camera;
-    const TrackedFrame tracked = tracker.TrackNear(frame, T_before_now);
+    const TrackedFrame tracked = tracker.TrackNear(
+        MakeTrackingFrame(given.frames[i], decoded.depth, {}, cameras, options), T_before_now);
     held.frames[i].T_world_camera = tracked.is_tracked
                                         ? tracked.T_world_camera
                                         : held.frames[before].T_world_camera * T_before_now;
     if (tracked.is_tracked) before = i;
     progress("hold to surfaces", decoded.index + 1, count);
   });
-  const std::optional<double> misfit_before = DepthMisfit(given), misfit = DepthMisfit(held);
-  if (!misfit_before || !misfit || *misfit <= 0 || *misfit_before < kLeastGain * *misfit)
-    return std::nullopt;
-  return HeldPoses{std::move(held), *misfit_before / *misfit};
+  const double gain = DepthGain(given, held).value_or(0);
+  if (gain < kLeastGain) return std::nullopt;
+  return HeldPoses{std::move(held), gain};
 }
 
 std::optional<TrackingResult> FindPoses(Sequence& sequence, const Progress& progress) {

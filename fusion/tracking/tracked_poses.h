@@ -24,7 +24,7 @@ std::string DoubtOfPoses(const Sequence& tracked);
 /// A sequence whose poses fit the surfaces that its depth shows.
 struct HeldPoses {
   Sequence sequence;
-  double gain = 1;  ///< how many times less depth images disagree (DepthMisfit), at least 1.05
+  double gain = 1;  ///< how many times less depth images disagree (DepthGain), at least 1.05
 };
 
 /// The poses of a sequence held to surfaces, from the first given one on: each frame moves as given
