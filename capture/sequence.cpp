@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "capture/decoded_images.h"
 #include "capture/detect_format.h"
 #include "capture/image_file.h"
 #include "capture/image_survey.h"
@@ -36,7 +37,32 @@ void RequirePlausibleDepth(const Sequence& sequence, const FindingHandler& on_fi
   ReportDepthScale(sequence, SurveyDepth(samples), on_finding);
 }
 
+// Tells images from each other.
+std::string KeyOf(const std::filesystem::path& path, const ImagePart& part) {
+  return fmt::format("{}:{}:{}:{}", path.string(), part.chunk.offset, part.offset,
+                     static_cast<int>(part.coding));
+}
+
+std::shared_ptr<const Image<uint16_t>> StoredDepth(const Sequence& sequence,
+                                                   const SequenceFrame& frame) {
+  const auto decode = [&] { return DecodeDepthImage(frame.depth_path, frame.depth_part); };
+  if (!sequence.decoded) return std::make_shared<const Image<uint16_t>>(decode());
+  return sequence.decoded->Depth(KeyOf(frame.depth_path, frame.depth_part), decode);
+}
+
+std::shared_ptr<const ColorImage> StoredColor(const Sequence& sequence,
+                                              const SequenceFrame& frame) {
+  const auto decode = [&] { return DecodeColorImage(frame.color_path, frame.color_part); };
+  if (!sequence.decoded) return std::make_shared<const ColorImage>(decode());
+  return sequence.decoded->Color(KeyOf(frame.color_path, frame.color_part), decode);
+}
+
 }  // namespace
+
+Sequence KeepingImages(Sequence sequence) {
+  if (!sequence.decoded) sequence.decoded = std::make_shared<DecodedImages>();
+  return sequence;
+}
 
 Sequence WithoutDepth(Sequence sequence) {
   sequence.has_depth = false;
@@ -83,21 +109,21 @@ DepthImage LoadDepth(const Sequence& sequence, int frame) {
   const PinholeCamera& camera = sequence.depth_camera;
   if (!sequence.has_depth) return {camera.width, camera.height};
   const SequenceFrame& entry = sequence.frames.at(static_cast<size_t>(frame));
-  const Image<uint16_t> raw = DecodeDepthImage(entry.depth_path, entry.depth_part);
-  RequireSize(sequence, ImageName(entry.depth_path, entry.depth_part), raw.width(), raw.height(),
+  const auto raw = StoredDepth(sequence, entry);
+  RequireSize(sequence, ImageName(entry.depth_path, entry.depth_part), raw->width(), raw->height(),
               sequence.depth_camera);
-  DepthImage depth = MetricDepth(raw, sequence.depth_scale, sequence.invalid_depth);
+  DepthImage depth = MetricDepth(*raw, sequence.depth_scale, sequence.invalid_depth);
   if (sequence.depth_distortion.IsZero()) return depth;
   return Undistorted(depth, sequence.depth_camera, sequence.depth_distortion);
 }
 
 ColorImage LoadColor(const Sequence& sequence, int frame) {
   const SequenceFrame& entry = sequence.frames.at(static_cast<size_t>(frame));
-  ColorImage color = DecodeColorImage(entry.color_path, entry.color_part);
-  RequireSize(sequence, ImageName(entry.color_path, entry.color_part), color.width(),
-              color.height(), sequence.color_camera);
-  if (sequence.color_distortion.IsZero()) return color;
-  return Undistorted(color, sequence.color_camera, sequence.color_distortion);
+  const auto color = StoredColor(sequence, entry);
+  RequireSize(sequence, ImageName(entry.color_path, entry.color_part), color->width(),
+              color->height(), sequence.color_camera);
+  if (sequence.color_distortion.IsZero()) return *color;
+  return Undistorted(*color, sequence.color_camera, sequence.color_distortion);
 }
 
 }  // namespace curvefusion

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,8 @@
 #include "kernel/image.h"
 
 namespace curvefusion {
+
+class DecodedImages;
 
 /// One frame of a sequence: where its images lie and where the depth camera was. An image is a
 /// file, or the part of a recording.
@@ -43,6 +46,7 @@ struct Sequence {
   int frames_without_pose = 0;        ///< dropped when opening
   int frames_without_partner = 0;     ///< colour or depth images without the other, dropped
   std::vector<std::string> warnings;  ///< what the user should know, a sentence each
+  std::shared_ptr<DecodedImages> decoded;  ///< where images stay once they are decoded; may be null
 
   int frame_count() const { return static_cast<int>(frames.size()); }
   /// Whether the images are parts of a file.
@@ -62,6 +66,9 @@ enum class DepthUse {
   kIfGiven,  ///< the same, but where there are none at all the sequence is opened without
   kIgnored,  ///< none is opened, Sequence::has_depth is false
 };
+
+/// The sequence, whose images are decoded once only from now on, as far as memory allows.
+Sequence KeepingImages(Sequence sequence);
 
 /// The sequence as if it had colour images and poses only.
 Sequence WithoutDepth(Sequence sequence);

@@ -36,10 +36,13 @@ Reconstruction Reconstruct(const Sequence& sequence, const PipelineOptions& opti
             ": has no depth images, from which curves are to be made; take the best profile "
             "with depth.use = \"auto\" or \"none\"");
   }
-  if (const auto* paper = std::get_if<PaperOptions>(&options)) {
-    return ReconstructPaper(sequence, *paper, observer);
-  }
-  return ReconstructBest(sequence, std::get<BestOptions>(options), observer);
+  const Sequence images = KeepingImages(sequence);
+  const auto* paper = std::get_if<PaperOptions>(&options);
+  Reconstruction result = paper != nullptr
+                              ? ReconstructPaper(images, *paper, observer)
+                              : ReconstructBest(images, std::get<BestOptions>(options), observer);
+  result.sequence.decoded = sequence.decoded;
+  return result;
 }
 
 Reconstruction ReconstructAgainst(const TsdfVolume& volume, const Sequence& sequence,
