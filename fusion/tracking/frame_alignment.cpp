@@ -46,9 +46,9 @@ class LevelSolver {
   bool Step(int level, RigidTransform& T_model_frame, GreyChange& change) {
     const FrameLevel& images = frame_.levels[level];
     deviation_ =
-        std::max(1.0, MeasureGeometricFit(images, model_.Of(level), T_model_frame).deviation);
+        std::max(1.0, MeasureGeometricFit(images, model_.levels[level], T_model_frame).deviation);
     const NormalEquations<6> geometric =
-        GeometricTerm(images, model_.Of(level), T_model_frame, deviation_);
+        GeometricTerm(images, model_.levels[level], T_model_frame, deviation_);
     Matrix8 H = Matrix8::Zero();
     Vector8 g = Vector8::Zero();
     H.topLeftCorner<6, 6>() = geometric.H();
@@ -79,7 +79,7 @@ class LevelSolver {
   // How badly a pose explains the images: deviations of depth and grey, over the overlap.
   double Cost(int level, const RigidTransform& T_model_frame, const GreyChange& change) const {
     const FrameLevel& images = frame_.levels[level];
-    const GeometricFit fit = MeasureGeometricFit(images, model_.Of(level), T_model_frame);
+    const GeometricFit fit = MeasureGeometricFit(images, model_.levels[level], T_model_frame);
     double cost = std::max(1.0, fit.deviation) * (1 + fit.measured) / (1 + fit.overlapping);
     if (keyframe_ != nullptr && !images.grey.empty()) {
       cost *= PhotometricTerm(keyframe_->levels[level], images, ViewFrom(T_model_frame), change)
@@ -232,7 +232,7 @@ FrameAlignment AlignFrame(const TrackingFrame& frame, const ModelView& model,
   const Vec3 center = Centroid(frame.levels.back());
   FrameAlignment alignment;
   alignment.T_world_camera = Orthonormal(model.T_world_model * best.T_model_frame);
-  alignment.fit = MeasureGeometricFit(frame.levels[0], model.Of(0), best.T_model_frame);
+  alignment.fit = MeasureGeometricFit(frame.levels[0], model.levels[0], best.T_model_frame);
   alignment.grey_deviation = solver.grey_deviation();
   alignment.grey_points = solver.grey_points();
   if (keyframe != nullptr) alignment.grey_contrast = keyframe->contrast;

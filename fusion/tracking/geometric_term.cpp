@@ -13,8 +13,7 @@ namespace curvefusion {
 namespace {
 
 constexpr int kBandRows = 8;         // of an image, for a thread at a time
-constexpr int kFitStride = 3;        // of the pixels of which the deviation is taken, at least
-constexpr int kFitPixels = 5000;     // of which it is taken, about. Chosen: 1 % of it is error
+constexpr int kFitStride = 3;        // of the pixels of which the deviation is taken
 constexpr float kMaxDistance = 0.1;  // metres between paired points (KinectFusion 2011)
 constexpr float kInlier = 3;         // standard deviations
 // Metres. Chosen: a third of a voxel, what trilinear interpolation loses at edges; also keeps few
@@ -36,27 +35,24 @@ class PairFinder {
       : frame_(frame),
         model_(model),
         R_(T_model_frame.linear().cast<float>()),
-        t_(T_model_frame.translation().cast<float>()),
-        fx_(static_cast<float>(model.camera.fx)),
-        fy_(static_cast<float>(model.camera.fy)),
-        cx_(static_cast<float>(model.camera.cx) + 0.5f),
-        cy_(static_cast<float>(model.camera.cy) + 0.5f),
-        first_ray_(R_ * frame.depth_camera.Unproject(0, 0, 1).cast<float>()),
-        per_column_(R_.col(0) / static_cast<float>(frame.depth_camera.fx)),
-        per_row_(R_.col(1) / static_cast<float>(frame.depth_camera.fy)) {}
+        t_(T_model_frame.translation().cast<float>()) {}
 
   Pairing Find(int u, int v, Pair& pair) const {
     const float z = frame_.depth(u, v);
     if (!(z > 0)) return Pairing::kNoDepth;
-    const Vec3f ray = (first_ray_ + static_cast<float>(v) * per_row_) +
-                      static_cast<float>(u) * per_column_;  // in the model's camera
-    pair.point = z * ray + t_;
+    const PinholeCamera& from = frame_.depth_camera;
+    const Vec3f ray(
+        (static_cast<float>(u) - static_cast<float>(from.cx)) / static_cast<float>(from.fx),
+        (static_cast<float>(v) - static_cast<float>(from.cy)) / static_cast<float>(from.fy), 1);
+    pair.point = R_ * (z * ray) + t_;
     if (pair.point.z() <= 0) return Pairing::kNoModel;
-    const float inverse_z = 1 / pair.point.z();
-    const float x = fx_ * pair.point.x() * inverse_z + cx_;
-    const float y = fy_ * pair.point.y() * inverse_z + cy_;
-    if (!(x >= 0 && y >= 0 && x < static_cast<float>(model_.camera.width) &&
-          y < static_cast<float>(model_.camera.height))) {
+    const PinholeCamera& to = model_.camera;
+    const float x = static_cast<float>(to.fx) * pair.point.x() / pair.point.z() +
+                    static_cast<float>(to.cx) + 0.5f;
+    const float y = static_cast<float>(to.fy) * pair.point.y() / pair.point.z() +
+                    static_cast<float>(to.cy) + 0.5f;
+    if (!(x >= 0 && y >= 0 && x < static_cast<float>(to.width) &&
+          y < static_cast<float>(to.height))) {
       return Pairing::kNoModel;
     }
     const int column = static_cast<int>(x), row = static_cast<int>(y);
@@ -66,7 +62,8 @@ class PairFinder {
     if (offset.squaredNorm() > kMaxDistance * kMaxDistance) return Pairing::kNoModel;
     pair.distance = pair.normal.dot(offset);
     // Noise runs along the frame's ray.
-    const float sensor = static_cast<float>(kNoisePerSquaredDepth) * z * z * pair.normal.dot(ray);
+    const float sensor =
+        static_cast<float>(kNoisePerSquaredDepth * z * z) * pair.normal.dot(R_ * ray);
     pair.noise = std::sqrt(sensor * sensor + kModelNoise * kModelNoise);
     return Pairing::kPaired;
   }
@@ -76,9 +73,6 @@ class PairFinder {
   const ModelLevel& model_;
   Eigen::Matrix3f R_;
   Vec3f t_;
-  float fx_, fy_, cx_, cy_;  // of the model's camera; pixels start at whole numbers
-  Vec3f first_ray_;          // of pixel (0, 0), to depth 1
-  Vec3f per_column_, per_row_;
 };
 
 }  // namespace
@@ -89,10 +83,9 @@ GeometricFit MeasureGeometricFit(const FrameLevel& frame, const ModelLevel& mode
   GeometricFit fit;
   std::vector<double> distances;
   Pair pair;
-  const int stride = std::max(kFitStride, static_cast<int>(frame.depth.size()) / kFitPixels);
   // Columns are staggered, so that no regular pattern is missed.
   for (int v = 0; v < frame.depth.height(); ++v) {
-    for (int u = v % stride; u < frame.depth.width(); u += stride) {
+    for (int u = v % kFitStride; u < frame.depth.width(); u += kFitStride) {
       const Pairing pairing = finder.Find(u, v, pair);
       fit.measured += pairing != Pairing::kNoDepth;
       if (pairing != Pairing::kPaired) continue;

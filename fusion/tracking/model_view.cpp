@@ -67,13 +67,12 @@ ModelLevel PointsAndNormals(const DepthImage& depth, const PinholeCamera& camera
   return level;
 }
 
-ModelView RenderModel(const TsdfVolume& volume, const PinholeCamera& frame_camera,
+ModelView RenderModel(const TsdfVolume& volume, const PinholeCamera& camera,
                       const RigidTransform& T_world_camera) {
-  const PinholeCamera camera = EveryNth(frame_camera, 2);
   ModelView view;
   view.T_world_model = T_world_camera;
   view.levels.push_back(PointsAndNormals(volume.Raycast(camera, T_world_camera), camera));
-  for (int i = 2; i < kTrackingLevels; ++i) view.levels.push_back(Halved(view.levels.back()));
+  for (int i = 1; i < kTrackingLevels; ++i) view.levels.push_back(Halved(view.levels.back()));
   return view;
 }
 

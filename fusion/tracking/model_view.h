@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <vector>
 
 #include "fusion/tracking/frame_pyramid.h"
@@ -20,21 +19,14 @@ struct ModelLevel {
 struct ModelView {
   RigidTransform T_world_model = RigidTransform::Identity();  ///< of the camera it was drawn for
   std::vector<ModelLevel> levels;
-
-  /// What a level of a frame is aligned to. The finest one has no model of its own size: pixels of
-  /// half its width are already finer than the voxels.
-  const ModelLevel& Of(int frame_level) const {
-    return levels[static_cast<size_t>(std::max(frame_level - 1, 0))];
-  }
 };
 
 /// Points and normals of a depth image: central differences of points that are on one surface (not
 /// farther apart in depth than a surface seen at 80 degrees).
 ModelLevel PointsAndNormals(const DepthImage& depth, const PinholeCamera& camera);
 
-/// Raycasts the volume (Newcombe et al. 2011) for the camera of a frame's finest level, at half its
-/// width.
-ModelView RenderModel(const TsdfVolume& volume, const PinholeCamera& frame_camera,
+/// Raycasts the volume for the camera of a frame's finest level (Newcombe et al. 2011).
+ModelView RenderModel(const TsdfVolume& volume, const PinholeCamera& camera,
                       const RigidTransform& T_world_camera);
 
 }  // namespace curvefusion
