@@ -135,9 +135,9 @@ Reconstruction ReconstructAs(const ResultRun& run, const Sequence& sequence,
 
 }  // namespace
 
-int ReconstructInto(const ResultFolder& output, Sequence given, const ResultRun& run,
+int ReconstructInto(const ResultFolder& output, Sequence sequence, const ResultRun& run,
                     ProgressPrinter& printer) {
-  Sequence sequence = KeepingImages(std::move(given));
+  sequence = KeepingImages(std::move(sequence));
   const bool fitted = run.fit_colour_camera && UseFittedColourCamera(sequence);
   const std::optional<TrackingResult> tracking =
       FindPoses(sequence, InterruptibleProgress(printer));

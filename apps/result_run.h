@@ -27,7 +27,7 @@ struct ResultRun {
 /// of the result; then tells on standard output what was found. Returns the exit code of the
 /// command: kNothingThin where nothing was found. Throws Error where the sequence cannot be used or
 /// a file not be written; where the curves have no sound mesh, once all other files are there.
-int ReconstructInto(const ResultFolder& output, Sequence given, const ResultRun& run,
+int ReconstructInto(const ResultFolder& output, Sequence sequence, const ResultRun& run,
                     ProgressPrinter& printer);
 
 }  // namespace curvefusion
