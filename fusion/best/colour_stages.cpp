@@ -37,6 +37,9 @@ constexpr double kRatherAWire = 0.5;
 // (docs/wires_from_colour.md); 19 of a cable by a D400 from .3 m, where colour's curves are not
 // taken (docs/lab_notebook.md).
 constexpr double kWrongScatter = 5;
+// Measured: lines of sight to wires that depth has lost. With 5,000, as many as find the curves of
+// a scan from colour alone, too few places lie on each for a curve (docs/lab_notebook.md).
+constexpr size_t kManyRays = 20000;
 constexpr double kLittle = 0.01;  // of the length; less is not worth another round
 
 // Depth shows a net as one surface: that it goes on beside a curve says nothing there.
@@ -124,7 +127,7 @@ double AddWiresFromColour(StripViews& views, WireDepth depth, const RidgeOptions
   const double radius = result.radii.unmeasured_radius;
   const double followed = TrackTips(radius, views, result.skeleton);
   const ObservedPoints candidates = FindColourCandidates(
-      views, {.follow = depth == WireDepth::kLookedPast},
+      views, {.follow = depth == WireDepth::kLookedPast, .max_rays = kManyRays},
       [&](int64_t done, int64_t total) { reporter.observer.OnProgress(stage, done, total); });
   const double added = followed + AddCandidateCurves(result.sequence, candidates, options, radius,
                                                      views, result.skeleton);

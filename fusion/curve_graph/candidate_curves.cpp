@@ -7,6 +7,7 @@
 
 #include "fusion/curve_graph/candidate_proof.h"
 #include "fusion/curve_graph/refuted_parts.h"
+#include "fusion/curve_graph/strip_snapping.h"
 #include "fusion/curve_graph/tip_tracking.h"
 #include "graph/connected_parts.h"
 #include "graph/edge_curve.h"
@@ -111,8 +112,10 @@ double AddCandidateCurves(const Sequence& sequence, const ObservedPoints& candid
   const std::vector<Vec3> known = PointsOf(skeleton);
   if (candidates.empty()) return 0;
   SkeletonGraph found = ExtractRidgeSkeleton(candidates, options);
+  SnapToStrips(views, found);
   KeepNewWires(known, found);
-  std::vector<Vec3> proven = KeepProvenCandidates(sequence, radius, views, found);
+  std::vector<Vec3> proven =
+      KeepProvenCandidates(sequence, candidates.positions, radius, views, found);
   if (found.empty()) return 0;
   const double length = skeleton.TotalLength();
   AddGraph(found, radius, skeleton);

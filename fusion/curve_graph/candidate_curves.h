@@ -7,11 +7,12 @@
 
 namespace curvefusion {
 
-/// Adds the curves of `candidates` (FindColourCandidates), contracted with `options`, but for what
-/// runs along curves of the skeleton and what is not proven (KeepProvenCandidates); follows all
-/// ends (TrackTips), joins them with what lies ahead (CloseFreeEnds), and drops what hangs together
-/// neither with curves that were there nor with such as are wires by themselves. What is new has
-/// the radius given, in metres. Returns the metres added.
+/// Adds the curves of `candidates` (FindColourCandidates), contracted with `options` and moved onto
+/// their strips (SnapToStrips), but for what runs along curves of the skeleton and what is not
+/// proven (KeepProvenCandidates); follows all ends (TrackTips), joins them with what lies ahead
+/// (CloseFreeEnds), and drops what hangs together neither with curves that were there nor with such
+/// as are wires by themselves. What is new has the radius given, in metres. Returns the metres
+/// added.
 double AddCandidateCurves(const Sequence& sequence, const ObservedPoints& candidates,
                           const RidgeOptions& options, double radius, StripViews& views,
                           SkeletonGraph& skeleton);

@@ -26,9 +26,6 @@ constexpr int kMinFullLooks = 4;  // where all of them show a strip
 constexpr int kMinLooks = 8;
 constexpr double kNearest = 0.05;  // metres before a camera
 constexpr int64_t kReports = 50;   // chosen: of progress
-// Lines of sight, evenly thinned: more tell the same again. Chosen on the four shared scans without
-// depth, between numbers that 15 training scans do not tell apart (docs/lab_notebook.md).
-constexpr size_t kMaxRays = 5000;
 // Wires are followed along their strips from places found. Chosen, not varied; what following
 // brings was measured on 27 training scans (docs/lab_notebook.md).
 constexpr int kFollowPx = 5;            // to the next pixel, at most
@@ -172,10 +169,11 @@ class CandidateSearch {
     return best;
   }
 
-  static std::vector<Ray> Thinned(std::vector<Ray> rays) {
-    if (rays.size() <= kMaxRays) return rays;
-    std::vector<Ray> some(kMaxRays);
-    for (size_t i = 0; i < kMaxRays; ++i) some[i] = rays[i * rays.size() / kMaxRays];
+  std::vector<Ray> Thinned(std::vector<Ray> rays) const {
+    if (rays.size() <= options_.max_rays) return rays;
+    std::vector<Ray> some(options_.max_rays);
+    for (size_t i = 0; i < options_.max_rays; ++i)
+      some[i] = rays[i * rays.size() / options_.max_rays];
     return some;
   }
 

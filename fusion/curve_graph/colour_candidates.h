@@ -22,6 +22,9 @@ struct CandidateOptions {
   double same_place_px = 0;
   /// Strips are followed from places found, to such as are about as far away.
   bool follow = false;
+  /// Lines of sight, evenly thinned. Chosen on the four shared scans without depth, between numbers
+  /// that 15 training scans do not tell apart (docs/lab_notebook.md).
+  size_t max_rays = 5000;
 };
 
 /// Places of wires that the colour images show and no curve explains: thin wires that depth loses.

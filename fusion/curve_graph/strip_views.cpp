@@ -18,7 +18,6 @@ namespace {
 // vine 1 (docs/lab_notebook.md).
 constexpr double kExplainedPx = 1.2;   // curves cover so much beside their outline
 constexpr double kLargestFocal = 900;  // pixels; images beyond it are halved
-constexpr double kCorrelation = 0.3;   // neighbouring images tell the same
 constexpr double kMiddlePx = 0.7;      // standard deviation of where strips have their middle
 // derived: log of the density of middles at zero over that of chance, even within reach
 constexpr double kAtMiddle = 0.47;
@@ -85,8 +84,8 @@ void Add(const StripImage& strips, StripImage::Look look, bool is_seen, double t
 
 // Of every so many-th image.
 StripAgreement Weighted(StripAgreement sum, size_t stride) {
-  sum.evidence *= kCorrelation * static_cast<double>(stride);
-  sum.middle_evidence *= kCorrelation;
+  sum.evidence *= StripViews::kCorrelation * static_cast<double>(stride);
+  sum.middle_evidence *= StripViews::kCorrelation;
   return sum;
 }
 

@@ -31,6 +31,8 @@ struct StripAgreement {
 class StripViews {
  public:
   static constexpr int kMaxViews = 90;  ///< images that are asked, at most
+  /// Chosen: what an image tells counts so much, as neighbouring ones tell the same.
+  static constexpr double kCorrelation = 0.3;
 
   struct View {
     RigidTransform T_color_world;
