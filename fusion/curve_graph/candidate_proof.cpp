@@ -24,8 +24,8 @@ constexpr double kMiddles = 4.2;      // of how near strips' middles are, an ima
 constexpr double kFree = 7.1;         // more of it with free space behind
 constexpr double kColour = 0.58;      // of the colours beside
 constexpr double kPlaces = 1.53;      // of the logarithm of places a millimetre
-constexpr double kFewPlaces = 0.05;   // a millimetre, added: none is not infinitely unlikely
-constexpr double kNearPlace = 0.003;  // metres
+constexpr double kFewPlaces = 0.05;   // chosen: a millimetre, added, as there may be none
+constexpr double kNearPlace = 0.003;  // chosen: metres; what snapping moves curves by
 // What is painted on a surface has sharp middles too. Chosen on training scans chair (the paper's,
 // seed 4) and rack 2 (docs/lab_notebook.md): true stretches have .5 in the median, false ones 0.
 constexpr double kMinColourLogOdds = 0.2;

@@ -6,13 +6,15 @@
 #include <utility>
 #include <vector>
 
+#include "graph/edge_parts.h"
 #include "kernel/parallel.h"
 
 namespace curvefusion {
 
 namespace {
 
-// Chosen: places lie up to 3 mm beside their wire, and strips' middles are told to some .2 mm.
+// All chosen, not varied: places lie up to 3 mm beside their wire, and strips' middles are told to
+// some .2 mm.
 constexpr double kStepsAcross[] = {0.001, 0.00025};  // metres, one search after the other
 constexpr int kSteps = 3;                            // to all sides
 constexpr int kAlike = 3;                            // points to both sides that move alike
@@ -42,12 +44,12 @@ std::vector<Frame> FramesAlong(const std::vector<Vec3>& tangents) {
   return frames;
 }
 
-// Visits a point and those around it that move alike.
-template <class Visit>
-void ForEachAlike(size_t i, size_t count, const Visit& visit) {
-  const size_t first = i < kAlike ? 0 : i - kAlike, last = std::min(count - 1, i + kAlike);
-  for (size_t j = first; j <= last; ++j) visit(j);
+// A point and those around it that move alike.
+EdgePart Around(size_t i, size_t count) {
+  return {i < kAlike ? 0 : i - kAlike, std::min(count - 1, i + kAlike)};
 }
+
+double CountOf(const EdgePart& part) { return static_cast<double>(part.last - part.first + 1); }
 
 // The offset of each point with which it and those around it have most evidence.
 std::vector<Vec2> BestOffsets(const std::vector<double>& evidence, double step,
@@ -55,15 +57,12 @@ std::vector<Vec2> BestOffsets(const std::vector<double>& evidence, double step,
   const size_t count = evidence.size() / offsets.size();
   std::vector<Vec2> best(count, Vec2::Zero());
   for (size_t i = 0; i < count; ++i) {
+    const EdgePart around = Around(i, count);
     double most = -std::numeric_limits<double>::infinity();
     for (size_t k = 0; k < offsets.size(); ++k) {
       double sum = 0;
-      int points = 0;
-      ForEachAlike(i, count, [&](size_t j) {
-        sum += evidence[j * offsets.size() + k];
-        ++points;
-      });
-      const double gain = sum / points - kCost * offsets[k].squaredNorm() / (step * step);
+      for (size_t j = around.first; j <= around.last; ++j) sum += evidence[j * offsets.size() + k];
+      const double gain = sum / CountOf(around) - kCost * offsets[k].squaredNorm() / (step * step);
       if (gain <= most) continue;
       most = gain;
       best[i] = offsets[k];
@@ -85,13 +84,10 @@ Polyline Snapped(const StripViews& views, const Polyline& points, double step) {
   const std::vector<Vec2> best = BestOffsets(evidence, step, offsets);
   Polyline snapped = points;
   for (size_t i = 0; i < points.size(); ++i) {
+    const EdgePart around = Around(i, points.size());
     Vec2 sum = Vec2::Zero();
-    int around = 0;
-    ForEachAlike(i, points.size(), [&](size_t j) {
-      sum += best[j];
-      ++around;
-    });
-    snapped[i] += frames[i] * Vec2(sum / around);
+    for (size_t j = around.first; j <= around.last; ++j) sum += best[j];
+    snapped[i] += frames[i] * Vec2(sum / CountOf(around));
   }
   return snapped;
 }
