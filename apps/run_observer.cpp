@@ -41,11 +41,10 @@ void RunObserver::OnGraph(const std::string& name, const SkeletonGraph& graph) {
   if (!outputs_.folder.empty()) ExportSkeleton(outputs_.folder / (name + ".ply"), graph);
 }
 
-void RunObserver::OnEvidence(const std::string& name, const SkeletonGraph& candidates,
-                             const std::vector<StretchEvidence>& evidence) {
+void RunObserver::OnTable(const std::string& name, const std::function<std::string()>& csv) {
   if (outputs_.folder.empty()) return;
   WriteStreamAtomically(outputs_.folder / (name + ".csv"),
-                        [&](std::ostream& stream) { stream << EvidenceCsv(candidates, evidence); });
+                        [&](std::ostream& stream) { stream << csv(); });
 }
 
 void RunObserver::OnVolume(const TsdfVolume& volume) {

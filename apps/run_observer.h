@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,7 @@ namespace curvefusion {
 
 /// What to keep of a run besides its result; empty paths = nothing.
 struct StageOutputs {
-  std::filesystem::path folder;  ///< NAME.ply for every intermediate point set and graph
+  std::filesystem::path folder;  ///< NAME.ply or .csv for every intermediate result
   std::filesystem::path volume;  ///< mesh of the volume, in a format of WriteMesh
 };
 
@@ -30,8 +31,7 @@ class RunObserver : public PipelineObserver {
   void OnProgress(const std::string& stage, int64_t done, int64_t total) override;
   void OnPoints(const std::string& name, const ObservedPoints& points) override;
   void OnGraph(const std::string& name, const SkeletonGraph& graph) override;
-  void OnEvidence(const std::string& name, const SkeletonGraph& candidates,
-                  const std::vector<StretchEvidence>& evidence) override;
+  void OnTable(const std::string& name, const std::function<std::string()>& csv) override;
   void OnVolume(const TsdfVolume& volume) override;
 
  private:

@@ -36,8 +36,8 @@ def true_points(path):
     return np.concatenate(points)
 
 
-def aligned(points, truth):
-    """Points after a rigid motion to the truth: trimmed iterative closest points."""
+def motion_to(truth, points):
+    """The rigid motion of points to the truth, R and t: trimmed iterative closest points."""
     R, t, tree = np.eye(3), np.zeros(3), cKDTree(truth)
     for threshold in np.repeat([0.03, 0.02, 0.012, 0.008], 6):
         distance, index = tree.query(points @ R.T + t)
@@ -48,6 +48,11 @@ def aligned(points, truth):
         U, _, V = np.linalg.svd((a - a.mean(0)).T @ (b - b.mean(0)))
         R = V.T @ np.diag([1, 1, np.sign(np.linalg.det(V.T @ U.T))]) @ U.T
         t = b.mean(0) - R @ a.mean(0)
+    return R, t
+
+
+def aligned(points, truth):
+    R, t = motion_to(truth, points)
     return points @ R.T + t
 
 

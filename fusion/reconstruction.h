@@ -1,12 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "capture/sequence.h"
 #include "fusion/curve_graph/selection.h"
-#include "fusion/curve_graph/stretch_evidence.h"
 #include "fusion/funnel.h"
 #include "fusion/planned_stage.h"
 #include "fusion/silhouettes/view_evidence.h"
@@ -33,9 +33,9 @@ class PipelineObserver {
   virtual void OnPoints(const std::string& /*name*/, const ObservedPoints& /*points*/) {}
   /// Intermediate graphs ("bundle_003_skeleton", "bundle_003_fused") in the world frame.
   virtual void OnGraph(const std::string& /*name*/, const SkeletonGraph& /*graph*/) {}
-  /// What is known of every stretch of the candidate curves, before any is dropped for it.
-  virtual void OnEvidence(const std::string& /*name*/, const SkeletonGraph& /*candidates*/,
-                          const std::vector<StretchEvidence>& /*evidence*/) {}
+  /// Tables of what is known of every stretch of candidate curves before any is dropped for it
+  /// ("evidence"); `csv` gives the text.
+  virtual void OnTable(const std::string& /*name*/, const std::function<std::string()>& /*csv*/) {}
   /// The volume once all frames are integrated.
   virtual void OnVolume(const TsdfVolume& /*volume*/) {}
 };

@@ -67,7 +67,7 @@ bool KeepProvenWires(const std::string& stage, const std::string& name, double m
   std::vector<StretchEvidence> evidence =
       CollectEvidence(result.skeleton, result.radii, result.sequence, depth_images);
   DisregardNets(nets, result.skeleton, evidence);
-  reporter.observer.OnEvidence(name, result.skeleton, evidence);
+  reporter.observer.OnTable(name, [&] { return EvidenceCsv(result.skeleton, evidence); });
   const std::vector<WireProof> proofs =
       ProveWires(result.skeleton, evidence, result.uncertain.beside_kept);
   result.trust.wire_length =
@@ -119,8 +119,9 @@ void CorrectBySilhouettes(const ColourAdjustment& adjusted, const StripViews& st
 
 // Deviation: wires that depth has lost, where colour images show strips that no curve explains.
 // How many metres.
-double AddWiresFromColour(StripViews& views, WireDepth depth, const RidgeOptions& options,
-                          const StageReporter& reporter, Reconstruction& result) {
+double AddWiresFromColour(StripViews& views, WireDepth depth, int round,
+                          const RidgeOptions& options, const StageReporter& reporter,
+                          Reconstruction& result) {
   const char* stage = "wires from colour";
   const StageLog::Timer timer = reporter.Begin(stage);
   views.ExplainAll(result.skeleton);
@@ -129,12 +130,15 @@ double AddWiresFromColour(StripViews& views, WireDepth depth, const RidgeOptions
   const ObservedPoints candidates = FindColourCandidates(
       views, {.follow = depth == WireDepth::kLookedPast, .max_rays = kManyRays},
       [&](int64_t done, int64_t total) { reporter.observer.OnProgress(stage, done, total); });
-  const double added = followed + AddCandidateCurves(result.sequence, candidates, options, radius,
-                                                     views, result.skeleton);
+  const AddedCurves from_candidates =
+      AddCandidateCurves(result.sequence, candidates, options, radius, views, result.skeleton);
+  const double added = followed + from_candidates.length;
   reporter.log.Count(stage, "followed, m", followed);
   reporter.log.Count(stage, "points", static_cast<double>(candidates.size()));
   reporter.log.Count(stage, "added, m", added);
   reporter.observer.OnPoints("colour_candidates", candidates);
+  reporter.observer.OnTable(fmt::format("colour_stretches_{}", round + 1),
+                            [&] { return StretchesCsv(from_candidates.stretches); });
   if (added == 0) return 0;
   TidyRidgeSkeleton(result.skeleton, options);
   result.trust.wire_length += added;
@@ -228,7 +232,8 @@ void CompleteByColour(const AdjustmentStart& start, std::optional<StripViews> st
                       const StageReporter& reporter, Reconstruction& result) {
   for (int round = 0; round < kColourRounds; ++round) {
     TellPlan(size, options, reporter, result);
-    const double added = AddWiresFromColour(*strips, start.depth, options.ridge, reporter, result);
+    const double added =
+        AddWiresFromColour(*strips, start.depth, round, options.ridge, reporter, result);
     strips.reset();  // its images take as much memory as the next adjustment
     // Without depth, silhouettes have bridged gaps that nothing was adjusted to yet.
     const bool is_rough = round == 0 && !result.sequence.has_depth;

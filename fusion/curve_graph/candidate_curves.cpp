@@ -106,17 +106,17 @@ void DropDetached(const std::vector<Vec3>& curves, SkeletonGraph& skeleton) {
 
 }  // namespace
 
-double AddCandidateCurves(const Sequence& sequence, const ObservedPoints& candidates,
-                          const RidgeOptions& options, double radius, StripViews& views,
-                          SkeletonGraph& skeleton) {
+AddedCurves AddCandidateCurves(const Sequence& sequence, const ObservedPoints& candidates,
+                               const RidgeOptions& options, double radius, StripViews& views,
+                               SkeletonGraph& skeleton) {
   const std::vector<Vec3> known = PointsOf(skeleton);
-  if (candidates.empty()) return 0;
+  if (candidates.empty()) return {};
   SkeletonGraph found = ExtractRidgeSkeleton(candidates, options);
   SnapToStrips(views, found);
   KeepNewWires(known, found);
-  std::vector<Vec3> proven =
-      KeepProvenCandidates(sequence, candidates.positions, radius, views, found);
-  if (found.empty()) return 0;
+  CandidateProof proof = KeepProvenCandidates(sequence, candidates.positions, radius, views, found);
+  AddedCurves added = {0, std::move(proof.stretches)};
+  if (found.empty()) return added;
   const double length = skeleton.TotalLength();
   AddGraph(found, radius, skeleton);
   TrackTips(radius, views, skeleton);
@@ -126,9 +126,11 @@ double AddCandidateCurves(const Sequence& sequence, const ObservedPoints& candid
   const std::vector<Vec3> with_candidates = PointsOf(skeleton);
   CloseFreeEnds(skeleton, reach, candidates);
   DropJoinsNotShown(with_candidates, views, skeleton);
-  proven.insert(proven.end(), known.begin(), known.end());
-  DropDetached(proven, skeleton);
-  return skeleton.TotalLength() - length;
+  std::vector<Vec3>& kept = proof.stand_alone;
+  kept.insert(kept.end(), known.begin(), known.end());
+  DropDetached(kept, skeleton);
+  added.length = skeleton.TotalLength() - length;
+  return added;
 }
 
 }  // namespace curvefusion

@@ -1,5 +1,7 @@
 #include "fusion/curve_graph/candidate_proof.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -18,7 +20,7 @@ namespace curvefusion {
 namespace {
 
 // Measured: logistic regression over 2,461 stretches that lines of sight proposed in 24 training
-// scans, 23 m of them wires and 58 m none (docs/lab_notebook.md).
+// scans, 23 m of them wires and 58 m none (docs/wires_from_colour.md#coefficients).
 constexpr double kBias = -1.76;
 constexpr double kMiddles = 4.2;      // of how near strips' middles are, an image that shows one
 constexpr double kFree = 7.1;         // more of it with free space behind
@@ -68,16 +70,30 @@ double PlacesNear(const PointGrid& places, const Polyline& points, const EdgePar
 }
 
 // That a stretch is a wire.
-double LogOdds(const StretchEvidence& stretch, const Support& support, double places,
-               bool is_free) {
-  const double middles =
-      support.seen > 0 ? support.middle_evidence / (StripViews::kCorrelation * support.seen) : 0;
-  return kBias + (is_free ? kMiddles + kFree : kMiddles) * middles +
-         kColour * ColourLogOdds(stretch) + kPlaces * std::log(places + kFewPlaces);
+double LogOdds(const CandidateStretch& stretch) {
+  return kBias + (stretch.is_free ? kMiddles + kFree : kMiddles) * stretch.middle_evidence +
+         kColour * stretch.colour_log_odds + kPlaces * std::log(stretch.found_places + kFewPlaces);
 }
 
-void KeepLikelyStretches(const Sequence& sequence, const std::vector<Vec3>& found,
-                         const StripViews& views, SkeletonGraph& curves) {
+CandidateStretch Judged(const StretchEvidence& evidence, const std::vector<StripAgreement>& along,
+                        const StripViews& views, const PointGrid& places, const Polyline& points) {
+  const EdgePart& part = evidence.part;
+  const Support support = SupportOf(along, part);
+  CandidateStretch stretch;
+  stretch.places = {points[part.first], points[(part.first + part.last) / 2], points[part.last]};
+  stretch.length = Length(points, part);
+  if (support.seen > 0)
+    stretch.middle_evidence = support.middle_evidence / (StripViews::kCorrelation * support.seen);
+  stretch.is_free = FreeShare(views, points, part) > 0.5;
+  stretch.colour_log_odds = ColourLogOdds(evidence);
+  stretch.found_places = PlacesNear(places, points, part);
+  return stretch;
+}
+
+// Returns all stretches.
+std::vector<CandidateStretch> KeepLikelyStretches(const Sequence& sequence,
+                                                  const std::vector<Vec3>& found,
+                                                  const StripViews& views, SkeletonGraph& curves) {
   const PointGrid places(found, kNearPlace);
   std::map<EdgeId, std::vector<StripAgreement>> along;
   std::map<EdgeId, std::vector<EdgePart>> kept;
@@ -85,22 +101,23 @@ void KeepLikelyStretches(const Sequence& sequence, const std::vector<Vec3>& foun
     along[id] = views.AgreementsAlong(curves.edge(id).points);
     kept[id];
   }
-  for (const StretchEvidence& stretch : CollectEvidence(curves, {}, sequence, 0)) {
-    const Polyline& points = curves.edge(stretch.edge).points;
-    const Support support = SupportOf(along.at(stretch.edge), stretch.part);
-    const bool is_free = FreeShare(views, points, stretch.part) > 0.5;
-    const bool is_open = is_free || ColourLogOdds(stretch) > kMinColourLogOdds;
-    const double near = PlacesNear(places, points, stretch.part);
-    if (!is_open || LogOdds(stretch, support, near, is_free) < 0) continue;
-    std::vector<EdgePart>& parts = kept[stretch.edge];
-    if (!parts.empty() && parts.back().last == stretch.part.first) {
-      parts.back().last = stretch.part.last;
+  std::vector<CandidateStretch> stretches;
+  for (const StretchEvidence& evidence : CollectEvidence(curves, {}, sequence, 0)) {
+    const EdgeId id = evidence.edge;
+    const CandidateStretch& stretch = stretches.emplace_back(
+        Judged(evidence, along.at(id), views, places, curves.edge(id).points));
+    const bool is_open = stretch.is_free || stretch.colour_log_odds > kMinColourLogOdds;
+    if (!is_open || LogOdds(stretch) < 0) continue;
+    std::vector<EdgePart>& parts = kept[id];
+    if (!parts.empty() && parts.back().last == evidence.part.first) {
+      parts.back().last = evidence.part.last;
     } else {
-      parts.push_back(stretch.part);
+      parts.push_back(evidence.part);
     }
   }
   for (const auto& [id, parts] : kept) KeepParts(id, parts, kMinPiece, curves);
   curves.RemoveIsolatedNodes();
+  return stretches;
 }
 
 // Whether a curve is a wire even where it hangs together with nothing.
@@ -141,13 +158,28 @@ std::vector<Vec3> ExplainAway(double radius, StripViews& views, SkeletonGraph& c
 
 }  // namespace
 
-std::vector<Vec3> KeepProvenCandidates(const Sequence& sequence, const std::vector<Vec3>& places,
-                                       double radius, StripViews& views, SkeletonGraph& curves) {
+std::string StretchesCsv(const std::vector<CandidateStretch>& stretches) {
+  std::string csv =
+      "x0,y0,z0,x1,y1,z1,x2,y2,z2,length,middle_evidence,is_free,colour_log_odds,found_places\n";
+  for (const CandidateStretch& stretch : stretches) {
+    for (const Vec3& p : stretch.places)
+      csv += fmt::format("{:.5f},{:.5f},{:.5f},", p.x(), p.y(), p.z());
+    csv +=
+        fmt::format("{:.4f},{:.4f},{:d},{:.4f},{:.3f}\n", stretch.length, stretch.middle_evidence,
+                    stretch.is_free, stretch.colour_log_odds, stretch.found_places);
+  }
+  return csv;
+}
+
+CandidateProof KeepProvenCandidates(const Sequence& sequence, const std::vector<Vec3>& places,
+                                    double radius, StripViews& views, SkeletonGraph& curves) {
   DropRefutedParts([&views](const Polyline& points) { return views.SharesAlong(points); },
                    kMinStripShare, {}, curves);
   if (curves.empty()) return {};
-  KeepLikelyStretches(sequence, places, views, curves);
-  return ExplainAway(radius, views, curves);
+  CandidateProof proof;
+  proof.stretches = KeepLikelyStretches(sequence, places, views, curves);
+  proof.stand_alone = ExplainAway(radius, views, curves);
+  return proof;
 }
 
 }  // namespace curvefusion

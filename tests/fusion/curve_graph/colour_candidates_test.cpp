@@ -86,7 +86,7 @@ TEST(CandidateCurves, WhatIsPaintedOnAWallIsLeftOut) {
   StripViews views = scan.Strips(graph);
   const ObservedPoints places = FindCandidates(views, CandidatePlaces::kAll);
   EXPECT_FALSE(places.empty());
-  EXPECT_EQ(AddCandidateCurves(scan.sequence(), places, {}, kTestRadius, views, graph), 0);
+  EXPECT_EQ(AddCandidateCurves(scan.sequence(), places, {}, kTestRadius, views, graph).length, 0);
 }
 
 TEST(ColourCandidates, TellHowFarTheSearchIs) {
@@ -113,11 +113,33 @@ TEST(CandidateCurves, JoinWhatIsThere) {
   const SilhouetteScan scan({kStem, kTwig}, {}, kBehind);
   SkeletonGraph graph = Known();
   StripViews views = scan.Strips(graph);
-  const double added =
+  const AddedCurves added =
       AddCandidateCurves(scan.sequence(), FindCandidates(views), {}, kTestRadius, views, graph);
-  EXPECT_NEAR(added, Length(kTwig), 0.01);
+  EXPECT_NEAR(added.length, Length(kTwig), 0.01);
   EXPECT_EQ(graph.ComponentCount(), 1);
   EXPECT_TRUE(Faults(graph).empty());
+}
+
+// The twig, before something far: strips' middles lie on it.
+TEST(CandidateCurves, TellWhatTheyWereDecidedBy) {
+  const SilhouetteScan scan({kStem, kTwig}, {}, kBehind);
+  SkeletonGraph graph = Known();
+  StripViews views = scan.Strips(graph);
+  const AddedCurves added =
+      AddCandidateCurves(scan.sequence(), FindCandidates(views), {}, kTestRadius, views, graph);
+  ASSERT_FALSE(added.stretches.empty());
+  double length = 0;
+  for (const CandidateStretch& stretch : added.stretches) {
+    EXPECT_TRUE(stretch.is_free);
+    EXPECT_GT(stretch.middle_evidence, 0.2);
+    EXPECT_GT(stretch.found_places, 0.2);
+    for (const Vec3& p : stretch.places) EXPECT_LT(DistanceTo(kTwig, p), 0.002);
+    length += stretch.length;
+  }
+  EXPECT_NEAR(length, Length(kTwig), 0.02);
+  const std::string csv = StretchesCsv(added.stretches);
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'),
+            static_cast<std::ptrdiff_t>(added.stretches.size() + 1));
 }
 
 // Of a wire beside the stem, so long: what is added.
@@ -128,7 +150,7 @@ double AddedBesideStem(double length, double behind) {
   StripViews views = scan.Strips(graph);
   const ObservedPoints candidates = FindCandidates(views, CandidatePlaces::kAll);
   EXPECT_FALSE(candidates.empty());
-  return AddCandidateCurves(scan.sequence(), candidates, {}, kTestRadius, views, graph);
+  return AddCandidateCurves(scan.sequence(), candidates, {}, kTestRadius, views, graph).length;
 }
 
 TEST(CandidateCurves, ThatHangTogetherWithNothingStayWhereTheyAreLong) {
@@ -143,7 +165,7 @@ TEST(CandidateCurves, ThatHangTogetherWithNothingAreLeftOutBeforeASurface) {
 TEST(CandidateCurves, NothingWithoutCandidates) {
   SkeletonGraph graph = Known();
   StripViews views({}, {}, {}, Eigen::AlignedBox3d());
-  EXPECT_EQ(AddCandidateCurves({}, {}, {}, kTestRadius, views, graph), 0);
+  EXPECT_EQ(AddCandidateCurves({}, {}, {}, kTestRadius, views, graph).length, 0);
 }
 
 }  // namespace
