@@ -29,9 +29,9 @@ class Reporter {
   const FindingHandler& on_finding_;
 };
 
-// Chosen: the narrowest and widest depth cameras are the Artec Spider (30 degrees) and the Azure
-// Kinect's wide mode (120 degrees).
-constexpr double kMinView = 25 * kDegree;
+// Chosen: the narrowest and widest depth cameras are the Artec Spider (22 degrees as simulated) and
+// the Azure Kinect's wide mode (120 degrees).
+constexpr double kMinView = 20 * kDegree;
 constexpr double kMaxView = 125 * kDegree;
 // Of the image's size. Measured: at most .03 of it on ten scans; chosen: cropped images have more.
 constexpr double kMaxOffCentre = 0.12;
@@ -58,7 +58,7 @@ void ReportCamera(const PinholeCamera& camera, const char* kind, const Reporter&
   } else if (view < kMinView || view > kMaxView) {
     reporter.Warn("intrinsics-implausible",
                   fmt::format("the {} camera's fx = {:g} for images {} px wide is a field of view "
-                              "of {:.0f} degrees; depth cameras have 30 to 120{}",
+                              "of {:.0f} degrees; depth cameras have 20 to 120{}",
                               kind, camera.fx, camera.width, view / kDegree, kCost));
   } else if (std::abs(camera.fx / camera.fy - 1) > kMaxAspectError) {
     reporter.Warn(
