@@ -3,8 +3,8 @@
 
 fit_candidate_proof.py RESULT:TRUTH ...
 
-RESULT is the folder of `reconstruct SCAN -o RESULT --save-stages RESULT/stages`, TRUTH the curves.json of the scan, or
-`none` where the scan shows no wire. Metres are weights. What is kept is told for scans that were left out of the fit.
+RESULT is a new folder of `reconstruct SCAN -o RESULT --save-stages RESULT/stages` (all rounds in it are read), TRUTH the
+curves.json of the scan, or `none` where the scan shows no wire. Metres are weights. What is kept is told for scans that were left out of the fit.
 Needs numpy and scipy.
 """
 import csv
@@ -16,7 +16,7 @@ import sys
 import numpy as np
 from scipy.spatial import cKDTree
 
-from fit_wire_proof import logistic, motion_to, true_points
+from fit_wire_proof import logistic, motion_to_truth, table_of, true_points
 
 NEAR = 0.006       # metres: a point is true where it lies so near to a true curve
 FEW_PLACES = 0.05  # as in candidate_proof.cpp
@@ -40,15 +40,13 @@ def read(argument):
         rows += list(csv.DictReader(open(path)))
     if not rows:
         return None
-    table = {key: np.array([float(row[key]) for row in rows]) for key in rows[0]}
+    table, places = table_of(rows)
     table["on_wire"] = np.zeros(len(rows))
     if truth != "none":
         edges = json.load(open(os.path.join(result, "skeleton.json")))["edges"]
         wires = true_points(truth)
-        R, t = motion_to(wires, np.concatenate([np.array(edge["points"])[:, :3] for edge in edges]))
-        places = np.concatenate([np.column_stack([table[a + i] for a in "xyz"]) for i in "012"])
-        near = cKDTree(wires).query(places @ R.T + t)[0] < NEAR
-        table["on_wire"] = near.reshape(3, -1).mean(0)
+        R, t = motion_to_truth(np.concatenate([np.array(edge["points"])[:, :3] for edge in edges]), wires)
+        table["on_wire"] = (cKDTree(wires).query(places @ R.T + t)[0] < NEAR).mean(1)
     return table
 
 

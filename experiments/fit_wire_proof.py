@@ -36,8 +36,8 @@ def true_points(path):
     return np.concatenate(points)
 
 
-def motion_to(truth, points):
-    """The rigid motion of points to the truth, R and t: trimmed iterative closest points."""
+def motion_to_truth(points, truth):
+    """R and t of the rigid motion of points to the truth: trimmed iterative closest points."""
     R, t, tree = np.eye(3), np.zeros(3), cKDTree(truth)
     for threshold in np.repeat([0.03, 0.02, 0.012, 0.008], 6):
         distance, index = tree.query(points @ R.T + t)
@@ -52,7 +52,8 @@ def motion_to(truth, points):
 
 
 def aligned(points, truth):
-    R, t = motion_to(truth, points)
+    """Points after that motion."""
+    R, t = motion_to_truth(points, truth)
     return points @ R.T + t
 
 
@@ -78,13 +79,18 @@ def parts(table):
     return np.array([root(e) for e in table["edge"]])
 
 
+def table_of(rows):
+    """Columns of numbers, and the three points of every row of a table of stretches."""
+    table = {key: np.array([float(row[key]) for row in rows]) for key in rows[0]}
+    return table, np.stack([np.stack([table[a + i] for a in "xyz"], 1) for i in "012"], 1)
+
+
 def read(argument):
     stages, truth = argument.rsplit(":", 1)
     rows = list(csv.DictReader(open(os.path.join(stages, "evidence.csv"))))
     if not rows:
         return None
-    table = {key: np.array([float(row[key]) for row in rows]) for key in rows[0]}
-    places = np.stack([np.stack([table[a + i] for a in "xyz"], 1) for i in "012"], 1)
+    table, places = table_of(rows)
     distance = np.full((len(rows), 3), np.inf)
     if truth == "all":
         distance[:] = 0

@@ -13,6 +13,16 @@ struct EdgePart {
   size_t last = 0;
 };
 
+inline size_t PointCount(const EdgePart& part) { return part.last - part.first + 1; }
+
+/// The share of a part's points for which `holds(point)`.
+template <class Holds>
+double ShareOf(const Polyline& points, const EdgePart& part, const Holds& holds) {
+  size_t count = 0;
+  for (size_t i = part.first; i <= part.last; ++i) count += holds(points[i]) ? 1 : 0;
+  return static_cast<double>(count) / static_cast<double>(PointCount(part));
+}
+
 /// Metres along a curve from the first to the last point of a part.
 double Length(const Polyline& points, const EdgePart& part);
 

@@ -19,6 +19,7 @@
 #include "fusion/curve_graph/wire_proof.h"
 #include "fusion/silhouettes/colour_pruning.h"
 #include "graph/crossings.h"
+#include "graph/edge_parts.h"
 #include "graph/intersections.h"
 #include "graph/validate.h"
 
@@ -48,11 +49,8 @@ void DisregardNets(const Nets& nets, const SkeletonGraph& skeleton,
   if (nets.empty()) return;
   for (StretchEvidence& stretch : evidence) {
     const Polyline& points = skeleton.edge(stretch.edge).points;
-    size_t inside = 0;
-    for (size_t i = stretch.part.first; i <= stretch.part.last; ++i)
-      inside += nets.Contains(points[i]);
-    const auto count = static_cast<double>(stretch.part.last - stretch.part.first + 1);
-    stretch.same *= 1 - static_cast<double>(inside) / count;
+    stretch.same *=
+        1 - ShareOf(points, stretch.part, [&](const Vec3& p) { return nets.Contains(p); });
   }
 }
 

@@ -54,9 +54,7 @@ Support SupportOf(const std::vector<StripAgreement>& along, const EdgePart& part
 }
 
 double FreeShare(const StripViews& views, const Polyline& points, const EdgePart& part) {
-  size_t free = 0;
-  for (size_t i = part.first; i <= part.last; ++i) free += views.IsFree(points[i]);
-  return static_cast<double>(free) / static_cast<double>(part.last - part.first + 1);
+  return ShareOf(points, part, [&](const Vec3& p) { return views.IsFree(p); });
 }
 
 // How many places lie near a stretch, a millimetre.

@@ -40,11 +40,8 @@ bool IsFalse(const SkeletonGraph& skeleton, const SkeletonEdge& edge,
 
 // Whether depth shows at least half of a run, which images then overlook.
 bool IsShownByDepth(const Polyline& points, const EdgePart& run, const PointGrid& shown_by_depth) {
-  size_t shown = 0;
-  for (size_t i = run.first; i <= run.last; ++i) {
-    shown += shown_by_depth.Nearest(points[i], kShownReach) >= 0 ? 1 : 0;
-  }
-  return 2 * shown >= run.last - run.first + 1;
+  return ShareOf(points, run,
+                 [&](const Vec3& p) { return shown_by_depth.Nearest(p, kShownReach) >= 0; }) >= 0.5;
 }
 
 // What is left of all points without the false runs.

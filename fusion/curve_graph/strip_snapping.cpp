@@ -49,7 +49,7 @@ EdgePart Around(size_t i, size_t count) {
   return {i < kAlike ? 0 : i - kAlike, std::min(count - 1, i + kAlike)};
 }
 
-double CountOf(const EdgePart& part) { return static_cast<double>(part.last - part.first + 1); }
+double CountOf(const EdgePart& part) { return static_cast<double>(PointCount(part)); }
 
 // The offset of each point with which it and those around it have most evidence.
 std::vector<Vec2> BestOffsets(const std::vector<double>& evidence, double step,
