@@ -4,11 +4,11 @@
 #include <cmath>
 #include <cstdint>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <string_view>
 
 #include "apps/frame_overlay.h"
-#include "experiments/pictures/encoded_image.h"
+#include "capture/jpeg.h"
 
 namespace curvefusion {
 
@@ -21,7 +21,7 @@ constexpr int kCandidates = 10;   // of a stretch of frames
 constexpr int kJpegQuality = 80;
 constexpr double kRotationDigits = 1e6;  // a millionth of a radian is no pixel in any image
 
-std::string Base64(const std::vector<unsigned char>& bytes) {
+std::string Base64(std::string_view bytes) {
   constexpr const char* kDigits =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text;
@@ -29,7 +29,8 @@ std::string Base64(const std::vector<unsigned char>& bytes) {
   for (size_t i = 0; i < bytes.size(); i += 3) {
     const size_t count = std::min<size_t>(3, bytes.size() - i);
     uint32_t group = 0;
-    for (size_t k = 0; k < 3; ++k) group = group << 8 | (k < count ? bytes[i + k] : 0U);
+    for (size_t k = 0; k < 3; ++k)
+      group = group << 8 | (k < count ? static_cast<unsigned char>(bytes[i + k]) : 0U);
     for (size_t k = 0; k < 4; ++k) {
       text += k <= count ? kDigits[group >> (18 - 6 * k) & 63] : '=';
     }
@@ -54,6 +55,18 @@ Json PoseJson(const RigidTransform& T) {
 
 double ScaleTo(int width, int max_width) {
   return std::min(1.0, static_cast<double>(max_width) / width);
+}
+
+// No wider than `max_width`.
+ColorImage Shrunk(ColorImage picture, int max_width) {
+  const double scale = ScaleTo(picture.width(), max_width);
+  if (scale == 1) return picture;
+  ColorImage shrunk(static_cast<int>(std::lround(picture.width() * scale)),
+                    static_cast<int>(std::lround(picture.height() * scale)));
+  cv::Mat to(shrunk.height(), shrunk.width(), CV_8UC3, shrunk.data());
+  cv::resize(cv::Mat(picture.height(), picture.width(), CV_8UC3, picture.data()), to, to.size(), 0,
+             0, cv::INTER_AREA);
+  return shrunk;
 }
 
 }  // namespace
@@ -97,18 +110,7 @@ Json FrameJson(const PageFrame& frame) {
 
 std::string JpegUrl(const ColorImage& picture, int max_width) {
   if (picture.empty()) return "";
-  ColorImage copy = picture;  // OpenCV has no constant views
-  cv::Mat image;
-  cv::cvtColor(cv::Mat(copy.height(), copy.width(), CV_8UC3, copy.data()), image,
-               cv::COLOR_RGB2BGR);
-  const double scale = ScaleTo(picture.width(), max_width);
-  if (scale < 1) {
-    const cv::Size size(static_cast<int>(std::lround(picture.width() * scale)),
-                        static_cast<int>(std::lround(picture.height() * scale)));
-    cv::resize(cv::Mat(image), image, size, 0, 0, cv::INTER_AREA);
-  }
-  return "data:image/jpeg;base64," +
-         Base64(EncodeImage("picture.jpg", image, {cv::IMWRITE_JPEG_QUALITY, kJpegQuality}));
+  return "data:image/jpeg;base64," + Base64(EncodeJpeg(Shrunk(picture, max_width), kJpegQuality));
 }
 
 }  // namespace curvefusion

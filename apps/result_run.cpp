@@ -38,7 +38,7 @@ double SecondsSince(Clock::time_point start) {
 }
 
 void WriteText(const fs::path& path, const std::string& text) {
-  WriteStreamAtomically(path, [&](std::ostream& stream) { stream << text; });
+  WriteBytesAtomically(path, text);
 }
 
 void WriteUncertain(const Reconstruction& reconstruction, const fs::path& folder) {

@@ -1,20 +1,19 @@
 #include "capture/image_file.h"
 
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstdint>
 #include <fstream>
 #include <new>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "capture/big_endian.h"
 #include "capture/jpeg.h"
+#include "capture/png.h"
 #include "kernel/error.h"
 #include "kernel/text_input.h"
 
@@ -26,7 +25,7 @@ constexpr std::string_view kPngSignature("\x89PNG\r\n\x1a\n", 8);
 constexpr std::string_view kPngEnd("IEND");
 constexpr std::string_view kJpegSignature("\xff\xd8", 2);
 constexpr std::string_view kJpegEnd("\xff\xd9", 2);
-// Chosen: the largest camera images, uncompressed; INT_MAX is what OpenCV can take.
+// Chosen: the largest camera images, uncompressed.
 constexpr std::uintmax_t kMaxImageBytes = 1u << 30;
 constexpr std::streamoff kTailBytes = 1024;  // cameras append a few bytes of their own
 
@@ -51,12 +50,6 @@ struct ByteRange {
     return Read(tail, size - tail).rfind(marker) != std::string::npos;
   }
 };
-
-uint32_t BigEndian(std::string_view bytes) {
-  uint32_t value = 0;
-  for (const char byte : bytes) value = value * 256 + static_cast<unsigned char>(byte);
-  return value;
-}
 
 ImageHeader ParsePng(ByteRange range) {
   const std::string bytes = range.Read(0, 26);
@@ -112,41 +105,9 @@ ImageHeader RequireUsable(const std::filesystem::path& path, const ImagePart& pa
   return header;
 }
 
-// The name of the first chunk of a PNG file whose checksum is wrong; empty where all are right.
-// OpenCV does not look at all of them.
-std::string DamagedChunk(std::string_view png) {
-  constexpr size_t kFrame = 12;  // bytes beside the data: length, name, checksum
-  for (size_t begin = kPngSignature.size(); begin + kFrame <= png.size();) {
-    const auto length = BigEndian(png.substr(begin, 4));
-    const std::string_view name = png.substr(begin + 4, 4);
-    if (length > png.size() - begin - kFrame) return std::string(name);
-    const auto* data = reinterpret_cast<const Bytef*>(name.data());
-    const auto checksum = BigEndian(png.substr(begin + 8 + length, 4));
-    if (::crc32(0, data, length + 4) != checksum) return std::string(name);
-    if (name == kPngEnd) return "";  // cameras append bytes of their own
-    begin += kFrame + length;
-  }
-  return "";
-}
-
-cv::Mat DecodePng(const std::string& name, const std::string& bytes, int flags) {
-  const std::string chunk = DamagedChunk(bytes);
-  if (!chunk.empty()) {
-    FailDecoding(name, fmt::format("is damaged (wrong checksum in its part {})", chunk));
-  }
-  cv::Mat pixels;
-  errno = 0;
-  try {
-    pixels = cv::imdecode(cv::Mat(1, static_cast<int>(bytes.size()), CV_8UC1,
-                                  const_cast<char*>(bytes.data())),  // OpenCV has no constant views
-                          flags);
-  } catch (const cv::Exception& error) {
-    if (error.code == cv::Error::StsNoMem) throw std::bad_alloc();
-  }
-  // Nothing else tells that libpng found no memory.
-  if (pixels.empty() && errno == ENOMEM) throw std::bad_alloc();
-  if (pixels.empty()) FailDecoding(name, "cannot be decoded");
-  return pixels;
+ImageHeader WithSizeChecked(ImageHeader header) {
+  if (header.defect.empty()) header.defect = SizeDefect(header.width, header.height);
+  return header;
 }
 
 ImageHeader HeaderOf(const ImagePart& part, ByteRange range) {
@@ -155,8 +116,8 @@ ImageHeader HeaderOf(const ImagePart& part, ByteRange range) {
   }
   const std::string signature = range.Read(0, 8);
   if (range.size == 0) return {"is empty"};
-  if (signature == kPngSignature) return ParsePng(range);
-  if (signature.starts_with(kJpegSignature)) return ParseJpeg(range);
+  if (signature == kPngSignature) return WithSizeChecked(ParsePng(range));
+  if (signature.starts_with(kJpegSignature)) return WithSizeChecked(ParseJpeg(range));
   return {part.IsWholeFile() ? "is neither a PNG nor a JPEG file" : "is neither PNG nor JPEG data"};
 }
 
@@ -225,13 +186,9 @@ Image<uint16_t> DecodeDepthImage(const std::filesystem::path& path, const ImageP
   }
   const std::string bytes = ReadImageBytes(path, part);
   if (IsRaw(part.coding)) return DecodeRawDepth(path, part, bytes);
-  const cv::Mat pixels = DecodePng(ImageName(path, part), bytes, cv::IMREAD_UNCHANGED);
-  assert(pixels.type() == CV_16UC1);
-  Image<uint16_t> depth(pixels.cols, pixels.rows);
-  for (int v = 0; v < pixels.rows; ++v) {
-    std::copy_n(pixels.ptr<uint16_t>(v), pixels.cols, depth.row(v));
-  }
-  return depth;
+  Png<uint16_t> png = DecodeDepthPng(bytes);
+  if (!png.defect.empty()) FailDecoding(ImageName(path, part), png.defect);
+  return std::move(png.image);
 }
 
 DepthImage MetricDepth(const Image<uint16_t>& raw, double units_per_metre, int invalid_value) {
@@ -256,11 +213,9 @@ ColorImage DecodeColorImage(const std::filesystem::path& path, const ImagePart& 
     if (remark != nullptr) *remark = jpeg.remark;
     return std::move(jpeg.image);
   }
-  const cv::Mat bgr = DecodePng(name, bytes, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
-  ColorImage color(bgr.cols, bgr.rows);
-  cv::Mat rgb(bgr.rows, bgr.cols, CV_8UC3, color.data());
-  cv::cvtColor(bgr, rgb, cv::COLOR_BGR2RGB);
-  return color;
+  Png<Rgb> png = DecodeColorPng(bytes);
+  if (!png.defect.empty()) FailDecoding(name, png.defect);
+  return std::move(png.image);
 }
 
 }  // namespace curvefusion

@@ -12,8 +12,7 @@ namespace curvefusion {
 
 namespace {
 
-// Chosen: ten times what the largest cameras give, as for JPEG; more is a damaged or hostile
-// header.
+// Chosen: ten times what the largest cameras give; more is a damaged or hostile header.
 constexpr std::uint64_t kMaxPixels = std::uint64_t{1} << 28;
 // Derived: deflate codes at most 258 bytes by two bits and less than a byte of other things.
 constexpr std::uint64_t kMaxDeflateRatio = 1032;
@@ -79,9 +78,15 @@ int BitsOf(PixelCoding coding) { return LayoutOf(coding).bits; }
 
 int ChannelsOf(PixelCoding coding) { return LayoutOf(coding).channels; }
 
+std::string SizeDefect(int width, int height) {
+  const auto columns = static_cast<std::uint32_t>(width), rows = static_cast<std::uint32_t>(height);
+  if (std::uint64_t{columns} * rows <= kMaxPixels) return {};
+  return fmt::format("has more than {} pixels", kMaxPixels);
+}
+
 std::string RawDefect(const ImagePart& part) {
-  const auto pixels = static_cast<std::uint64_t>(part.width) * part.height;
-  if (pixels > kMaxPixels) return fmt::format("has more than {} pixels", kMaxPixels);
+  std::string too_large = SizeDefect(part.width, part.height);
+  if (!too_large.empty()) return too_large;
   const std::uint64_t needed = PixelBytes(part);
   const bool is_deflated = part.coding == PixelCoding::kDepth16Zlib;
   if (is_deflated ? part.bytes * kMaxDeflateRatio >= needed : part.bytes == needed) return {};

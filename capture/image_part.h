@@ -46,6 +46,9 @@ bool IsRaw(PixelCoding coding);
 int BitsOf(PixelCoding coding);
 int ChannelsOf(PixelCoding coding);
 
+/// Why no image has this size ("has more than 268435456 pixels"); empty where one may.
+std::string SizeDefect(int width, int height);
+
 /// Why bare pixels cannot be what the part says ("has 100 bytes, 640x480 pixels of 16 bits need
 /// 614400"); empty where they can. Reads nothing.
 std::string RawDefect(const ImagePart& part);

@@ -1,14 +1,14 @@
 #include "capture/jpeg.h"
 
-#include <fmt/format.h>
-
 #include <array>
 #include <csetjmp>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <memory>
 #include <new>
+#include <stdexcept>
 
 // After cstdio, which they need.
 #include <jerror.h>
@@ -18,60 +18,53 @@ namespace curvefusion {
 
 namespace {
 
-// Chosen: ten times what the largest cameras give; more is a damaged or hostile header.
-constexpr int64_t kMaxPixels = int64_t{1} << 28;
-
-// libjpeg's state, the place its errors jump back to (its C code cannot be left by exceptions) and
-// its first messages.
-struct Decoder {
+// The first messages of libjpeg, and the place its errors jump back to: its C code cannot be left
+// by exceptions.
+struct Messages {
   jpeg_error_mgr errors;  // first: libjpeg hands back a pointer to it
-  jpeg_decompress_struct jpeg;
   std::jmp_buf leave;
   bool out_of_memory = false;
   std::array<char, JMSG_LENGTH_MAX> defect{};
   std::array<char, JMSG_LENGTH_MAX> remark{};
 };
 
-Decoder& DecoderOf(j_common_ptr jpeg) { return *reinterpret_cast<Decoder*>(jpeg->err); }
+Messages& MessagesOf(j_common_ptr jpeg) { return *reinterpret_cast<Messages*>(jpeg->err); }
 
 void KeepFirst(j_common_ptr jpeg, std::array<char, JMSG_LENGTH_MAX>& message) {
   if (message[0] == '\0') jpeg->err->format_message(jpeg, message.data());
 }
 
 void Leave(j_common_ptr jpeg) {
-  Decoder& decoder = DecoderOf(jpeg);
-  decoder.out_of_memory = jpeg->err->msg_code == JERR_OUT_OF_MEMORY;
-  KeepFirst(jpeg, decoder.defect);
-  std::longjmp(decoder.leave, 1);
+  Messages& messages = MessagesOf(jpeg);
+  messages.out_of_memory = jpeg->err->msg_code == JERR_OUT_OF_MEMORY;
+  KeepFirst(jpeg, messages.defect);
+  std::longjmp(messages.leave, 1);
 }
 
 // Negative levels are warnings: the decoder goes on with pixels of its own making.
 void NoteWarning(j_common_ptr jpeg, int level) {
   if (level >= 0) return;
   ++jpeg->err->num_warnings;
-  Decoder& decoder = DecoderOf(jpeg);
+  Messages& messages = MessagesOf(jpeg);
   switch (jpeg->err->msg_code) {
     case JWRN_ADOBE_XFORM:
     case JWRN_EXTRANEOUS_DATA:
     case JWRN_JFIF_MAJOR:
-      KeepFirst(jpeg, decoder.remark);
+      KeepFirst(jpeg, messages.remark);
       break;
     default:
-      KeepFirst(jpeg, decoder.defect);
+      KeepFirst(jpeg, messages.defect);
   }
 }
 
 void PrintNothing(j_common_ptr) {}
 
-// Reads up to the image size; false where it cannot be held. All automatic objects here and below
-// are trivial: jumps pass them.
-bool Begin(const std::string& bytes, jpeg_decompress_struct& jpeg) {
+// Reads up to the image size. All automatic objects here and below are trivial: jumps pass them.
+void Begin(const std::string& bytes, jpeg_decompress_struct& jpeg) {
   jpeg_mem_src(&jpeg, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
   jpeg_read_header(&jpeg, TRUE);
-  if (int64_t{jpeg.image_width} * jpeg.image_height > kMaxPixels) return false;
   jpeg.out_color_space = JCS_RGB;
   jpeg_start_decompress(&jpeg);
-  return true;
 }
 
 void ReadRows(jpeg_decompress_struct& jpeg, ColorImage& image) {
@@ -82,35 +75,79 @@ void ReadRows(jpeg_decompress_struct& jpeg, ColorImage& image) {
   jpeg_finish_decompress(&jpeg);
 }
 
+jpeg_error_mgr* Prepared(Messages& messages) {
+  jpeg_error_mgr* errors = jpeg_std_error(&messages.errors);
+  errors->error_exit = Leave;
+  errors->emit_message = NoteWarning;
+  errors->output_message = PrintNothing;
+  return errors;
+}
+
 // Fills the image and the messages.
-void Decode(const std::string& bytes, Decoder& decoder, ColorImage& image) {
-  jpeg_decompress_struct& jpeg = decoder.jpeg;
-  if (setjmp(decoder.leave) != 0 || !Begin(bytes, jpeg)) return;
+void Decode(const std::string& bytes, jpeg_decompress_struct& jpeg, Messages& messages,
+            ColorImage& image) {
+  if (setjmp(messages.leave) != 0) return;
+  Begin(bytes, jpeg);
   image = ColorImage(static_cast<int>(jpeg.output_width), static_cast<int>(jpeg.output_height));
   ReadRows(jpeg, image);
+}
+
+// What libjpeg allocates for the file, which the caller frees.
+struct EncodedBytes {
+  unsigned char* data = nullptr;
+  unsigned long size = 0;
+};
+
+void Encode(const ColorImage& image, int quality, jpeg_compress_struct& jpeg, Messages& messages,
+            EncodedBytes& encoded) {
+  if (setjmp(messages.leave) != 0) return;
+  jpeg_mem_dest(&jpeg, &encoded.data, &encoded.size);
+  jpeg.image_width = static_cast<JDIMENSION>(image.width());
+  jpeg.image_height = static_cast<JDIMENSION>(image.height());
+  jpeg.input_components = 3;
+  jpeg.in_color_space = JCS_RGB;
+  jpeg_set_defaults(&jpeg);
+  jpeg_set_quality(&jpeg, quality, TRUE);
+  jpeg_start_compress(&jpeg, TRUE);
+  while (jpeg.next_scanline < jpeg.image_height) {
+    // libjpeg only reads them.
+    auto* row = const_cast<JSAMPROW>(image.row(static_cast<int>(jpeg.next_scanline))->data());
+    jpeg_write_scanlines(&jpeg, &row, 1);
+  }
+  jpeg_finish_compress(&jpeg);
 }
 
 }  // namespace
 
 Jpeg DecodeJpeg(const std::string& bytes) {
   static_assert(sizeof(Rgb) == 3);
-  Decoder decoder;
-  decoder.jpeg.err = jpeg_std_error(&decoder.errors);
-  decoder.errors.error_exit = Leave;
-  decoder.errors.emit_message = NoteWarning;
-  decoder.errors.output_message = PrintNothing;
-  jpeg_create_decompress(&decoder.jpeg);
+  Messages messages;
+  jpeg_decompress_struct jpeg;
+  jpeg.err = Prepared(messages);
+  jpeg_create_decompress(&jpeg);
   const std::unique_ptr<jpeg_decompress_struct, decltype(&jpeg_destroy_decompress)> destroyed(
-      &decoder.jpeg, jpeg_destroy_decompress);
+      &jpeg, jpeg_destroy_decompress);
   Jpeg result;
-  Decode(bytes, decoder, result.image);
-  if (decoder.out_of_memory) throw std::bad_alloc();
-  result.defect = decoder.defect.data();
-  result.remark = decoder.remark.data();
-  if (result.defect.empty() && result.image.empty()) {
-    result.defect = fmt::format("its header tells of more than {} pixels", kMaxPixels);
-  }
+  Decode(bytes, jpeg, messages, result.image);
+  if (messages.out_of_memory) throw std::bad_alloc();
+  result.defect = messages.defect.data();
+  result.remark = messages.remark.data();
   return result;
+}
+
+std::string EncodeJpeg(const ColorImage& image, int quality) {
+  Messages messages;
+  jpeg_compress_struct jpeg;
+  jpeg.err = Prepared(messages);
+  jpeg_create_compress(&jpeg);
+  const std::unique_ptr<jpeg_compress_struct, decltype(&jpeg_destroy_compress)> destroyed(
+      &jpeg, jpeg_destroy_compress);
+  EncodedBytes encoded;
+  Encode(image, quality, jpeg, messages, encoded);
+  const std::unique_ptr<unsigned char, decltype(&std::free)> bytes(encoded.data, std::free);
+  if (messages.out_of_memory) throw std::bad_alloc();
+  if (messages.defect[0] != '\0') throw std::invalid_argument(messages.defect.data());
+  return {reinterpret_cast<const char*>(encoded.data), encoded.size};
 }
 
 }  // namespace curvefusion

@@ -24,7 +24,7 @@ install(FILES "${PROJECT_BINARY_DIR}/curvefusionConfig.cmake"
               "${PROJECT_BINARY_DIR}/curvefusionConfigVersion.cmake"
               cmake/CurveFusionDependencies.cmake cmake/FindCHOLMOD.cmake cmake/FindDxflib.cmake
               cmake/FindLZ4.cmake cmake/FindLib3MF.cmake
-              cmake/FindOpenCVImage.cmake
+              cmake/FindOpenCVImage.cmake cmake/FindSPNG.cmake
         DESTINATION "${curvefusion_cmake_dir}" COMPONENT development)
 
 # Each package brings the licence; that of the program also the documents its messages name.

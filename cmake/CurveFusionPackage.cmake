@@ -38,6 +38,6 @@ set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
     "libcgal-dev, libboost-graph-dev, libdxflib-dev, libeigen3-dev, libopenmesh-dev, \
 libsuitesparse-dev, libtbb-dev, libopencv-core-dev, libopencv-imgproc-dev, \
-libopencv-imgcodecs-dev, libjpeg-dev, zlib1g-dev, libbz2-dev, liblz4-dev, libtinygltf-dev, \
+libjpeg-dev, libspng-dev, zlib1g-dev, libbz2-dev, liblz4-dev, libtinygltf-dev, \
 lib3mf-dev, libcli11-dev, nlohmann-json3-dev, libtomlplusplus-dev, libspdlog-dev, libfmt-dev")
 include(CPack)

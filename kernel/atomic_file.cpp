@@ -82,6 +82,10 @@ void WriteStreamAtomically(const fs::path& path,
   });
 }
 
+void WriteBytesAtomically(const std::filesystem::path& path, std::string_view bytes) {
+  WriteStreamAtomically(path, [&](std::ostream& stream) { stream << bytes; });
+}
+
 void WriteFolderAtomically(const fs::path& folder,
                            const std::function<void(const fs::path& temporary)>& write) {
   CheckIsFree(folder);

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <ostream>
+#include <string_view>
 
 #include "kernel/error.h"
 
@@ -20,6 +21,9 @@ void WriteFileAtomically(const std::filesystem::path& path,
 /// The same for writers to a stream (opened in binary mode); stream errors become Error(kResource).
 void WriteStreamAtomically(const std::filesystem::path& path,
                            const std::function<void(std::ostream& stream)>& write);
+
+/// The same for bytes that are there already.
+void WriteBytesAtomically(const std::filesystem::path& path, std::string_view bytes);
 
 /// The same for a whole folder: `write` fills a temporary one beside `folder`, which gets its name
 /// when `write` has returned. Makes the folders above. Throws Error(kUsage) where `folder` is there

@@ -4,11 +4,11 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <utility>
 #include <vector>
 
 #include "capture/image_file.h"
+#include "capture/png.h"
 #include "capture/trajectory.h"
 #include "kernel/atomic_file.h"
 #include "kernel/error.h"
@@ -32,18 +32,6 @@ void Link(const fs::path& image, const fs::path& link) {
                                                 image.string(), error.message()));
 }
 
-void WriteBytes(const fs::path& path, const void* bytes, size_t size) {
-  WriteStreamAtomically(path, [&](std::ostream& stream) {
-    stream.write(static_cast<const char*>(bytes), static_cast<std::streamsize>(size));
-  });
-}
-
-void WritePng(const fs::path& path, const cv::Mat& pixels) {
-  std::vector<uint8_t> bytes;
-  cv::imencode(".png", pixels, bytes);
-  WriteBytes(path, bytes.data(), bytes.size());
-}
-
 void WriteDepth(const SequenceFrame& frame, bool swap_bytes, const fs::path& copy) {
   if (frame.depth_part.IsWholeFile() && !swap_bytes) return Link(frame.depth_path, copy);
   Image<uint16_t> depth = DecodeDepthImage(frame.depth_path, frame.depth_part);
@@ -51,18 +39,15 @@ void WriteDepth(const SequenceFrame& frame, bool swap_bytes, const fs::path& cop
     const uint16_t value = depth.data()[i];
     depth.data()[i] = static_cast<uint16_t>((value << 8) | (value >> 8));
   }
-  WritePng(copy, cv::Mat(depth.height(), depth.width(), CV_16UC1, depth.data()));
+  WriteBytesAtomically(copy, EncodePng(depth));
 }
 
 void WriteColor(const SequenceFrame& frame, const fs::path& copy) {
   if (frame.color_part.IsWholeFile()) return Link(frame.color_path, copy);
   if (!IsRaw(frame.color_part.coding)) {
-    const std::string bytes = ReadImageBytes(frame.color_path, frame.color_part);
-    return WriteBytes(copy, bytes.data(), bytes.size());
+    return WriteBytesAtomically(copy, ReadImageBytes(frame.color_path, frame.color_part));
   }
-  ColorImage color = DecodeColorImage(frame.color_path, frame.color_part);
-  for (size_t i = 0; i < color.size(); ++i) std::swap(color.data()[i][0], color.data()[i][2]);
-  WritePng(copy, cv::Mat(color.height(), color.width(), CV_8UC3, color.data()));
+  WriteBytesAtomically(copy, EncodePng(DecodeColorImage(frame.color_path, frame.color_part)));
 }
 
 // With its dot. Parts of recordings are written as they are coded.
@@ -128,9 +113,7 @@ void NameByNumber(SequenceCorrection& correction) {
   }
 }
 
-void WriteText(const fs::path& path, const std::string& text) {
-  WriteStreamAtomically(path, [&](std::ostream& stream) { stream << text; });
-}
+void WriteText(const fs::path& path, const std::string& text) { WriteBytesAtomically(path, text); }
 
 void WriteImages(const SequenceCorrection& correction, const Layout& layout,
                  const fs::path& folder) {

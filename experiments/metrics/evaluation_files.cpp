@@ -213,7 +213,7 @@ std::string EvaluationText(const EvaluationLabels& labels, const Evaluation& eva
 void WriteEvaluation(const std::filesystem::path& path, const EvaluationLabels& labels,
                      const Evaluation& evaluation) {
   const std::string text = EvaluationText(labels, evaluation);
-  WriteStreamAtomically(path, [&](std::ostream& stream) { stream << text; });
+  WriteBytesAtomically(path, text);
 }
 
 void AppendEvaluation(const std::filesystem::path& path, const EvaluationLabels& labels,
@@ -229,7 +229,7 @@ void AppendEvaluation(const std::filesystem::path& path, const EvaluationLabels&
   }
   if (text.back() != '\n') text += '\n';
   text += row.values + "\n";
-  WriteStreamAtomically(path, [&](std::ostream& stream) { stream << text; });
+  WriteBytesAtomically(path, text);
 }
 
 std::map<std::string, double> EvaluationFigures(const Evaluation& evaluation) {

@@ -1,17 +1,12 @@
 #include "experiments/pictures/png.h"
 
-#include <opencv2/imgproc.hpp>
-
-#include "experiments/pictures/encoded_image.h"
+#include "capture/png.h"
+#include "kernel/atomic_file.h"
 
 namespace curvefusion {
 
 void WritePng(const std::filesystem::path& path, const ColorImage& picture) {
-  ColorImage copy = picture;  // OpenCV has no constant views
-  cv::Mat image;
-  cv::cvtColor(cv::Mat(copy.height(), copy.width(), CV_8UC3, copy.data()), image,
-               cv::COLOR_RGB2BGR);
-  WriteEncoded(path, image);
+  WriteBytesAtomically(path, EncodePng(picture));
 }
 
 }  // namespace curvefusion

@@ -17,7 +17,7 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kPictures = "images/reproduction";
 
 void WriteText(const fs::path& path, const std::string& text) {
-  WriteStreamAtomically(path, [&](std::ostream& stream) { stream << text; });
+  WriteBytesAtomically(path, text);
 }
 
 // JSON has no infinity: a figure without a value is null.

@@ -1,17 +1,19 @@
 #include "experiments/simulation/scan_files.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
 
-#include "experiments/pictures/encoded_image.h"
+#include "capture/jpeg.h"
+#include "capture/png.h"
 #include "kernel/atomic_file.h"
 
 namespace curvefusion {
 namespace {
 
+constexpr int kJpegQuality = 95;
 constexpr double kStartTime = 1000;  // names of equal width sort by time
 
 bool SameCamera(const PinholeCamera& a, const PinholeCamera& b) {
@@ -35,25 +37,16 @@ std::string FrameName(int frame, double frame_rate) {
 }
 
 void WriteDepthPng(const std::filesystem::path& path, const DepthImage& depth) {
-  cv::Mat image(depth.height(), depth.width(), CV_16UC1);
-  for (int v = 0; v < depth.height(); ++v) {
-    for (int u = 0; u < depth.width(); ++u) {
-      const double units = std::round(depth(u, v) * kDepthScale);
-      image.at<uint16_t>(v, u) = units > 65535 ? 0 : static_cast<uint16_t>(units);
-    }
-  }
-  WriteEncoded(path, image, {cv::IMWRITE_PNG_COMPRESSION, 3});
+  Image<uint16_t> units(depth.width(), depth.height());
+  std::transform(depth.data(), depth.data() + depth.size(), units.data(), [](float z) {
+    const double rounded = std::round(z * kDepthScale);
+    return rounded > 65535 ? uint16_t{0} : static_cast<uint16_t>(rounded);
+  });
+  WriteBytesAtomically(path, EncodePng(units));
 }
 
 void WriteColorJpeg(const std::filesystem::path& path, const ColorImage& color) {
-  cv::Mat image(color.height(), color.width(), CV_8UC3);
-  for (int v = 0; v < color.height(); ++v) {
-    for (int u = 0; u < color.width(); ++u) {
-      const Rgb& pixel = color(u, v);
-      image.at<cv::Vec3b>(v, u) = cv::Vec3b(pixel[2], pixel[1], pixel[0]);
-    }
-  }
-  WriteEncoded(path, image, {cv::IMWRITE_JPEG_QUALITY, 95});
+  WriteBytesAtomically(path, EncodeJpeg(color, kJpegQuality));
 }
 
 void WriteFrameLists(const std::filesystem::path& folder, const std::vector<std::string>& names) {

@@ -239,7 +239,7 @@ RunOutcome Run(const RunInput& input) {
   const CheckVerdict verdict = JudgeCheck(check, expected);
   outcome.figures["right"] = verdict.is_right ? 1 : 0;
   AddColourOffsets(check, scan, outcome.figures);
-  WriteStreamAtomically(input.folder / "check.json", [&](std::ostream& stream) { stream << text; });
+  WriteBytesAtomically(input.folder / "check.json", text);
   WriteStreamAtomically(input.folder / "verdict.txt", [&](std::ostream& stream) {
     stream << verdict.named << "\n" << verdict.remarks << "\n";
   });

@@ -48,7 +48,7 @@ std::string TextOf(const fs::path& path) {
 }
 
 void WriteText(const fs::path& path, const std::string& text) {
-  WriteStreamAtomically(path, [&](std::ostream& stream) { stream << text; });
+  WriteBytesAtomically(path, text);
 }
 
 // One set of commands, drawn into a PNG and a PDF of the same look.

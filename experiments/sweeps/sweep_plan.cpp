@@ -23,7 +23,7 @@ constexpr const char* kPlanName = "plan.json";
 constexpr const char* kFormat = "curvefusion-sweep";
 
 void WriteText(const fs::path& path, const std::string& text) {
-  WriteStreamAtomically(path, [&](std::ostream& stream) { stream << text; });
+  WriteBytesAtomically(path, text);
 }
 
 Json CellJson(const SweepCell& cell) {

@@ -46,7 +46,7 @@ void WriteCutList(const std::filesystem::path& path, const SkeletonGraph& graph,
   for (size_t i = 0; i < edges.size(); ++i) {
     text += Rows(graph, edges[i], figures.edge_length[i], figures.edge_radius[i], tolerance);
   }
-  WriteStreamAtomically(path, [&](std::ostream& stream) { stream << text; });
+  WriteBytesAtomically(path, text);
 }
 
 }  // namespace curvefusion

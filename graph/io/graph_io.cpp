@@ -74,7 +74,7 @@ void RequireFiniteValues(const SkeletonGraph& graph, const std::string& target) 
 
 void WriteSkeleton(const std::filesystem::path& path, const SkeletonGraph& graph) {
   const std::string text = SkeletonToJson(graph);
-  WriteStreamAtomically(path, [&text](std::ostream& stream) { stream << text; });
+  WriteBytesAtomically(path, text);
 }
 
 void CheckSkeletonFormat(const std::filesystem::path& path) {

@@ -60,7 +60,7 @@ FormatLosses WriteLineObj(const std::filesystem::path& path, const SkeletonGraph
     for (const int vertex : curve) text += fmt::format(" {}", vertex + 1);
     text += "\n";
   }
-  WriteStreamAtomically(path, [&text](std::ostream& stream) { stream << text; });
+  WriteBytesAtomically(path, text);
   return LossesOfIndexedCurves(graph, false);
 }
 

@@ -151,7 +151,7 @@ FormatLosses WriteLinePly(const std::filesystem::path& path, const SkeletonGraph
   for (const std::vector<int>& curve : curves.curves)
     for (size_t i = 1; i < curve.size(); ++i)
       text += fmt::format("{} {}\n", curve[i - 1], curve[i]);
-  WriteStreamAtomically(path, [&text](std::ostream& stream) { stream << text; });
+  WriteBytesAtomically(path, text);
   return LossesOfIndexedCurves(graph, true);
 }
 

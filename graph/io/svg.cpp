@@ -134,7 +134,7 @@ class SvgText {
 
 FormatLosses WriteSvg(const std::filesystem::path& path, const SkeletonGraph& graph) {
   const std::string text = SvgText(graph, MeasureGraph(graph)).Text();
-  WriteStreamAtomically(path, [&](std::ostream& stream) { stream << text; });
+  WriteBytesAtomically(path, text);
   FormatLosses losses = LossesOfCurves(graph, true);
   if (graph.edge_count() > 0) losses.emplace_back("three views; curves have one width each");
   return losses;

@@ -156,7 +156,7 @@ class SwcReader {
 FormatLosses WriteSwc(const std::filesystem::path& path, const SkeletonGraph& graph) {
   SwcWriter writer(graph);
   writer.Write();
-  WriteStreamAtomically(path, [&writer](std::ostream& stream) { stream << writer.text(); });
+  WriteBytesAtomically(path, writer.text());
   FormatLosses losses = writer.cuts();
   const FormatLosses others = LossesOfIndexedCurves(graph, true);
   losses.insert(losses.end(), others.begin(), others.end());

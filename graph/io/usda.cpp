@@ -58,7 +58,7 @@ std::string Text(const Curves& curves, const std::string& type) {
 }
 
 void Write(const std::filesystem::path& path, const std::string& text) {
-  WriteStreamAtomically(path, [&](std::ostream& stream) { stream << text; });
+  WriteBytesAtomically(path, text);
 }
 
 }  // namespace

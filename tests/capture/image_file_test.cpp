@@ -7,6 +7,8 @@
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 
+#include "capture/jpeg.h"
+#include "capture/png.h"
 #include "kernel/error.h"
 #include "kernel/text_input.h"
 #include "tests/capture/sequence_fixture.h"
@@ -24,6 +26,12 @@ std::string MessageOf(const std::function<void()>& action) {
     return error.what();
   }
   return "no error";
+}
+
+cv::Mat Noise(int type) {
+  cv::Mat noise(37, 53, type);
+  cv::randu(noise, 0, noise.depth() == CV_16U ? 65536 : 256);
+  return noise;
 }
 
 class ImageFileTest : public testing::Test {
@@ -112,23 +120,62 @@ TEST_F(ImageFileTest, EveryByteOfAPngIsCovered) {
   }
 }
 
-// The pixels are those of OpenCV, with which everything was measured.
-TEST_F(ImageFileTest, JpegsAreDecodedAsByOpenCv) {
-  cv::Mat noise(37, 53, CV_8UC3), grey(37, 53, CV_8UC1);
-  cv::randu(noise, 0, 256);
-  cv::randu(grey, 0, 256);
-  for (const cv::Mat& picture : {noise, grey}) {
-    cv::imwrite(Path("c.jpg").string(), picture);
-    const cv::Mat expected = cv::imread(Path("c.jpg").string(), cv::IMREAD_COLOR);
-    const ColorImage image = DecodeColorImage(Path("c.jpg"));
-    ASSERT_EQ(image.width(), 53);
-    for (int v = 0; v < 37; ++v) {
-      for (int u = 0; u < 53; ++u) {
-        const cv::Vec3b bgr = expected.at<cv::Vec3b>(v, u);
-        ASSERT_EQ(image(u, v), (Rgb{bgr[2], bgr[1], bgr[0]})) << u << ", " << v;
-      }
+void ExpectDecodedAsByOpenCv(const std::filesystem::path& path) {
+  const cv::Mat expected = cv::imread(path.string(), cv::IMREAD_COLOR);
+  const ColorImage image = DecodeColorImage(path);
+  ASSERT_EQ(image.width(), expected.cols);
+  ASSERT_EQ(image.height(), expected.rows);
+  for (int v = 0; v < expected.rows; ++v) {
+    for (int u = 0; u < expected.cols; ++u) {
+      const cv::Vec3b bgr = expected.at<cv::Vec3b>(v, u);
+      ASSERT_EQ(image(u, v), (Rgb{bgr[2], bgr[1], bgr[0]})) << path << " " << u << ", " << v;
     }
   }
+}
+
+// The pixels are those of OpenCV, with which everything was measured.
+TEST_F(ImageFileTest, JpegsAreDecodedAsByOpenCv) {
+  for (const int type : {CV_8UC3, CV_8UC1}) {
+    cv::imwrite(Path("c.jpg").string(), Noise(type));
+    ExpectDecodedAsByOpenCv(Path("c.jpg"));
+  }
+}
+
+TEST_F(ImageFileTest, PngsAreDecodedAsByOpenCv) {
+  for (const int type : {CV_8UC1, CV_8UC3, CV_8UC4, CV_16UC1, CV_16UC3, CV_16UC4}) {
+    cv::imwrite(Path("c.png").string(), Noise(type));
+    ExpectDecodedAsByOpenCv(Path("c.png"));
+  }
+  cv::imwrite(Path("c.png").string(), Noise(CV_8UC1) > 127, {cv::IMWRITE_PNG_BILEVEL, 1});
+  ExpectDecodedAsByOpenCv(Path("c.png"));
+}
+
+// Bytes that this program writes, read by OpenCV.
+TEST_F(ImageFileTest, WrittenPngsAndJpegsAreReadByOpenCv) {
+  Image<uint16_t> depth(53, 37);
+  ColorImage color(53, 37);
+  for (size_t i = 0; i < depth.size(); ++i) {
+    depth.data()[i] = static_cast<uint16_t>(37 * i);
+    color.data()[i] = {static_cast<uint8_t>(i), static_cast<uint8_t>(2 * i), 40};
+  }
+  WriteText(Path("d.png"), EncodePng(depth));
+  WriteText(Path("c.png"), EncodePng(color));
+  WriteText(Path("c.jpg"), EncodeJpeg(color, 95));
+  const cv::Mat read = cv::imread(Path("d.png").string(), cv::IMREAD_UNCHANGED);
+  ASSERT_EQ(read.type(), CV_16UC1);
+  EXPECT_EQ(read.at<uint16_t>(36, 52), depth(52, 36));
+  EXPECT_EQ(DecodeDepthImage(Path("d.png"))(52, 36), depth(52, 36));
+  ExpectDecodedAsByOpenCv(Path("c.png"));
+  ExpectDecodedAsByOpenCv(Path("c.jpg"));
+  EXPECT_EQ(DecodeColorImage(Path("c.png"))(52, 36), color(52, 36));
+}
+
+TEST_F(ImageFileTest, HostileSizesAreFoundInTheHeader) {
+  WriteColor(Path("c.png"), 8, 8);
+  std::string bytes = ReadFile(Path("c.png"));
+  bytes.replace(16, 8, std::string("\x7f\xff\xff\xff\x7f\xff\xff\xff", 8));
+  WriteText(Path("c.png"), bytes);
+  EXPECT_THAT(ReadImageHeader(Path("c.png")).defect, HasSubstr("has more than 268435456 pixels"));
 }
 
 TEST_F(ImageFileTest, DamagedJpegDataAreNamedWithTheirFile) {

@@ -226,15 +226,6 @@ void* dlopen(const char* file, int mode) {
   return REAL(dlopen)(file, mode);
 }
 
-// OpenCV calls this once, when it is asked for the first image; GDAL, which this project does not
-// use, ends the program where there is no memory for the names of its formats.
-void GDALAllRegister() {
-  const Raised left_out(is_left_out);
-  using Register = void();
-  const auto real = reinterpret_cast<Register*>(dlsym(RTLD_NEXT, "GDALAllRegister"));
-  if (real != nullptr) real();
-}
-
 // Opening files to write them.
 
 int open(const char* path, int flags, ...) {

@@ -1,0 +1,10 @@
+# Debian's libspng ships a pkg-config file but no CMake config.
+find_path(SPNG_INCLUDE_DIR spng.h)
+find_library(SPNG_LIBRARY spng)
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(SPNG REQUIRED_VARS SPNG_LIBRARY SPNG_INCLUDE_DIR)
+if(SPNG_FOUND AND NOT TARGET SPNG::SPNG)
+  add_library(SPNG::SPNG INTERFACE IMPORTED)
+  target_include_directories(SPNG::SPNG SYSTEM INTERFACE "${SPNG_INCLUDE_DIR}")
+  target_link_libraries(SPNG::SPNG INTERFACE "${SPNG_LIBRARY}")
+endif()
