@@ -57,29 +57,30 @@ float GradientLimit(const Image<float>& magnitude) {
   return std::max(kMinGradient, *place);
 }
 
+void Lower(uint8_t& distance, int other) {
+  if (other < distance) distance = static_cast<uint8_t>(other);
+}
+
+// A row whose distances may lead over the row beside it, which is done; none beside the first.
+void LowerByRow(const uint8_t* beside, int width, uint8_t* row) {
+  if (beside == nullptr) return;
+  for (int u = 0; u < width; ++u) Lower(row[u], beside[u] + kStep);
+  for (int u = 1; u < width; ++u) Lower(row[u], beside[u - 1] + kDiagonal);
+  for (int u = 0; u + 1 < width; ++u) Lower(row[u], beside[u + 1] + kDiagonal);
+}
+
 // Replaces 0 (edge) and 255 (none) by the chamfer distance, cut off at 255.
 void ToDistances(Image<uint8_t>& image) {
   const int width = image.width(), height = image.height();
-  const auto relax = [&](int u, int v, int du, int dv, int step) {
-    if (!image.Contains(u + du, v + dv)) return;
-    const int other = image(u + du, v + dv) + step;
-    if (other < image(u, v)) image(u, v) = static_cast<uint8_t>(other);
-  };
   for (int v = 0; v < height; ++v) {
-    for (int u = 0; u < width; ++u) {
-      relax(u, v, -1, 0, kStep);
-      relax(u, v, 0, -1, kStep);
-      relax(u, v, -1, -1, kDiagonal);
-      relax(u, v, 1, -1, kDiagonal);
-    }
+    uint8_t* row = image.row(v);
+    LowerByRow(v == 0 ? nullptr : image.row(v - 1), width, row);
+    for (int u = 1; u < width; ++u) Lower(row[u], row[u - 1] + kStep);
   }
   for (int v = height - 1; v >= 0; --v) {
-    for (int u = width - 1; u >= 0; --u) {
-      relax(u, v, 1, 0, kStep);
-      relax(u, v, 0, 1, kStep);
-      relax(u, v, 1, 1, kDiagonal);
-      relax(u, v, -1, 1, kDiagonal);
-    }
+    uint8_t* row = image.row(v);
+    LowerByRow(v + 1 == height ? nullptr : image.row(v + 1), width, row);
+    for (int u = width - 2; u >= 0; --u) Lower(row[u], row[u + 1] + kStep);
   }
 }
 

@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "capture/frame_stream.h"
-#include "kernel/quantile.h"
 
 namespace curvefusion {
 
@@ -43,14 +42,16 @@ struct SeenColour {
   double change = 0;  // mean distance from it, grey levels
 };
 
-template <typename Colours>  // of colours by channel
-SeenColour Summary(const Colours& colours) {
+template <typename Channels>  // of a colour
+SeenColour Summary(const std::vector<Channels>& colours) {
   SeenColour seen;
-  std::vector<double> values(colours.size());
+  std::vector<std::decay_t<decltype(colours[0][0])>> values(colours.size());
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   for (int channel = 0; channel < 3; ++channel) {
     std::transform(colours.begin(), colours.end(), values.begin(),
-                   [&](const auto& color) { return color[channel]; });
-    seen.median[channel] = Median(values);
+                   [&](const Channels& color) { return color[channel]; });
+    std::nth_element(values.begin(), middle, values.end());
+    seen.median[channel] = *middle;
     for (const double value : values) seen.change += std::abs(value - seen.median[channel]);
   }
   seen.change /= static_cast<double>(3 * colours.size());

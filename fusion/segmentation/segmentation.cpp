@@ -66,15 +66,24 @@ void AddArrays(const MaskImage& more, MaskImage& arrays) {
   for (size_t i = 0; i < arrays.size(); ++i) arrays.data()[i] |= more.data()[i];
 }
 
+PinholeCamera RenderingCamera(const Sequence& sequence, const SegmentationOptions& options) {
+  return sequence.depth_camera.Scaled(1.0 / options.render_divisor);
+}
+
+DepthImage Rendering(const Sequence& sequence, int frame, const TsdfVolume& volume,
+                     const SegmentationOptions& options) {
+  return volume.Raycast(RenderingCamera(sequence, options), sequence.frames[frame].T_world_camera);
+}
+
 // Depth pixels that the volume does not explain, CurveFusion 4.1 "Removing large surfaces".
-WireCandidates FindCandidates(const Sequence& sequence, int frame, const TsdfVolume& volume,
-                              const SegmentationModel& model, const SegmentationOptions& options) {
+WireCandidates FindCandidates(const Sequence& sequence, int frame, const DepthImage& rendering,
+                              const TsdfVolume& volume, const SegmentationModel& model,
+                              const SegmentationOptions& options) {
   WireCandidates found;
   found.depth = LoadDepth(sequence, frame);
   found.color = LoadColor(sequence, frame);
-  const PinholeCamera small = sequence.depth_camera.Scaled(1.0 / options.render_divisor);
+  const PinholeCamera small = RenderingCamera(sequence, options);
   const RigidTransform& T_world_camera = sequence.frames[frame].T_world_camera;
-  const DepthImage rendering = volume.Raycast(small, T_world_camera);
   const double solid_depth = options.opening.solid_depth;
   DepthImage solidity = solid_depth > 0
                             ? volume.SolidityBehind(rendering, small, T_world_camera, solid_depth)
@@ -93,7 +102,8 @@ WireCandidates FindCandidates(const Sequence& sequence, int frame, const TsdfVol
 SegmentedFrame SegmentFrame(const Sequence& sequence, int frame, const TsdfVolume& volume,
                             const SegmentationModel& model, const SegmentationOptions& options) {
   SegmentedFrame segmented;
-  segmented.candidates = FindCandidates(sequence, frame, volume, model, options);
+  segmented.candidates = FindCandidates(
+      sequence, frame, Rendering(sequence, frame, volume, options), volume, model, options);
   WireCandidates& candidates = segmented.candidates;
   segmented.funnel.frames = 1;
   segmented.funnel.chroma = Chroma(candidates.color);
@@ -132,26 +142,45 @@ double MeasuredShare(const Sequence& sequence, const std::vector<int>& frames) {
   return Mean(shares);
 }
 
-std::vector<WireCandidates> CandidatesOf(const Sequence& sequence, const std::vector<int>& frames,
+// The frames that are learned from, with what the volume shows in them.
+struct LearnedFrames {
+  std::vector<int> frames;
+  std::vector<DepthImage> renderings;
+};
+
+LearnedFrames Render(const Sequence& sequence, const std::vector<int>& frames,
+                     const TsdfVolume& volume, const SegmentationOptions& options) {
+  LearnedFrames learned{frames, std::vector<DepthImage>(frames.size())};
+  ParallelFor(0, static_cast<int64_t>(frames.size()), 1, [&](int64_t i) {
+    learned.renderings[i] = Rendering(sequence, frames[i], volume, options);
+  });
+  return learned;
+}
+
+std::vector<WireCandidates> CandidatesOf(const Sequence& sequence, const LearnedFrames& learned,
                                          const TsdfVolume& volume, const SegmentationModel& model,
                                          const SegmentationOptions& options) {
-  std::vector<WireCandidates> candidates(frames.size());
-  ParallelFor(0, static_cast<int64_t>(frames.size()), 1, [&](int64_t i) {
-    candidates[i] = FindCandidates(sequence, frames[i], volume, model, options);
+  std::vector<WireCandidates> candidates(learned.frames.size());
+  ParallelFor(0, static_cast<int64_t>(candidates.size()), 1, [&](int64_t i) {
+    candidates[i] =
+        FindCandidates(sequence, learned.frames[i], learned.renderings[i], volume, model, options);
   });
   return candidates;
 }
 
 // Large surfaces that float in space.
-SheetGrid FindSheets(const Sequence& sequence, const std::vector<int>& frames,
-                     const TsdfVolume& volume, const SegmentationOptions& options) {
-  const PinholeCamera small = sequence.depth_camera.Scaled(1.0 / options.render_divisor);
+SheetGrid FindSheets(const Sequence& sequence, const LearnedFrames& learned,
+                     const SegmentationOptions& options) {
+  const PinholeCamera small = RenderingCamera(sequence, options);
+  std::vector<MaskImage> floating(learned.frames.size());
+  ParallelFor(0, static_cast<int64_t>(floating.size()), 1, [&](int64_t i) {
+    const DepthImage& rendering = learned.renderings[i];
+    floating[i] = FloatingSheets(OpenDepth(rendering, small, {}, options.opening), rendering);
+  });
   SheetGrid sheets;
-  for (const int frame : frames) {
-    const RigidTransform& T_world_camera = sequence.frames[frame].T_world_camera;
-    const DepthImage rendering = volume.Raycast(small, T_world_camera);
-    const DepthImage kept = OpenDepth(rendering, small, {}, options.opening);
-    sheets.AddFrame(FloatingSheets(kept, rendering), rendering, small, T_world_camera);
+  for (size_t i = 0; i < floating.size(); ++i) {
+    sheets.AddFrame(floating[i], learned.renderings[i], small,
+                    sequence.frames[learned.frames[i]].T_world_camera);
   }
   sheets.Pool();
   return sheets;
@@ -256,16 +285,17 @@ SegmentationModel LearnSegmentation(const Sequence& sequence, const TsdfVolume& 
   }
   model.openness = MeasureOpenness(sequence, volume, options.openness);
   if (options.gate.frames == 0) return model;
-  const std::vector<int> frames = FramesToLearnFrom(sequence, options.gate.frames);
-  if (options.max_array_spacing > 0) model.sheets = FindSheets(sequence, frames, volume, options);
-  std::vector<WireCandidates> candidates = CandidatesOf(sequence, frames, volume, model, options);
+  const LearnedFrames learned =
+      Render(sequence, FramesToLearnFrom(sequence, options.gate.frames), volume, options);
+  if (options.max_array_spacing > 0) model.sheets = FindSheets(sequence, learned, options);
+  std::vector<WireCandidates> candidates = CandidatesOf(sequence, learned, volume, model, options);
   if (options.max_array_spacing > 0) {
     if (LearnWireArrays(sequence, options, candidates, model)) return model;
     SetArrayMargin(WireCandidates().array_margin, candidates);
   }
   if (!model.sheets.empty()) {
     model.sheets = {};
-    candidates = CandidatesOf(sequence, frames, volume, model, options);
+    candidates = CandidatesOf(sequence, learned, volume, model, options);
   }
   model.colours = LearnWireColours(candidates, sequence, options.gate);
   if (options.max_array_spacing > 0) model.nets = FindNets(sequence);

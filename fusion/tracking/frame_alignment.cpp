@@ -19,8 +19,9 @@ constexpr std::array<int, kTrackingLevels> kIterations = {4, 5, 8, 10};
 constexpr int kCoarseLevel = 2;       // to which every guess is followed
 constexpr double kSmallTurn = 2e-5;   // radians: a hundredth of a pixel
 constexpr double kSmallShift = 2e-5;  // metres: a hundredth of the noise at 1 m
-// Errors of neighbouring pixels go together. Chosen: as many that one counts.
+// Errors of neighbouring pixels go together. Chosen: as many that one counts, of images so wide.
 constexpr double kCorrelatedPixels = 100;
+constexpr double kWidth = 320;
 // Standard deviations, wide: they only keep the equations solvable where grey says nothing.
 constexpr double kGainPrior = 1;
 constexpr double kOffsetPrior = 100;  // grey levels
@@ -40,7 +41,10 @@ class LevelSolver {
         keyframe_(keyframe),
         earlier_(earlier),
         T_color_depth_(T_color_depth),
-        prior_(prior) {}
+        prior_(prior) {
+    const double scale = frame.levels.front().depth.width() / kWidth;
+    correlated_pixels_ = scale * scale * kCorrelatedPixels;
+  }
 
   // A step at a level; whether it was large.
   bool Step(int level, RigidTransform& T_model_frame, GreyChange& change) {
@@ -112,7 +116,7 @@ class LevelSolver {
                                                                             Eigen::EigenvaluesOnly);
     const double least = solver.eigenvalues()(0);
     if (!(least > 0)) return std::numeric_limits<double>::infinity();
-    return std::sqrt(kCorrelatedPixels / least);
+    return std::sqrt(correlated_pixels_ / least);
   }
 
   double grey_deviation() const { return grey_deviation_; }
@@ -145,8 +149,8 @@ class LevelSolver {
         T_model_frame * (model_.T_world_model.inverse() * prior_->T_world_camera).inverse();
     Vector8 difference = Vector8::Zero(), weights = Vector8::Zero();
     difference.head<6>() << from_prior.translation(), RotationVector(from_prior);
-    weights.head<3>().setConstant(kCorrelatedPixels / (prior_->translation * prior_->translation));
-    weights.segment<3>(3).setConstant(kCorrelatedPixels / (prior_->rotation * prior_->rotation));
+    weights.head<3>().setConstant(correlated_pixels_ / (prior_->translation * prior_->translation));
+    weights.segment<3>(3).setConstant(correlated_pixels_ / (prior_->rotation * prior_->rotation));
     H.diagonal() += weights;
     g += weights.cwiseProduct(difference);
   }
@@ -157,6 +161,7 @@ class LevelSolver {
   const EarlierPose& earlier_;
   const RigidTransform& T_color_depth_;
   const PosePrior* prior_;
+  double correlated_pixels_;
   double deviation_ = 1;
   double grey_deviation_ = 0;
   int grey_points_ = 0;

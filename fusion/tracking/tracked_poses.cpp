@@ -16,6 +16,8 @@ namespace {
 // Chosen: less is chance. A real cable has 1.01 and is lost with its held poses, a real
 // kitchen 1.11 and gives edges without.
 constexpr double kLeastGain = 1.05;
+// Pixels. Chosen: with 320 poses are no better, with 160 worse (docs/tracking.md).
+constexpr int kHeldImageWidth = 213;
 
 }  // namespace
 
@@ -50,6 +52,7 @@ std::optional<HeldPoses> HeldToItsSurfaces(const Sequence& given, const Progress
   if (given.frames.empty()) return std::nullopt;
   const TrackingCameras cameras = CamerasOf(given);
   TrackingOptions options;
+  options.image_width = kHeldImageWidth;
   options.use_color = false;  // colour cameras lie some pixels beside depth
   CameraTracker tracker(cameras, options, given.frames.front().T_world_camera);
   Sequence held = given;
