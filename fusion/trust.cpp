@@ -28,6 +28,11 @@ std::vector<std::string> Doubts(const Trust& trust) {
         "measured on {:.0f} %)",
         100 * trust.wire_length / trust.length, trust.length, 100 * trust.measured_share));
   }
+  if (trust.length > 0 && trust.measured_share == 0) {
+    doubts.push_back(
+        "do not trust this result: no colour image shows how thick anything of it is, as images of "
+        "wires do. Scan the object from nearer, in more light");
+  }
   if (trust.length > 0 && trust.from_colour && trust.colour_share < kMinColourShare) {
     doubts.push_back(fmt::format(
         "do not trust this result: its curves come from the colour images alone, and these show a "

@@ -38,9 +38,6 @@ constexpr double kRatherAWire = 0.5;
 // (docs/wires_from_colour.md); 19 of a cable by a D400 from .3 m, where colour's curves are not
 // taken (docs/lab_notebook.md).
 constexpr double kWrongScatter = 5;
-// Measured: lines of sight to wires that depth has lost. With 5,000, as many as find the curves of
-// a scan from colour alone, too few places lie on each for a curve (docs/lab_notebook.md).
-constexpr size_t kManyRays = 20000;
 constexpr double kLittle = 0.01;  // of the length; less is not worth another round
 
 // Depth shows a net as one surface: that it goes on beside a curve says nothing there.
@@ -299,8 +296,9 @@ void RefineByColour(const PosedScan& scan, const LearnedWires& wires, RunSize si
   }
   measure_radii();
   keep_proven("evidence", "evidence", min_probability);
+  const bool is_unmeasured = !result.skeleton.empty() && result.radii.global_radius == 0;
   if (min_probability > 0 &&
-      IsHardlyWire(result.trust.wire_length, result.skeleton.TotalLength())) {
+      (is_unmeasured || IsHardlyWire(result.trust.wire_length, result.skeleton.TotalLength()))) {
     keep_proven("evidence again", "evidence_again", std::max(min_probability, kRatherAWire));
   }
   if (adjusted) {

@@ -27,6 +27,10 @@ struct CandidateOptions {
   size_t max_rays = 5000;
 };
 
+/// Measured: lines of sight to wires that depth has lost. With 5,000, as many as find the curves of
+/// a scan from colour alone, too few places lie on each for a curve (docs/lab_notebook.md).
+inline constexpr size_t kManyRays = 20000;
+
 /// Places of wires that the colour images show and no curve explains: thin wires that depth loses.
 /// In some images, pixels in the middle of strips are followed along their lines of sight; a place
 /// counts where nearly all images that look at it show the middle of a strip there as well. Nothing

@@ -87,6 +87,16 @@ TEST(Trust, IsDoubtedWhereMuchIsHardlyAWire) {
   EXPECT_TRUE(Doubts(Trust()).empty());  // no result: nothing to doubt
 }
 
+TEST(Trust, IsDoubtedWhereNoDiameterWasMeasured) {
+  TwoEdges two;
+  Trust trust = two.Measure();
+  trust.wire_length = trust.length;
+  EXPECT_TRUE(Doubts(trust).empty());
+  trust.measured_share = 0;
+  ASSERT_EQ(Doubts(trust).size(), 1u);
+  EXPECT_NE(Doubts(trust)[0].find("how thick"), std::string::npos);
+}
+
 TEST(Trust, IsDoubtedWhereColourAloneHardlyShowsItsCurves) {
   TwoEdges two;
   two.result.radii.strips = {{two.edges[1], 0.05, 0, 0.004}};

@@ -27,6 +27,7 @@ struct Edge {
       stretch.edge = id;
       stretch.part = {i, i + 1};
       stretch.length = kStep;
+      stretch.strips = 3;
       evidence.push_back(stretch);
       proofs.push_back({log_odds[i], doubt, log_odds[i], 0});
     }
@@ -68,6 +69,20 @@ TEST(KeepProven, AShortPieceOfItsOwnIsNoProof) {
   EXPECT_TRUE(edge.skeleton.empty());
   EXPECT_EQ(edge.skeleton.node_count(), 0);
   EXPECT_NEAR(edge.uncertain.graph.TotalLength(), kStep, 1e-12);
+}
+
+// Fingers and rims are seen by depth as wires are, in no image.
+TEST(KeepProven, WithoutAnyStripMoreIsNeeded) {
+  Edge finger({3, 3, 3, 3, 3}), cage(std::vector<double>(20, 1.5)), wire({3, 3, 3, 3, 3});
+  for (Edge* edge : {&finger, &cage})
+    for (StretchEvidence& stretch : edge->evidence) stretch.strips = 0;
+  finger.Keep();
+  cage.Keep();
+  wire.Keep();
+  EXPECT_TRUE(finger.skeleton.empty());
+  EXPECT_NEAR(finger.uncertain.graph.TotalLength(), 5 * kStep, 1e-12);
+  EXPECT_NEAR(cage.skeleton.TotalLength(), 20 * kStep, 1e-12);
+  EXPECT_NEAR(wire.skeleton.TotalLength(), 5 * kStep, 1e-12);
 }
 
 TEST(KeepProven, RemembersWhatLeavesAPartThatStays) {
