@@ -98,15 +98,24 @@ std::optional<ColourCurves> FitCurvesOfColour(const Sequence& sequence,
                                               const StageReporter& reporter, WireImages& images,
                                               Reconstruction& colour) {
   colour.sequence = sequence;
+  Reconstruction next;
+  const auto find_adjusted = [&](const Look& look) {
+    next = {};
+    next.sequence = colour.sequence;
+    FindCurves(images, around, look, options, reporter, next);
+    return AdjustCurvesAndPoses(start, options.colour_adjustment, reporter, next);
+  };
+  size_t max_rays = CandidateOptions().max_rays;
   std::optional<ColourCurves> fitted;
   for (int round = 0; round < kRounds; ++round) {
-    Reconstruction next;
-    next.sequence = colour.sequence;
-    FindCurves(images, around, LookOf(round, sequence.has_depth, start.depth), options, reporter,
-               next);
-    if (next.skeleton.empty()) break;
-    std::optional<ColourAdjustment> again =
-        AdjustCurvesAndPoses(start, options.colour_adjustment, reporter, next);
+    Look look = LookOf(round, sequence.has_depth, start.depth);
+    look.candidates.max_rays = max_rays;
+    std::optional<ColourAdjustment> again = find_adjusted(look);
+    // Of thin wires and rough poses few lines of sight find a place.
+    if (!again && round == 0 && sequence.has_depth && start.depth == WireDepth::kNotShown) {
+      look.candidates.max_rays = max_rays = kManyRays;
+      again = find_adjusted(look);
+    }
     if (!again) break;
     // As exact already.
     if (round > 0 && sequence.has_depth && !CameNearer(*again)) break;
