@@ -144,9 +144,10 @@ std::string EncodeJpeg(const ColorImage& image, int quality) {
       &jpeg, jpeg_destroy_compress);
   EncodedBytes encoded;
   Encode(image, quality, jpeg, messages, encoded);
-  const std::unique_ptr<unsigned char, decltype(&std::free)> bytes(encoded.data, std::free);
+  // After an error nothing tells which of its buffers libjpeg has left.
   if (messages.out_of_memory) throw std::bad_alloc();
   if (messages.defect[0] != '\0') throw std::invalid_argument(messages.defect.data());
+  const std::unique_ptr<unsigned char, decltype(&std::free)> bytes(encoded.data, std::free);
   return {reinterpret_cast<const char*>(encoded.data), encoded.size};
 }
 
