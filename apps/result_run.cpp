@@ -37,10 +37,6 @@ double SecondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-void WriteText(const fs::path& path, const std::string& text) {
-  WriteBytesAtomically(path, text);
-}
-
 void WriteUncertain(const Reconstruction& reconstruction, const fs::path& folder) {
   if (reconstruction.uncertain.graph.empty()) return;
   WriteSkeleton(folder / "uncertain.json", reconstruction.uncertain.graph);
@@ -95,13 +91,13 @@ std::vector<std::string> FilesBesideThePage(const ResultFolder& output, const fs
 // The report and its page tell of all that came before them.
 void WriteReport(RunRecord& record, const ColorImage& preview, Clock::time_point start,
                  const ResultFolder& output, const fs::path& folder) {
-  WriteText(folder / "config.toml", ConfigToml(record.config));
+  WriteBytesAtomically(folder / "config.toml", ConfigToml(record.config));
   const PagePictures pictures = MakePagePictures(record.reconstruction, preview);
   record.seconds = SecondsSince(start);
   record.peak_memory = PeakMemory();
-  WriteText(folder / "report.html",
-            ReportPage(record, pictures, FilesBesideThePage(output, folder)));
-  WriteText(folder / "report.json", ReportJson(record));
+  WriteBytesAtomically(folder / "report.html",
+                       ReportPage(record, pictures, FilesBesideThePage(output, folder)));
+  WriteBytesAtomically(folder / "report.json", ReportJson(record));
 }
 
 // Where the curves have no sound mesh the other files are complete without it; the error follows.

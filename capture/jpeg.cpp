@@ -83,10 +83,24 @@ jpeg_error_mgr* Prepared(Messages& messages) {
   return errors;
 }
 
+// Of a jpeg_decompress_struct or a jpeg_compress_struct; destroying one that was not created does
+// nothing.
+template <class Jpeg>
+struct Codec {
+  Codec() { jpeg.err = Prepared(messages); }
+  ~Codec() { jpeg_destroy(reinterpret_cast<j_common_ptr>(&jpeg)); }
+  Codec(const Codec&) = delete;
+  Codec& operator=(const Codec&) = delete;
+
+  Messages messages;
+  Jpeg jpeg{};
+};
+
 // Fills the image and the messages.
-void Decode(const std::string& bytes, jpeg_decompress_struct& jpeg, Messages& messages,
-            ColorImage& image) {
-  if (setjmp(messages.leave) != 0) return;
+void Decode(const std::string& bytes, Codec<jpeg_decompress_struct>& codec, ColorImage& image) {
+  jpeg_decompress_struct& jpeg = codec.jpeg;
+  if (setjmp(codec.messages.leave) != 0) return;
+  jpeg_create_decompress(&jpeg);
   Begin(bytes, jpeg);
   image = ColorImage(static_cast<int>(jpeg.output_width), static_cast<int>(jpeg.output_height));
   ReadRows(jpeg, image);
@@ -98,9 +112,11 @@ struct EncodedBytes {
   unsigned long size = 0;
 };
 
-void Encode(const ColorImage& image, int quality, jpeg_compress_struct& jpeg, Messages& messages,
+void Encode(const ColorImage& image, int quality, Codec<jpeg_compress_struct>& codec,
             EncodedBytes& encoded) {
-  if (setjmp(messages.leave) != 0) return;
+  jpeg_compress_struct& jpeg = codec.jpeg;
+  if (setjmp(codec.messages.leave) != 0) return;
+  jpeg_create_compress(&jpeg);
   jpeg_mem_dest(&jpeg, &encoded.data, &encoded.size);
   jpeg.image_width = static_cast<JDIMENSION>(image.width());
   jpeg.image_height = static_cast<JDIMENSION>(image.height());
@@ -121,29 +137,20 @@ void Encode(const ColorImage& image, int quality, jpeg_compress_struct& jpeg, Me
 
 Jpeg DecodeJpeg(const std::string& bytes) {
   static_assert(sizeof(Rgb) == 3);
-  Messages messages;
-  jpeg_decompress_struct jpeg;
-  jpeg.err = Prepared(messages);
-  jpeg_create_decompress(&jpeg);
-  const std::unique_ptr<jpeg_decompress_struct, decltype(&jpeg_destroy_decompress)> destroyed(
-      &jpeg, jpeg_destroy_decompress);
+  Codec<jpeg_decompress_struct> codec;
   Jpeg result;
-  Decode(bytes, jpeg, messages, result.image);
-  if (messages.out_of_memory) throw std::bad_alloc();
-  result.defect = messages.defect.data();
-  result.remark = messages.remark.data();
+  Decode(bytes, codec, result.image);
+  if (codec.messages.out_of_memory) throw std::bad_alloc();
+  result.defect = codec.messages.defect.data();
+  result.remark = codec.messages.remark.data();
   return result;
 }
 
 std::string EncodeJpeg(const ColorImage& image, int quality) {
-  Messages messages;
-  jpeg_compress_struct jpeg;
-  jpeg.err = Prepared(messages);
-  jpeg_create_compress(&jpeg);
-  const std::unique_ptr<jpeg_compress_struct, decltype(&jpeg_destroy_compress)> destroyed(
-      &jpeg, jpeg_destroy_compress);
+  Codec<jpeg_compress_struct> codec;
+  const Messages& messages = codec.messages;
   EncodedBytes encoded;
-  Encode(image, quality, jpeg, messages, encoded);
+  Encode(image, quality, codec, encoded);
   // After an error nothing tells which of its buffers libjpeg has left.
   if (messages.out_of_memory) throw std::bad_alloc();
   if (messages.defect[0] != '\0') throw std::invalid_argument(messages.defect.data());

@@ -22,9 +22,8 @@ write_basic_package_version_file("${PROJECT_BINARY_DIR}/curvefusionConfigVersion
                                  COMPATIBILITY SameMinorVersion)
 install(FILES "${PROJECT_BINARY_DIR}/curvefusionConfig.cmake"
               "${PROJECT_BINARY_DIR}/curvefusionConfigVersion.cmake"
-              cmake/CurveFusionDependencies.cmake cmake/FindCHOLMOD.cmake cmake/FindDxflib.cmake
-              cmake/FindLZ4.cmake cmake/FindLib3MF.cmake
-              cmake/FindOpenCVImage.cmake cmake/FindSPNG.cmake
+              cmake/CurveFusionDependencies.cmake cmake/FindCHOLMOD.cmake
+              cmake/FindOpenCVImage.cmake
         DESTINATION "${curvefusion_cmake_dir}" COMPONENT development)
 
 # Each package brings the licence; that of the program also the documents its messages name.

@@ -113,8 +113,6 @@ void NameByNumber(SequenceCorrection& correction) {
   }
 }
 
-void WriteText(const fs::path& path, const std::string& text) { WriteBytesAtomically(path, text); }
-
 void WriteImages(const SequenceCorrection& correction, const Layout& layout,
                  const fs::path& folder) {
   for (const SequenceFrame& frame : correction.sequence.frames) {
@@ -137,7 +135,7 @@ void WriteTumLists(const SequenceCorrection& correction, const Layout& layout,
     pairs += fmt::format("{0} {1} {0} {2}\n", frame.name, layout.Color(frame).string(),
                          layout.Depth(frame).string());
   }
-  WriteText(folder / "associations.txt", pairs);
+  WriteBytesAtomically(folder / "associations.txt", pairs);
   WriteTumTrajectory(folder / "trajectory.txt", trajectory);
 }
 
@@ -151,7 +149,7 @@ void WritePoseFiles(const SequenceCorrection& correction, const Layout& layout,
                           pose(row, 2), pose(row, 3));
     }
     fs::create_directories((folder / layout.Pose(frame)).parent_path());
-    WriteText(folder / layout.Pose(frame), text);
+    WriteBytesAtomically(folder / layout.Pose(frame), text);
   }
 }
 
@@ -171,7 +169,7 @@ void WriteRepairedSequence(const SequenceCorrection& given, const fs::path& fold
     } else {
       WritePoseFiles(correction, layout, temporary);
     }
-    WriteText(temporary / "intrinsics.json", intrinsics.dump(1) + "\n");
+    WriteBytesAtomically(temporary / "intrinsics.json", intrinsics.dump(1) + "\n");
   });
 }
 

@@ -16,10 +16,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kPictures = "images/reproduction";
 
-void WriteText(const fs::path& path, const std::string& text) {
-  WriteBytesAtomically(path, text);
-}
-
 // JSON has no infinity: a figure without a value is null.
 Json Number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
@@ -85,9 +81,10 @@ void WriteReproduction(const StudyRequest& request, const fs::path& folder) {
   const Table table = ClaimTable(reproduction);
   CopyPictures(reproduction, folder);
   WriteTable(folder, "reproduction_claims", table);
-  WriteText(folder / "reproduction_claims.csv", ClaimsCsv(table));
-  WriteText(folder / "reproduction_claims.json", ClaimsJson(reproduction));
-  WriteText(folder / "reproduction.md", ReproductionPage(reproduction, request, kPictures));
+  WriteBytesAtomically(folder / "reproduction_claims.csv", ClaimsCsv(table));
+  WriteBytesAtomically(folder / "reproduction_claims.json", ClaimsJson(reproduction));
+  WriteBytesAtomically(folder / "reproduction.md",
+                       ReproductionPage(reproduction, request, kPictures));
 }
 
 }  // namespace curvefusion

@@ -47,10 +47,6 @@ std::string TextOf(const fs::path& path) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-void WriteText(const fs::path& path, const std::string& text) {
-  WriteBytesAtomically(path, text);
-}
-
 // One set of commands, drawn into a PNG and a PDF of the same look.
 std::string Script(const std::string& name, const Plot& plot) {
   return fmt::format(
@@ -94,8 +90,8 @@ void RequireGnuplot() {
 }
 
 void DrawPlot(const fs::path& folder, const std::string& name, const Plot& plot) {
-  WriteText(folder / (name + ".dat"), plot.data);
-  WriteText(folder / (name + ".gp"), Script(name, plot));
+  WriteBytesAtomically(folder / (name + ".dat"), plot.data);
+  WriteBytesAtomically(folder / (name + ".gp"), Script(name, plot));
   const std::string log = name + ".log";
   const bool drawn = RunGnuplot(folder, name + ".gp", log);
   const std::string message = TextOf(folder / log);

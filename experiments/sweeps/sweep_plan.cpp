@@ -22,10 +22,6 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kPlanName = "plan.json";
 constexpr const char* kFormat = "curvefusion-sweep";
 
-void WriteText(const fs::path& path, const std::string& text) {
-  WriteBytesAtomically(path, text);
-}
-
 Json CellJson(const SweepCell& cell) {
   return {{"cell", cell.key},          {"object", cell.object},
           {"seed", cell.seed},         {"sensor", cell.sensor},
@@ -90,12 +86,12 @@ SweepPlan WriteSweepPlan(const fs::path& study, const fs::path& folder,
   for (const SweepCell& cell : plan.cells) WriteCell(folder, cell);
   fs::create_directories(folder / "scans");
   for (const SimulationOptions& scan : cells.scans) {
-    WriteText(ScanFolder(folder / "scans", scan).string() + ".json", ScanSettings(scan));
+    WriteBytesAtomically(ScanFolder(folder / "scans", scan).string() + ".json", ScanSettings(scan));
   }
   WriteFilesTogether(folder, {"study.toml", "Snakefile", kPlanName}, [&](const fs::path& files) {
-    WriteText(files / "study.toml", study_text);
-    WriteText(files / "Snakefile", kSnakefile);
-    WriteText(files / kPlanName, PlanText(plan, program));
+    WriteBytesAtomically(files / "study.toml", study_text);
+    WriteBytesAtomically(files / "Snakefile", kSnakefile);
+    WriteBytesAtomically(files / kPlanName, PlanText(plan, program));
   });
   return plan;
 }
@@ -119,7 +115,7 @@ SweepPlan ReadSweepPlan(const fs::path& folder) {
 void WriteCell(const fs::path& root, const SweepCell& cell) {
   const fs::path folder = ResultFolder(root, cell).parent_path();
   fs::create_directories(folder);
-  WriteText(folder / "params.toml", ParamsToml(cell));
+  WriteBytesAtomically(folder / "params.toml", ParamsToml(cell));
 }
 
 fs::path ResultFolder(const fs::path& root, const SweepCell& cell) {

@@ -30,9 +30,12 @@ struct Look {
   CandidateOptions candidates;
 };
 
-Look LookOf(int round, bool has_depth, WireDepth depth) {
+Look LookOf(int round, bool has_depth, WireDepth depth, size_t max_rays) {
   if (has_depth) {
-    return {1, {.places = CandidatePlaces::kFree, .follow = depth == WireDepth::kLookedPast}};
+    return {1,
+            {.places = CandidatePlaces::kFree,
+             .follow = depth == WireDepth::kLookedPast,
+             .max_rays = max_rays}};
   }
   return {round == 0 ? kFirstScale : 1, {.same_place_px = kSamePlacePx}};
 }
@@ -99,22 +102,21 @@ std::optional<ColourCurves> FitCurvesOfColour(const Sequence& sequence,
                                               Reconstruction& colour) {
   colour.sequence = sequence;
   Reconstruction next;
-  const auto find_adjusted = [&](const Look& look) {
+  const auto find_adjusted = [&](int round, size_t max_rays) {
     next = {};
     next.sequence = colour.sequence;
-    FindCurves(images, around, look, options, reporter, next);
+    FindCurves(images, around, LookOf(round, sequence.has_depth, start.depth, max_rays), options,
+               reporter, next);
     return AdjustCurvesAndPoses(start, options.colour_adjustment, reporter, next);
   };
   size_t max_rays = CandidateOptions().max_rays;
   std::optional<ColourCurves> fitted;
   for (int round = 0; round < kRounds; ++round) {
-    Look look = LookOf(round, sequence.has_depth, start.depth);
-    look.candidates.max_rays = max_rays;
-    std::optional<ColourAdjustment> again = find_adjusted(look);
+    std::optional<ColourAdjustment> again = find_adjusted(round, max_rays);
     // Of thin wires and rough poses few lines of sight find a place.
     if (!again && round == 0 && sequence.has_depth && start.depth == WireDepth::kNotShown) {
-      look.candidates.max_rays = max_rays = kManyRays;
-      again = find_adjusted(look);
+      max_rays = kManyRays;
+      again = find_adjusted(round, max_rays);
     }
     if (!again) break;
     // As exact already.

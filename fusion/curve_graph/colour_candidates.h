@@ -27,8 +27,8 @@ struct CandidateOptions {
   size_t max_rays = 5000;
 };
 
-/// Measured: lines of sight to wires that depth has lost. With 5,000, as many as find the curves of
-/// a scan from colour alone, too few places lie on each for a curve (docs/lab_notebook.md).
+/// Measured: lines of sight to wires that depth has lost, and to those of a scan from colour alone
+/// of which 5,000 give no curves: too few places lie on each (docs/lab_notebook.md).
 inline constexpr size_t kManyRays = 20000;
 
 /// Places of wires that the colour images show and no curve explains: thin wires that depth loses.
