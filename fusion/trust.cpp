@@ -2,22 +2,17 @@
 
 #include <fmt/format.h>
 
+#include "fusion/curve_graph/wire_proof.h"
+
 namespace curvefusion {
 
 namespace {
 
-// Of the length. Chosen: results of 18 scans of wires have .63 and more, what is left of two rooms
-// .32 and .57 (docs/lab_notebook.md).
-constexpr double kMinWireShare = 0.55;
 // Of the length of curves from colour alone that lies near a strip. Chosen: a wire cube has .67, a
 // table's legs of which nothing came out right .05 (docs/lab_notebook.md).
 constexpr double kMinColourShare = 0.2;
 
 }  // namespace
-
-bool IsHardlyWire(double wire_length, double length) {
-  return length > 0 && wire_length < kMinWireShare * length;
-}
 
 std::vector<std::string> Doubts(const Trust& trust) {
   std::vector<std::string> doubts;

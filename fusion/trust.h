@@ -25,10 +25,6 @@ struct Trust {
   bool is_judged() const { return length > 0; }
 };
 
-/// Whether so little of `length` metres of curve is wire that most of what looks like wires in that
-/// scan is none.
-bool IsHardlyWire(double wire_length, double length);
-
 /// Why the result cannot be trusted, a sentence each; empty where nothing speaks against it, or
 /// where there is no result.
 std::vector<std::string> Doubts(const Trust& trust);

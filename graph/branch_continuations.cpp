@@ -16,6 +16,14 @@ namespace curvefusion {
 
 namespace {
 
+// Chosen, in metres unless said; a shorter gap is left to the closing of free ends.
+constexpr double kMaxGap = 0.060;
+constexpr double kMinGap = 0.010;
+constexpr double kBaseMiss = 0.004;  // so near to a curve the path ahead meets it,
+constexpr double kMissPerGap =
+    0.15;  // and so much farther for each metre: directions are not exact
+constexpr double kFitLength = 0.020;     // of the end piece that gives the direction
+constexpr double kSnapDistance = 0.006;  // a curve that is met so near to its end is met there
 constexpr double kStep = 0.0015;
 // Curves that run along the path do not cross it.
 constexpr double kParallelCosine = 0.8;
@@ -26,8 +34,8 @@ constexpr double kBlurred = 0.006;
 constexpr std::array<double, 6> kShifts = {0.003, -0.003, 0.006, -0.006, 0.009, -0.009};
 
 // Ends of branches that are long enough to tell where they lead.
-std::vector<OpenEnd> FindOpenEnds(const SkeletonGraph& graph, const ContinuationOptions& options) {
-  std::vector<OpenEnd> open = OpenEnds(graph, {kBlurred, options.fit_length});
+std::vector<OpenEnd> FindOpenEnds(const SkeletonGraph& graph) {
+  std::vector<OpenEnd> open = OpenEnds(graph, {kBlurred, kFitLength});
   std::erase_if(open, [&graph](const OpenEnd& end) {
     return Length(graph.edge(end.edge).points) <= kLeastBranch;
   });
@@ -37,12 +45,11 @@ std::vector<OpenEnd> FindOpenEnds(const SkeletonGraph& graph, const Continuation
 // Looks straight ahead of open ends.
 class ContinuationSearch {
  public:
-  ContinuationSearch(const SkeletonGraph& graph, const ContinuationOptions& options)
+  explicit ContinuationSearch(const SkeletonGraph& graph)
       : graph_(graph),
-        options_(options),
-        open_(FindOpenEnds(graph, options)),
+        open_(FindOpenEnds(graph)),
         curves_(SampleCurvesOf(graph, kStep)),
-        grid_(curves_.positions, MissAt(options.max_gap)) {}
+        grid_(curves_.positions, MissAt(kMaxGap)) {}
 
   const std::vector<OpenEnd>& open() const { return open_; }
 
@@ -52,35 +59,33 @@ class ContinuationSearch {
     const OpenEnd* facing = NearestFacing(end);
     if (crossing < 0 && facing == nullptr) return std::nullopt;
     const double to_facing =
-        facing == nullptr ? 2 * options_.max_gap : (facing->position - end.position).norm();
+        facing == nullptr ? 2 * kMaxGap : (facing->position - end.position).norm();
     if (crossing < 0 ||
-        to_facing < (curves_.positions[crossing] - end.position).norm() + options_.snap_distance) {
+        to_facing < (curves_.positions[crossing] - end.position).norm() + kSnapDistance) {
       return BranchContinuation{
           end.node, end.edge, Resample(Bridge(end, *facing), kStep), facing->node, {}};
     }
     const CurveLocation& place = curves_.locations[crossing];
     const NodeId node = NodeNear(place);
     const Vec3& target = node >= 0 ? graph_.position(node) : curves_.positions[crossing];
-    if ((target - end.position).norm() < options_.min_gap) return std::nullopt;
+    if ((target - end.position).norm() < kMinGap) return std::nullopt;
     return BranchContinuation{end.node, end.edge, Resample({end.position, target}, kStep), node,
                               place};
   }
 
  private:
-  double MissAt(double distance) const {
-    return options_.base_miss + options_.miss_per_gap * distance;
-  }
+  static double MissAt(double distance) { return kBaseMiss + kMissPerGap * distance; }
 
   // The end of an edge next to a place on it; -1 where there is none.
   NodeId NodeNear(const CurveLocation& place) const {
     const SkeletonEdge& edge = graph_.edge(place.edge);
-    if (place.arc_length <= options_.snap_distance) return edge.nodes[0];
-    return Length(edge.points) - place.arc_length <= options_.snap_distance ? edge.nodes[1] : -1;
+    if (place.arc_length <= kSnapDistance) return edge.nodes[0];
+    return Length(edge.points) - place.arc_length <= kSnapDistance ? edge.nodes[1] : -1;
   }
 
   // The point next to the path ahead of those it comes to first; -1 where there are none.
   int FirstAhead(const OpenEnd& end) const {
-    for (double at = options_.min_gap; at <= options_.max_gap; at += kStep) {
+    for (double at = kMinGap; at <= kMaxGap; at += kStep) {
       const Vec3 p = end.position + at * end.outward;
       int nearest = -1;
       double least = MissAt(at);
@@ -101,22 +106,22 @@ class ContinuationSearch {
   bool IsAhead(const OpenEnd& end, int i, const Vec3& q) const {
     const EdgeId edge = curves_.locations[i].edge;
     if (edge == end.edge || std::abs(curves_.tangents[i].dot(end.outward)) > kParallelCosine ||
-        (q - end.position).dot(end.outward) < options_.min_gap) {
+        (q - end.position).dot(end.outward) < kMinGap) {
       return false;
     }
     const auto& nodes = graph_.edge(edge).nodes;
     const bool is_neighbour = nodes[0] == end.node || nodes[1] == end.node;
-    return !is_neighbour || (q - end.position).norm() > 2 * options_.fit_length;
+    return !is_neighbour || (q - end.position).norm() > 2 * kFitLength;
   }
 
   // The nearest open end that looks the other way and lies ahead.
   const OpenEnd* NearestFacing(const OpenEnd& end) const {
     const OpenEnd* nearest = nullptr;
-    double least = options_.max_gap;
+    double least = kMaxGap;
     for (const OpenEnd& other : open_) {
       const Vec3 offset = other.position - end.position;
       const double distance = offset.norm();
-      if (other.node == end.node || distance < options_.min_gap || distance >= least) continue;
+      if (other.node == end.node || distance < kMinGap || distance >= least) continue;
       const double cosine =
           std::min({-other.outward.dot(end.outward), end.outward.dot(offset) / distance,
                     -other.outward.dot(offset) / distance});
@@ -132,7 +137,6 @@ class ContinuationSearch {
   }
 
   const SkeletonGraph& graph_;
-  const ContinuationOptions& options_;
   std::vector<OpenEnd> open_;
   SampledCurves curves_;
   PointGrid grid_;
@@ -140,31 +144,9 @@ class ContinuationSearch {
 
 }  // namespace
 
-void VisitOptions(ContinuationOptions& options, OptionVisitor& visitor) {
-  visitor.Visit({"max_gap", "m", 0, 0.5,
-                 "Deviation: how far ahead of a branch that ends its wire is looked for."},
-                options.max_gap);
-  visitor.Visit(
-      {"min_gap", "m", 0.001, 0.5, "Deviation: shorter gaps are left to the closing of free ends."},
-      options.min_gap);
-  visitor.Visit({"base_miss", "m", 0, 0.1,
-                 "Deviation: the path ahead meets a curve that passes it at this distance."},
-                options.base_miss);
-  visitor.Visit({"miss_per_gap", "", 0, 1,
-                 "Deviation: by how much farther for each metre: directions are not exact."},
-                options.miss_per_gap);
-  visitor.Visit({"fit_length", "m", 0.001, 0.5,
-                 "Deviation: length of the end piece that gives the direction."},
-                options.fit_length);
-  visitor.Visit({"snap_distance", "m", 0, 0.1,
-                 "Deviation: a curve that is met this near to its end is met there."},
-                options.snap_distance);
-}
-
-std::vector<BranchContinuation> FindContinuations(const SkeletonGraph& graph,
-                                                  const ContinuationOptions& options) {
+std::vector<BranchContinuation> FindContinuations(const SkeletonGraph& graph) {
   if (graph.empty()) return {};
-  const ContinuationSearch search(graph, options);
+  const ContinuationSearch search(graph);
   std::vector<BranchContinuation> found;
   std::set<std::pair<NodeId, NodeId>> linked;
   for (const OpenEnd& end : search.open()) {
@@ -193,8 +175,7 @@ std::vector<BranchContinuation> WithShifts(const SkeletonGraph& graph,
   return paths;
 }
 
-void AddContinuations(SkeletonGraph& graph, const std::vector<BranchContinuation>& continuations,
-                      const ContinuationOptions& options) {
+void AddContinuations(SkeletonGraph& graph, const std::vector<BranchContinuation>& continuations) {
   std::vector<LocationPair> places;
   for (const BranchContinuation& continuation : continuations) {
     const std::vector<double>& branch_radii = graph.edge(continuation.branch).radii;
@@ -205,7 +186,7 @@ void AddContinuations(SkeletonGraph& graph, const std::vector<BranchContinuation
     const EdgeId added = graph.AddEdge(std::move(edge));
     if (is_inside) places.push_back({{added, Length(continuation.curve)}, continuation.target});
   }
-  JoinLocations(graph, places, options.snap_distance);
+  JoinLocations(graph, places, kSnapDistance);
   graph.DissolveDegree2Nodes();
 }
 

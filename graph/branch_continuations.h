@@ -4,20 +4,8 @@
 
 #include "graph/junctions.h"
 #include "graph/skeleton_graph.h"
-#include "kernel/options.h"
 
 namespace curvefusion {
-
-/// How far ahead of a branch that ends its wire may be thought to go on.
-struct ContinuationOptions {
-  double max_gap = 0.060;
-  double min_gap = 0.010;
-  double base_miss = 0.004;
-  double miss_per_gap = 0.15;
-  double fit_length = 0.020;
-  double snap_distance = 0.006;
-};
-void VisitOptions(ContinuationOptions& options, OptionVisitor& visitor);
 
 /// A curve that a wire may follow unseen: from the end of a branch on to another curve.
 struct BranchContinuation {
@@ -31,11 +19,10 @@ struct BranchContinuation {
 /// Where wires may go on that end at a junction on one side of it, or freely: for each such branch
 /// the straight path ahead to the first curve that comes near it, or, where that runs on in the
 /// same direction from an open end of its own, the smooth curve between both ends. Nothing for
-/// branches that reach no curve within `max_gap`. Whether a wire is there has to be looked up
+/// branches that reach no curve within 60 mm. Whether a wire is there has to be looked up
 /// elsewhere. Of two ends that face each other one continuation is returned. Costs O(n log n) for n
 /// points.
-std::vector<BranchContinuation> FindContinuations(const SkeletonGraph& graph,
-                                                  const ContinuationOptions& options);
+std::vector<BranchContinuation> FindContinuations(const SkeletonGraph& graph);
 
 /// A continuation and, as the directions of ends are not exact, the same with the place where it
 /// meets the other edge moved along that by up to 9 mm to either side, the least first; those that
@@ -45,7 +32,6 @@ std::vector<BranchContinuation> WithShifts(const SkeletonGraph& graph,
 
 /// Adds continuations as edges with the radius of their branch where that has one: their far ends
 /// become nodes of the edges they reach. Handles of split edges become invalid.
-void AddContinuations(SkeletonGraph& graph, const std::vector<BranchContinuation>& continuations,
-                      const ContinuationOptions& options);
+void AddContinuations(SkeletonGraph& graph, const std::vector<BranchContinuation>& continuations);
 
 }  // namespace curvefusion

@@ -12,7 +12,7 @@ BestOptions DefaultBestOptions() {
   options.volume_stride = 2;
   options.segmentation.render_divisor = 2;
   options.segmentation.opening.solid_depth = 0.03;
-  options.segmentation.openness.stride = 5;
+  options.segmentation.openness_stride = 5;
   options.segmentation.gate.frames = 10;
   options.segmentation.max_array_spacing = 0.013;
   options.segmentation.max_frame_points = 19000;
@@ -24,7 +24,7 @@ BestOptions DefaultBestOptions() {
   options.segmentation.difference.min_neighbours = 8;
   options.segmentation.min_measured_share = 0.5;
   options.segmentation.bundle.min_frames = 3;
-  options.segmentation.edges.tolerance_px = 2;
+  options.segmentation.edge_tolerance_px = 2;
   options.segmentation.ghosts.isolated_outline = 0.7;
   options.registration.max_points = 700;
   options.registration.max_iterations = 12;

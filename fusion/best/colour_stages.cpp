@@ -51,10 +51,10 @@ void DisregardNets(const Nets& nets, const SkeletonGraph& skeleton,
   }
 }
 
-// Thin by proof: what is a wire with less than `min_probability` leaves the result, by so many
-// depth images at most and the strips of all radii, which come before. Whether any wire left: then
-// edges were cut, and radii are to be measured again.
-bool KeepProvenWires(const std::string& stage, const std::string& name, double min_probability,
+// Thin by proof: what is not likely enough a wire leaves the result, by so many depth images at
+// most and the strips of all radii, which come before. Whether any wire left: then edges were cut,
+// and radii are to be measured again.
+bool KeepProvenWires(const std::string& stage, const std::string& name, const ProofLimits& limits,
                      int depth_images, const Nets& nets, const StageReporter& reporter,
                      Reconstruction& result) {
   const StageLog::Timer timer = reporter.Begin(stage);
@@ -66,7 +66,7 @@ bool KeepProvenWires(const std::string& stage, const std::string& name, double m
   const std::vector<WireProof> proofs =
       ProveWires(result.skeleton, evidence, result.uncertain.beside_kept);
   result.trust.wire_length =
-      KeepProven(evidence, proofs, min_probability, result.skeleton, result.uncertain);
+      KeepProven(evidence, proofs, limits, result.skeleton, result.uncertain);
   result.funnel.curves.unproven = result.uncertain.lengths;
   reporter.log.Count(stage, "uncertain, m", result.uncertain.lengths.Sum());
   return result.uncertain.lengths.Sum() > uncertain;
@@ -273,16 +273,17 @@ void RefineByColour(const PosedScan& scan, const LearnedWires& wires, RunSize si
                            scan.given.has_depth ? WireDepth::kShown : WireDepth::kNotShown,
                            wires.colours.posterior};
   const double min_probability = options.evidence.min_probability;
-  const auto keep_proven = [&](const std::string& stage, const std::string& name, double least) {
+  const auto keep_proven = [&](const std::string& stage, const std::string& name,
+                               const ProofLimits& limits) {
     // Depth that does not show wires says nothing for or against them.
     const int depth_images = start.depth == WireDepth::kShown ? options.evidence.max_frames : 0;
-    if (KeepProvenWires(stage, name, least, depth_images, wires.nets, reporter, result))
+    if (KeepProvenWires(stage, name, limits, depth_images, wires.nets, reporter, result))
       measure_radii();
   };
   TellPlan(size, options, reporter, result);
   measure_radii();
   // Nothing is to be added to what is hardly a wire.
-  keep_proven("evidence", "evidence_before_colour", kHardlyAWire * min_probability);
+  keep_proven("evidence", "evidence_before_colour", {.usual = kHardlyAWire * min_probability});
   std::optional<ColourAdjustment> adjusted =
       AdjustCurvesAndPoses(start, options.colour_adjustment, reporter, result);
   StartFromColourWhereDepthFails(scan, wires.colours, size, options, reporter, start, adjusted,
@@ -295,11 +296,11 @@ void RefineByColour(const PosedScan& scan, const LearnedWires& wires, RunSize si
     PruneUnadjusted(wires.colours, options.silhouettes, reporter, result);
   }
   measure_radii();
-  keep_proven("evidence", "evidence", min_probability);
+  const double raised = std::max(min_probability, kRatherAWire);
+  keep_proven("evidence", "evidence", {min_probability, raised});
   const bool is_unmeasured = !result.skeleton.empty() && result.radii.global_radius == 0;
-  if (min_probability > 0 &&
-      (is_unmeasured || IsHardlyWire(result.trust.wire_length, result.skeleton.TotalLength()))) {
-    keep_proven("evidence again", "evidence_again", std::max(min_probability, kRatherAWire));
+  if (min_probability > 0 && is_unmeasured) {
+    keep_proven("evidence again", "evidence_again", {.usual = raised});
   }
   if (adjusted) {
     adjusted.reset();  // its images are not needed any more

@@ -17,9 +17,13 @@ namespace {
 constexpr double kMaxScore = 4;    // of one stretch: no more of it is calibrated
 constexpr double kChangeCost = 2;  // chosen: a change along an edge needs a stretch of 88 %
 constexpr double kPartCost = 1;    // chosen: a part of its own needs a stretch of 53 %
-// Chosen: one where no image shows a strip needs .2 m that are certain. Of 44 such parts of training
-// scans 43 were no wires, worth 14 at most (docs/proof.md).
-constexpr double kUnmeasuredCost = 20;
+// Chosen: a doubtful one and one where no image shows a strip need .2 m that are certain. Of 44
+// such parts without strips in training scans 43 were no wires, worth 14 at most (docs/proof.md).
+constexpr double kLargePartCost = 20;
+// A part is not doubtful with so many metres of so likely a wire. Chosen: parts of rooms that are
+// hardly wire have none, the mesh of a chair 1.5 m (docs/proof.md).
+constexpr double kLikelyWire = 0.7;
+constexpr double kLikelyLength = 0.3;
 
 // Stretches [first, last) of an edge.
 struct Run {
@@ -78,8 +82,11 @@ class Selector {
  public:
   Selector(const std::vector<StretchEvidence>& evidence, const std::vector<WireProof>& proofs,
            double min_probability)
-      : evidence_(evidence), proofs_(proofs), kept_(evidence.size(), true) {
-    threshold_ = std::log(min_probability / (1 - min_probability));
+      : evidence_(evidence),
+        proofs_(proofs),
+        thresholds_(evidence.size(), LogOdds(min_probability)),
+        is_doubtful_(evidence.size()),
+        kept_(evidence.size(), true) {
     for (size_t i = 0; i < evidence.size(); ++i) stretches_of_[evidence[i].edge].push_back(i);
   }
 
@@ -107,6 +114,24 @@ class Selector {
     }
     stretches_of_ = std::move(stretches_after_cut);
     skeleton.RemoveIsolatedNodes();
+  }
+
+  // Raises the limit of doubtful parts, and of all where the whole is doubtful; whether of any.
+  bool RaiseLimits(double min_probability, const SkeletonGraph& skeleton) {
+    bool is_raised = false;
+    std::vector<std::vector<EdgeId>> parts = ConnectedEdges(skeleton);
+    parts.push_back(skeleton.Edges());
+    for (const std::vector<EdgeId>& part : parts) {
+      if (!IsDoubtful(part)) continue;
+      is_raised = true;
+      for (const EdgeId id : part) {
+        for (const size_t i : stretches_of_.at(id)) {
+          thresholds_[i] = LogOdds(min_probability);
+          is_doubtful_[i] = true;
+        }
+      }
+    }
+    return is_raised;
   }
 
   // Metres of what is left that are wire, as far as the proofs can be believed.
@@ -141,14 +166,15 @@ class Selector {
   void DropSmallParts(SkeletonGraph& skeleton, UncertainCurves& uncertain) {
     for (const std::vector<EdgeId>& part : ConnectedEdges(skeleton)) {
       double score = 0;
-      bool is_measured = false;
+      bool is_measured = false, is_doubtful = false;
       for (const EdgeId id : part) {
         for (const size_t i : stretches_of_.at(id)) {
           score += Score(i);
           is_measured |= evidence_[i].strips > 0;
+          is_doubtful |= is_doubtful_[i];
         }
       }
-      if (score >= (is_measured ? kPartCost : kUnmeasuredCost)) continue;
+      if (score >= (is_measured && !is_doubtful ? kPartCost : kLargePartCost)) continue;
       for (const EdgeId id : part) {
         MoveOut(skeleton.TakeEdge(id), stretches_of_.at(id), uncertain);
         stretches_of_.erase(id);
@@ -158,8 +184,23 @@ class Selector {
   }
 
  private:
+  static double LogOdds(double probability) { return std::log(probability / (1 - probability)); }
+
   double Score(size_t i) const {
-    return std::clamp(proofs_[i].log_odds - threshold_, -kMaxScore, kMaxScore);
+    return std::clamp(proofs_[i].log_odds - thresholds_[i], -kMaxScore, kMaxScore);
+  }
+
+  bool IsDoubtful(const std::vector<EdgeId>& part) const {
+    double length = 0, wire = 0, likely = 0;
+    for (const EdgeId id : part) {
+      for (const size_t i : stretches_of_.at(id)) {
+        const double probability = Probability(proofs_[i].log_odds);
+        length += evidence_[i].length;
+        wire += probability * evidence_[i].length;
+        if (probability >= kLikelyWire) likely += evidence_[i].length;
+      }
+    }
+    return IsHardlyWire(wire, length) && likely < kLikelyLength;
   }
 
   void MoveOut(SkeletonEdge edge, const std::vector<size_t>& stretches,
@@ -177,11 +218,12 @@ class Selector {
                SkeletonGraph& skeleton, UncertainCurves& uncertain,
                std::map<EdgeId, std::vector<size_t>>& stretches_after_cut) {
     const SkeletonEdge edge = skeleton.TakeEdge(id);
+    const size_t begin = evidence_[stretches.front()].part.first;  // of an edge that was cut before
     for (const Run& run : runs) {
       const std::vector<size_t> of_run(stretches.begin() + static_cast<std::ptrdiff_t>(run.first),
                                        stretches.begin() + static_cast<std::ptrdiff_t>(run.last));
-      const size_t first = evidence_[of_run.front()].part.first;
-      const size_t last = evidence_[of_run.back()].part.last;
+      const size_t first = evidence_[of_run.front()].part.first - begin;
+      const size_t last = evidence_[of_run.back()].part.last - begin;
       if (!run.is_kept) {
         MoveOut(PartOf(edge, first, last, {}), of_run, uncertain);
         continue;
@@ -196,7 +238,8 @@ class Selector {
 
   const std::vector<StretchEvidence>& evidence_;
   const std::vector<WireProof>& proofs_;
-  double threshold_ = 0;
+  std::vector<double> thresholds_;  // log-odds, of every stretch
+  std::vector<bool> is_doubtful_;   // whether its part was
   std::vector<bool> kept_;
   std::map<EdgeId, std::vector<size_t>> stretches_of_;  // of the edges that are left
 };
@@ -204,13 +247,17 @@ class Selector {
 }  // namespace
 
 double KeepProven(const std::vector<StretchEvidence>& evidence,
-                  const std::vector<WireProof>& proofs, double min_probability,
+                  const std::vector<WireProof>& proofs, const ProofLimits& limits,
                   SkeletonGraph& skeleton, UncertainCurves& uncertain) {
-  Selector selector(evidence, proofs, min_probability);
-  if (min_probability > 0) {
-    selector.DecideAlongEdges();
-    selector.Cut(skeleton, uncertain);
-    selector.DropSmallParts(skeleton, uncertain);
+  Selector selector(evidence, proofs, limits.usual);
+  if (limits.usual > 0) {
+    const auto select = [&] {
+      selector.DecideAlongEdges();
+      selector.Cut(skeleton, uncertain);
+      selector.DropSmallParts(skeleton, uncertain);
+    };
+    select();
+    if (limits.doubtful > limits.usual && selector.RaiseLimits(limits.doubtful, skeleton)) select();
     selector.RememberRefuted(uncertain);
     skeleton.DissolveDegree2Nodes();
   }

@@ -25,13 +25,21 @@ struct UncertainCurves {
   std::vector<RefutedStretch> beside_kept;  ///< those of connected parts of which something stayed
 };
 
-/// Leaves in the skeleton what is a wire with at least `min_probability` and moves the rest to
-/// `uncertain`. Along an edge it decides for runs of stretches: a change from wire to no wire
-/// must be worth its cost, and so must a connected part that is left. `proofs` are those of
-/// `evidence`, which is CollectEvidence of the skeleton. min_probability = 0 leaves all. Returns
-/// how many metres of what is left are wire by their probabilities. Linear.
+/// The least probability with which something is kept as a wire.
+struct ProofLimits {
+  double usual = 0;     ///< 0 = all is kept
+  double doubtful = 0;  ///< in connected parts that are hardly wire (IsHardlyWire) and hold next to
+                        ///< nothing that is likely one, and in all where the whole is such; what is
+                        ///< left of them must be worth more
+};
+
+/// Leaves in the skeleton what is likely enough a wire and moves the rest to `uncertain`. Along an
+/// edge it decides for runs of stretches: a change from wire to no wire must be worth its cost, and
+/// so must a connected part that is left. `proofs` are those of `evidence`, which is
+/// CollectEvidence of the skeleton. Returns how many metres of what is left are wire by their
+/// probabilities. Linear.
 double KeepProven(const std::vector<StretchEvidence>& evidence,
-                  const std::vector<WireProof>& proofs, double min_probability,
+                  const std::vector<WireProof>& proofs, const ProofLimits& limits,
                   SkeletonGraph& skeleton, UncertainCurves& uncertain);
 
 }  // namespace curvefusion

@@ -47,4 +47,8 @@ std::vector<WireProof> ProveWires(const SkeletonGraph& skeleton,
                                   const std::vector<StretchEvidence>& evidence,
                                   const std::vector<RefutedStretch>& refuted);
 
+/// Whether so little of `length` metres of curve is wire that most of what looks like wires there
+/// is none.
+bool IsHardlyWire(double wire_length, double length);
+
 }  // namespace curvefusion

@@ -26,10 +26,8 @@ void Splat(const Vec2& pixel, double side, float z, DepthImage& registered) {
 }
 
 std::vector<Vec3> LiftFrame(const Sequence& sequence, int frame, const CurveEdgeOptions& options) {
-  ColourEdgeOptions canny;
-  canny.low_threshold = options.low_threshold;
-  canny.high_threshold = options.high_threshold;
-  const MaskImage edges = ColourEdges(LoadColor(sequence, frame), canny);
+  const MaskImage edges =
+      ColourEdges(LoadColor(sequence, frame), {options.low_threshold, options.high_threshold});
   const DepthImage registered = RegisteredDepth(LoadDepth(sequence, frame), sequence);
   const RigidTransform T_depth_color = sequence.T_color_depth.inverse();
   std::vector<Vec3> samples;

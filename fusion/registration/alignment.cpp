@@ -19,6 +19,11 @@ using Mat6 = Eigen::Matrix<double, 6, 6>;
 
 // Fewer pairs than this determine nothing.
 constexpr int kMinPairs = 6;
+// Chosen: points farther from the target pair with nothing, the largest drift between neighbouring
+// bundles.
+constexpr double kMaxDistance = 30 * kMillimetre;
+// Chosen: the gate for pairs never gets narrower, the noise of a skeleton.
+constexpr double kInlierDistance = 4 * kMillimetre;
 // Motions along which the residuals vary this much less than along the best determined one are left
 // alone: about the square of the angle by which noise turns tangents.
 constexpr double kObservable = 0.01;
@@ -45,8 +50,8 @@ class ClosestPointAligner {
   // Starts wide and starts narrow, and takes what brings more points close. A wide start finds
   // large drifts; a narrow one is not drawn away by curves that have no counterpart.
   AlignmentResult Align() {
-    const AlignmentResult wide = AlignWithin(options_.max_distance);
-    const AlignmentResult narrow = AlignWithin(options_.inlier_distance);
+    const AlignmentResult wide = AlignWithin(kMaxDistance);
+    const AlignmentResult narrow = AlignWithin(kInlierDistance);
     return Closeness(narrow) > Closeness(wide) ? narrow : wide;
   }
 
@@ -54,7 +59,7 @@ class ClosestPointAligner {
   AlignmentResult AlignWithin(double max_distance) {
     AlignmentResult result;
     if (source_.empty() || target_.points.empty()) return result;
-    max_distance_ = std::min(max_distance, options_.max_distance);
+    max_distance_ = max_distance;
     pairs_.assign(source_.size(), {});
     for (int i = 0; i < options_.max_iterations && !result.converged; ++i) {
       FindPairs(result.T_target_source);
@@ -77,7 +82,7 @@ class ClosestPointAligner {
   double Closeness(const AlignmentResult& result) {
     if (result.iterations == 0) return 0;
     FindPairs(result.T_target_source);
-    gate_ = options_.inlier_distance;
+    gate_ = kInlierDistance;
     double sum = 0;
     for (const Pair& pair : pairs_) sum += Weight(pair);
     return sum;
@@ -121,10 +126,10 @@ class ClosestPointAligner {
     std::vector<double> distances;
     for (const Pair& pair : pairs_)
       if (pair.target >= 0) distances.push_back(pair.distance);
-    gate_ = options_.inlier_distance;
+    gate_ = kInlierDistance;
     if (!distances.empty()) {
-      gate_ = std::clamp(kGateInMedians * Median(std::move(distances)), options_.inlier_distance,
-                         std::max(options_.inlier_distance, max_distance_));
+      gate_ = std::clamp(kGateInMedians * Median(std::move(distances)), kInlierDistance,
+                         std::max(kInlierDistance, max_distance_));
     }
     inliers_ = static_cast<int>(std::count_if(pairs_.begin(), pairs_.end(), [this](const Pair& p) {
       return p.target >= 0 && p.distance < gate_;
@@ -219,13 +224,6 @@ std::vector<Vec3> Thinned(const std::vector<Vec3>& points, int count) {
 }  // namespace
 
 void VisitOptions(AlignmentOptions& options, OptionVisitor& visitor) {
-  visitor.Visit({"max_distance", "m", 1e-4, 1,
-                 "Points farther than this from the target pair with nothing: the largest drift "
-                 "between neighbouring bundles."},
-                options.max_distance);
-  visitor.Visit({"inlier_distance", "m", 1e-5, 0.1,
-                 "The gate for pairs never gets narrower than this: the noise of a skeleton."},
-                options.inlier_distance);
   visitor.Visit({"max_points", "points", 10, 1e6, "Source points used; more are thinned evenly."},
                 options.max_points);
   visitor.Visit({"max_iterations", "", 1, 1000, "Limit on iterations."}, options.max_iterations);

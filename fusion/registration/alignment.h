@@ -10,8 +10,6 @@ namespace curvefusion {
 
 /// Rigid alignment by iterative closest points (Besl and McKay 1992).
 struct AlignmentOptions {
-  double max_distance = 30 * kMillimetre;
-  double inlier_distance = 4 * kMillimetre;
   int max_points = 2000;
   int max_iterations = 40;
   bool point_to_line = true;

@@ -96,10 +96,6 @@ void VisitOptions(DriftOptions& options, OptionVisitor& visitor) {
                  "Deviation: how far a pose drifts about an axis from one frame to the next. "
                  "ORB-SLAM2 at 30 Hz."},
                 options.rotation_step);
-  visitor.Visit({"points_per_measurement", "points", 1, 1000,
-                 "Deviation: so many registered points have their error in common, as the windows "
-                 "of the sensor's block matching overlap."},
-                options.points_per_measurement);
 }
 
 std::vector<RigidTransform> SmoothCorrections(const std::vector<MeasuredCorrection>& measured,

@@ -12,6 +12,8 @@ namespace curvefusion {
 struct DriftOptions {
   double translation_step = 0.0005;
   double rotation_step = 0.0005;
+  /// So many registered points have their error in common, as the windows of the sensor's block
+  /// matching overlap.
   double points_per_measurement = 8;
 };
 void VisitOptions(DriftOptions& options, OptionVisitor& visitor);

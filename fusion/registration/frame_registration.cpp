@@ -12,6 +12,12 @@ namespace {
 
 // So many points of a frame are looked at for one that is aligned: most may lie between wires.
 constexpr size_t kCandidatesPerPoint = 4;
+// Chosen: a frame of which a smaller share fits the curves, or with fewer points near them, is not
+// moved by itself;
+constexpr double kMinInliers = 0.5;
+constexpr int kMinPoints = 100;
+// nor one that would move farther, metres: the largest drift within a bundle.
+constexpr double kMaxMotion = 0.01;
 
 // The points of a frame, moved, that lie near the curves. Where wires are dense, block matching
 // makes one sheet of them, and most points lie between them and say nothing.
@@ -35,11 +41,11 @@ MeasuredCorrection RegisterFrame(const ObservedPoints& frame, const RigidTransfo
   correction.T_registered_world = T;
   const std::vector<Vec3> points =
       PointsNear(curves, frame, T, kCandidatesPerPoint * alignment.max_points, options.reach);
-  if (static_cast<int>(points.size()) < options.min_points) return correction;
+  if (static_cast<int>(points.size()) < kMinPoints) return correction;
   const AlignmentResult result = AlignPoints(points, curves, alignment);
   // One frame on the wrong curves would draw its neighbours after it.
   const double moved = (result.T_target_source.inverse() * result.center - result.center).norm();
-  if (result.inlier_fraction < options.min_inliers || moved > options.max_motion) return correction;
+  if (result.inlier_fraction < kMinInliers || moved > kMaxMotion) return correction;
   correction.T_registered_world = result.T_target_source * T;
   correction.information = result.information;
   correction.center = result.center;
@@ -54,16 +60,6 @@ void VisitOptions(FrameRegistrationOptions& options, OptionVisitor& visitor) {
        "Deviation: how often all frames are registered to the curves, one by one; 0 leaves "
        "it at whole bundles."},
       options.rounds);
-  visitor.Visit({"frame_min_inliers", "", 0, 1,
-                 "A frame of which a smaller share fits the curves is not moved by itself."},
-                options.min_inliers);
-  visitor.Visit({"frame_min_points", "points", 6, 100000,
-                 "A frame with fewer points near the curves is not moved by itself."},
-                options.min_points);
-  visitor.Visit({"frame_max_motion", "m", 0, 1,
-                 "A frame that would move farther from its bundle is not moved by itself: the "
-                 "largest drift within a bundle."},
-                options.max_motion);
   visitor.Visit({"frame_reach", "m", 0.0005, 1,
                  "Deviation: points of a frame farther from the curves are not registered: they "
                  "lie between wires."},

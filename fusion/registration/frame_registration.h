@@ -13,9 +13,6 @@ namespace curvefusion {
 /// How single frames are registered to the curves.
 struct FrameRegistrationOptions {
   int rounds = 1;
-  double min_inliers = 0.5;
-  int min_points = 100;
-  double max_motion = 0.01;
   double reach = 0.006;
   double voxel_size = 0.0025;
   DriftOptions drift;

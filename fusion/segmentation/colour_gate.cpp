@@ -24,6 +24,12 @@ constexpr int kMaxShift_px = 3;
 constexpr int kShiftRounds = 4;
 // The likeliest pixel is looked for within so many.
 constexpr int kPeakReach_px = 2;
+// Pixels less likely to be wire are dropped. Chosen below one half, so that nothing goes where
+// wires and background look the same.
+constexpr double kMinPosterior = 0.4;
+// Chosen: nor are those kept that are less likely than so much of the likeliest one around: blur
+// raises narrow gaps.
+constexpr double kMinOfPeak = 0.6;
 // Of 255: surely wire, as no background that was seen has that colour.
 constexpr int kSurePosterior = 200;
 // Colours that blur mixes of wire and background are of neither in the end: each round takes the
@@ -182,13 +188,6 @@ void VisitOptions(ColourGateOptions& options, OptionVisitor& visitor) {
                  "Deviation: the wires' colours are learned from about so many frames; they part "
                  "wires side by side where depth is one sheet. 0 = not asked."},
                 options.frames);
-  visitor.Visit({"min_posterior", "", 0, 1,
-                 "Deviation: pixels whose colour is less likely that of a wire are dropped."},
-                options.min_posterior);
-  visitor.Visit({"min_of_peak", "", 0, 1,
-                 "Deviation: nor are pixels kept that are less likely wire than so much of the "
-                 "likeliest one within 2 pixels; blur raises narrow gaps."},
-                options.min_of_peak);
   visitor.Visit(
       {"max_colour_width", "m", 0, 0.2,
        "Deviation: what has the wires' colours in a disc of this diameter is a wire array that "
@@ -264,7 +263,7 @@ void GateByColour(const WireColours& colours, const Sequence& sequence,
                    frame);
   }
   ForEachColour(in_arrays, frame.depth, lookup, [&](int u, int v, int x, int y) {
-    const double limit = std::max(255 * options.min_posterior, options.min_of_peak * peak(x, y));
+    const double limit = std::max(255 * kMinPosterior, kMinOfPeak * peak(x, y));
     if (posterior(x, y) < limit) frame.mask(u, v) = 0;
   });
 }

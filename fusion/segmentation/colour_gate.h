@@ -15,12 +15,6 @@ struct ColourGateOptions {
   /// Frames, 0 to 1000: the wires' colours are learned from about so many; 0 = colours are not
   /// asked.
   int frames = 0;
-  /// 0 to 1: candidate pixels less likely to be wire are dropped. Below one half, so that nothing
-  /// goes where wires and background look the same.
-  double min_posterior = 0.4;
-  /// 0 to 1: nor are those kept that are less likely than so much of the likeliest pixel within 2
-  /// pixels: blur raises narrow gaps.
-  double min_of_peak = 0.6;
   /// Metres, 0 to 0.2: what is wire-coloured in a disc of this diameter is a wire array that the
   /// colour image does not resolve either, as no wire is so thick; it is left to other views. 0 =
   /// not asked. Where two wires of 12 mm cross, a disc of 17 mm fits.

@@ -47,25 +47,11 @@ MaskImage Dilated(const MaskImage& mask, double radius_px) {
 
 }  // namespace
 
-void VisitOptions(ColourEdgeOptions& options, OptionVisitor& visitor) {
-  visitor.Visit({"low_threshold", "grey levels", 0, 2000,
-                 "Gradient at which an edge goes on (Canny). CurveFusion 4.1 detects edges, the "
-                 "value is ours."},
-                options.low_threshold);
-  visitor.Visit(
-      {"high_threshold", "grey levels", 0, 2000, "Gradient at which an edge begins (Canny)."},
-      options.high_threshold);
-  visitor.Visit({"tolerance_px", "px", 0, 10,
-                 "A point within this distance of an edge lies on it; covers blur and "
-                 "colour-to-depth registration."},
-                options.tolerance_px);
-}
-
-MaskImage ColourEdges(const ColorImage& color, const ColourEdgeOptions& options) {
+MaskImage ColourEdges(const ColorImage& color, const CannyThresholds& thresholds) {
   const cv::Mat rgb(color.height(), color.width(), CV_8UC3, const_cast<Rgb*>(color.data()));
   cv::Mat dx, dy, edges;
   StrongestGradient(rgb, dx, dy);
-  cv::Canny(dx, dy, edges, options.low_threshold, options.high_threshold, true);
+  cv::Canny(dx, dy, edges, thresholds.low, thresholds.high, true);
   MaskImage mask(color.width(), color.height());
   for (int v = 0; v < mask.height(); ++v) {
     for (int u = 0; u < mask.width(); ++u) mask(u, v) = edges.at<uint8_t>(v, u) != 0;
@@ -75,8 +61,8 @@ MaskImage ColourEdges(const ColorImage& color, const ColourEdgeOptions& options)
 
 MaskImage MaskPixelsOnEdges(const MaskImage& mask, const DepthImage& depth, const MaskImage& edges,
                             const PinholeCamera& depth_camera, const PinholeCamera& color_camera,
-                            const RigidTransform& T_color_depth, const ColourEdgeOptions& options) {
-  const MaskImage near_edges = Dilated(edges, options.tolerance_px);
+                            const RigidTransform& T_color_depth, double tolerance_px) {
+  const MaskImage near_edges = Dilated(edges, tolerance_px);
   MaskImage on_edge(depth.width(), depth.height(), 0);
   ParallelFor(0, depth.height(), kRowsPerChunk, [&](int64_t row) {
     const int v = static_cast<int>(row);

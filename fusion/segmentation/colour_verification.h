@@ -8,20 +8,18 @@
 namespace curvefusion {
 
 /// Curve edges of the colour images, with which candidates are verified, CurveFusion 4.1.
-struct ColourEdgeOptions {
-  double low_threshold = 40;
-  double high_threshold = 100;
-  double tolerance_px = 1;
+struct CannyThresholds {
+  double low = 40;
+  double high = 100;
 };
-void VisitOptions(ColourEdgeOptions& options, OptionVisitor& visitor);
 
 /// Colour edges (Canny on the channel with the strongest gradient), 1 on an edge.
-MaskImage ColourEdges(const ColorImage& color, const ColourEdgeOptions& options);
+MaskImage ColourEdges(const ColorImage& color, const CannyThresholds& thresholds = {});
 
 /// 1 at every pixel of `mask` (a mask of the depth image) whose point projects within tolerance_px
 /// of a colour edge.
 MaskImage MaskPixelsOnEdges(const MaskImage& mask, const DepthImage& depth, const MaskImage& edges,
                             const PinholeCamera& depth_camera, const PinholeCamera& color_camera,
-                            const RigidTransform& T_color_depth, const ColourEdgeOptions& options);
+                            const RigidTransform& T_color_depth, double tolerance_px);
 
 }  // namespace curvefusion

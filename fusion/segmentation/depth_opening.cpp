@@ -27,20 +27,19 @@ void VisitOptions(DepthOpeningOptions& options, OptionVisitor& visitor) {
                  "Deviation: what frames saw through so far behind its rendering is no large "
                  "surface but a grille; 0 = not asked."},
                 options.solid_depth);
-  visitor.Visit(
-      {"min_solidity", "", 0, 1,
-       "Deviation: what is less solid there was seen through. 1 = solid, 0 and less = mostly "
-       "seen through; grazing views of a surface come near 0."},
-      options.min_solidity);
-  visitor.Visit({"discontinuity_noise", "1/m", 0, 0.1,
-                 "Steps up to that times depth squared are noise. Khoshelham 2012 for the Kinect."},
-                options.noise_quadratic);
 }
 
 namespace {
 
 // A surface seen at more than 85 degrees from its normal cannot be told from a discontinuity.
 constexpr float kSteepestSlope = 11.4f;
+// 1/m: steps up to that times depth squared are noise, 3.5 standard deviations of a Kinect V1
+// (Khoshelham 2012).
+constexpr float kNoisePerSquare = 0.005f;
+// What is less solid was seen through: 1 = solid, 0 and less = mostly seen through. Chosen not far
+// above 0: behind a table seen at a grazing angle by some frames and from above by others it is a
+// small share only, but not negative.
+constexpr double kMinSolidity = 0.05;
 
 // How a pixel hangs together with its neighbours; links up and left are theirs down and right.
 enum PixelLink : uint8_t {
@@ -58,7 +57,6 @@ class SurfaceLinks {
                const DepthOpeningOptions& options)
       : depth_(depth),
         discontinuity_(static_cast<float>(options.discontinuity)),
-        noise_quadratic_(static_cast<float>(options.noise_quadratic)),
         links_(depth.width(), depth.height(), 0) {
     const float steepest_u = kSteepestSlope / static_cast<float>(camera.fx);
     const float steepest_v = kSteepestSlope / static_cast<float>(camera.fy);
@@ -79,7 +77,7 @@ class SurfaceLinks {
     const float a = depth_(u, v), b = depth_(u + du, v + dv);
     if (a > 0 && b > 0) {
       const float near = std::min(a, b), step = std::abs(a - b);
-      const float tolerance = std::max(discontinuity_, noise_quadratic_ * near * near);
+      const float tolerance = std::max(discontinuity_, kNoisePerSquare * near * near);
       if (step <= tolerance ||
           (step <= steepest * near && ContinuesSlope(u, v, du, dv, tolerance))) {
         links_(u, v) |= link;
@@ -118,7 +116,6 @@ class SurfaceLinks {
 
   const DepthImage& depth_;
   float discontinuity_;
-  float noise_quadratic_;
   Image<uint8_t> links_;
 };
 
@@ -263,7 +260,7 @@ MaskImage Erode(const DepthImage& depth, const DepthImage& solidity, const Image
   const auto is_edge = [&](int u, int v) { return (links(u, v) & kNearEdge) != 0; };
   ErodeFrom(is_edge, depth, links, scale, options.radius, eroded);
   if (solidity.size() == 0) return eroded;
-  const auto is_open = [&](int u, int v) { return solidity(u, v) < options.min_solidity; };
+  const auto is_open = [&](int u, int v) { return solidity(u, v) < kMinSolidity; };
   ErodeFrom(is_open, depth, links, scale, options.radius / 2, eroded);
   return eroded;
 }

@@ -15,15 +15,9 @@ struct DepthOpeningOptions {
   /// discontinuity unless the surface is as steep beside it (the paper gives no value; three
   /// voxels of the paper profile).
   double discontinuity = 0.015;
-  /// 1/m, 0 to 0.1: steps up to that times depth squared are noise (3.5 standard deviations of a
-  /// Kinect V1, Khoshelham 2012).
-  double noise_quadratic = 0.005;
   /// Metres, 0 to 0.1: what was seen through so far behind its surface is none; 0 = not asked. A
   /// wire is thinner, a box thicker.
   double solid_depth = 0;
-  /// 0 to 1: less solid there means seen through. Not far above 0: behind a table seen at a grazing
-  /// angle by some frames and from above by others it is a small share only, but not negative.
-  double min_solidity = 0.05;
 };
 void VisitOptions(DepthOpeningOptions& options, OptionVisitor& visitor);
 

@@ -13,6 +13,10 @@ namespace {
 
 constexpr float kNothing = std::numeric_limits<float>::infinity();
 constexpr int64_t kRowsPerChunk = 16;
+constexpr double kNoiseFactor =
+    3;  // standard deviations in front of the rendering, CurveFusion 4.1
+// Metres. Chosen: farther behind a removed thin part a pixel is background seen past it.
+constexpr double kBehindRemoved = 0.02;
 
 // Smallest depth within +-radius of every entry of a line, missing entries (0) counting as
 // infinitely far. A plain window scan: the radius is a few pixels.
@@ -48,10 +52,10 @@ bool IsThin(float depth, float rendered, float kept, float nearest_kept,
             const DifferenceSetOptions& options) {
   if (depth < options.min_depth || depth > options.max_depth) return false;
   if (rendered <= 0 && !options.accept_where_nothing_rendered) return false;
-  const double noise = options.noise_factor * DepthNoise(depth, options);
+  const double noise = kNoiseFactor * DepthNoise(depth);
   if (depth > nearest_kept - std::max(options.front_distance, noise)) return false;
   const bool removed = rendered > 0 && kept <= 0;
-  return !removed || depth < rendered + std::max(options.behind_removed, noise);
+  return !removed || depth < rendered + std::max(kBehindRemoved, noise);
 }
 
 // Keeps pixels with enough set pixels of similar depth among the 24 around them.
@@ -63,7 +67,7 @@ MaskImage WithNeighbours(const MaskImage& mask, const DepthImage& depth,
     for (int u = 0; u < mask.width(); ++u) {
       if (!mask(u, v)) continue;
       const float z = depth(u, v);
-      const double tolerance = std::max(0.005, options.noise_factor * DepthNoise(z, options));
+      const double tolerance = std::max(0.005, kNoiseFactor * DepthNoise(z));
       int neighbours = -1;  // not itself
       for (int y = std::max(0, v - 2); y <= std::min(mask.height() - 1, v + 2); ++y) {
         for (int x = std::max(0, u - 2); x <= std::min(mask.width() - 1, u + 2); ++x) {
@@ -79,13 +83,6 @@ MaskImage WithNeighbours(const MaskImage& mask, const DepthImage& depth,
 }  // namespace
 
 void VisitOptions(DifferenceSetOptions& options, OptionVisitor& visitor) {
-  visitor.Visit({"noise_factor", "", 0, 20,
-                 "Standard deviations of depth noise a pixel must lie in front of the rendering. "
-                 "CurveFusion 4.1."},
-                options.noise_factor);
-  visitor.Visit({"noise_quadratic", "1/m", 0, 0.1,
-                 "Depth noise divided by depth squared. Khoshelham 2012 for the Kinect V1."},
-                options.noise_quadratic);
   visitor.Visit({"front_distance", "m", 0, 0.2,
                  "Deviation: a pixel must lie at least so far in front of kept surfaces; surfaces "
                  "are noisier than their mean model."},
@@ -94,10 +91,6 @@ void VisitOptions(DifferenceSetOptions& options, OptionVisitor& visitor) {
                  "Deviation: kept surfaces count so many pixels beyond their silhouettes; block "
                  "matching fattens them."},
                 options.silhouette_margin_px);
-  visitor.Visit(
-      {"behind_removed", "m", 0, 1,
-       "A pixel behind a removed thin part by more than this is background seen past it."},
-      options.behind_removed);
   visitor.Visit(
       {"accept_where_nothing_rendered", "", 0, 1,
        "Whether pixels with no rendering behind them belong to the set. CurveFusion 4.1."},
@@ -113,9 +106,7 @@ void VisitOptions(DifferenceSetOptions& options, OptionVisitor& visitor) {
                 options.max_depth);
 }
 
-double DepthNoise(double depth, const DifferenceSetOptions& options) {
-  return options.noise_quadratic * depth * depth;
-}
+double DepthNoise(double depth) { return kNoisePerSquaredDepth * depth * depth; }
 
 MaskImage ImageDifferenceSet(const DepthImage& depth, const DepthImage& rendering,
                              const DepthImage& kept, const DifferenceSetOptions& options) {

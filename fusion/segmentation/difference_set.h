@@ -9,11 +9,8 @@ namespace curvefusion {
 
 /// Which raw depth pixels belong to a thin structure, CurveFusion 4.1 "Removing large surfaces".
 struct DifferenceSetOptions {
-  double noise_factor = 3.0;
-  double noise_quadratic = kNoisePerSquaredDepth;
   double front_distance = 0.0;
   double silhouette_margin_px = 0;
-  double behind_removed = 0.02;
   bool accept_where_nothing_rendered = true;
   int min_neighbours = 0;
   double min_depth = 0.2;
@@ -21,8 +18,8 @@ struct DifferenceSetOptions {
 };
 void VisitOptions(DifferenceSetOptions& options, OptionVisitor& visitor);
 
-/// Depth noise (standard deviation, metres) at depth z: noise_quadratic * z^2.
-double DepthNoise(double depth, const DifferenceSetOptions& options);
+/// Depth noise (standard deviation, metres) at a depth: kNoisePerSquaredDepth times its square.
+double DepthNoise(double depth);
 
 /// The image difference set: 1 where a raw depth pixel lies in front of what is left of the
 /// volume's rendering after opening, or where nothing is left of it. `rendering` and `kept` (the

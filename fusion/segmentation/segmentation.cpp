@@ -91,7 +91,7 @@ WireCandidates FindCandidates(const Sequence& sequence, int frame, const DepthIm
   found.arrays = model.openness.Grilles(rendering, small, T_world_camera);
   AddArrays(model.sheets.Mask(rendering, small, T_world_camera), found.arrays);
   if (model.array_spacing > 0) found.array_margin = kWireArrayMargin;
-  if (options.openness.stride > 0) MarkOpen(found.arrays, solidity);
+  if (options.openness_stride > 0) MarkOpen(found.arrays, solidity);
   const DepthImage kept = OpenDepth(rendering, small, solidity, options.opening);
   DifferenceSetOptions difference = options.difference;
   if (!model.is_background_measured) difference.accept_where_nothing_rendered = true;
@@ -110,10 +110,10 @@ SegmentedFrame SegmentFrame(const Sequence& sequence, int frame, const TsdfVolum
   segmented.funnel.depth_pixels = CountMeasured(candidates.depth);
   segmented.funnel.thin_pixels = CountSet(candidates.mask);
   if (options.gate.frames > 0) GateByColour(model.colours, sequence, options.gate, candidates);
-  const MaskImage edges = ColourEdges(candidates.color, options.edges);
+  const MaskImage edges = ColourEdges(candidates.color);
   segmented.on_edge =
       MaskPixelsOnEdges(candidates.mask, candidates.depth, edges, sequence.depth_camera,
-                        sequence.color_camera, sequence.T_color_depth, options.edges);
+                        sequence.color_camera, sequence.T_color_depth, options.edge_tolerance_px);
   if (model.array_spacing > 0) ThinToCrests(model.colours, sequence, candidates);
   segmented.funnel.gated_pixels = CountSet(candidates.mask);
   return segmented;
@@ -250,7 +250,10 @@ void VisitOptions(SegmentationOptions& options, OptionVisitor& visitor) {
        "holds large surfaces."},
       options.render_divisor);
   VisitOptions(options.opening, visitor);
-  VisitOptions(options.openness, visitor);
+  visitor.Visit({"openness_stride", "frames", 0, 1000,
+                 "Deviation: every so many-th frame is asked whether its depth passes through "
+                 "what the volume holds for a surface; 0 = not asked."},
+                options.openness_stride);
   VisitOptions(options.difference, visitor);
   visitor.Visit({"min_measured_share", "", 0, 1,
                  "Deviation: where fewer of all pixels of the depth images are measured, what is "
@@ -271,7 +274,10 @@ void VisitOptions(SegmentationOptions& options, OptionVisitor& visitor) {
   visitor.BeginSection("bundle");
   VisitOptions(options.bundle, visitor);
   visitor.BeginSection("ghosts");
-  VisitOptions(options.edges, visitor);
+  visitor.Visit({"tolerance_px", "px", 0, 10,
+                 "A point within this distance of a colour edge lies on it; covers blur and "
+                 "colour-to-depth registration."},
+                options.edge_tolerance_px);
   VisitOptions(options.ghosts, visitor);
 }
 
@@ -283,7 +289,7 @@ SegmentationModel LearnSegmentation(const Sequence& sequence, const TsdfVolume& 
         MeasuredShare(sequence, FramesToLearnFrom(sequence, kBackgroundFrames)) >=
         options.min_measured_share;
   }
-  model.openness = MeasureOpenness(sequence, volume, options.openness);
+  model.openness = MeasureOpenness(sequence, volume, options.openness_stride);
   if (options.gate.frames == 0) return model;
   const LearnedFrames learned =
       Render(sequence, FramesToLearnFrom(sequence, options.gate.frames), volume, options);

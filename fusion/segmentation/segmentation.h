@@ -22,14 +22,14 @@ namespace curvefusion {
 /// Everything that decides which points are thin, CurveFusion 4.1.
 struct SegmentationOptions {
   int render_divisor = 1;
-  OpennessOptions openness;
+  int openness_stride = 0;
   DepthOpeningOptions opening;
   DifferenceSetOptions difference;
   double min_measured_share = 0;
   ColourGateOptions gate;
   double max_array_spacing = 0;
   int max_frame_points = 0;
-  ColourEdgeOptions edges;
+  double edge_tolerance_px = 1;
   BundleOptions bundle;
   GhostRemovalOptions ghosts;
 };
@@ -39,7 +39,7 @@ void VisitOptions(SegmentationOptions& options, OptionVisitor& visitor);
 struct SegmentationModel {
   int frame_stride = 1;                ///< every so many-th frame is segmented
   bool is_background_measured = true;  ///< otherwise it is out of range, or cut off
-  OpennessGrid openness{OpennessOptions{}};
+  OpennessGrid openness;
   SheetGrid sheets;           ///< wire arrays that depth shows as surfaces
   double array_spacing = 0;   ///< of their wires, metres; 0 where there are none
   double array_diameter = 0;  ///< of their wires, metres, roughly

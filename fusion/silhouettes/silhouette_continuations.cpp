@@ -70,10 +70,9 @@ bool CrossesSheet(const WireSilhouettes& silhouettes, double min_share,
 
 // Of all paths ahead those that are wire, each turned to where the images show it best.
 std::vector<BranchContinuation> WiresAhead(const WireSilhouettes& silhouettes, double min_share,
-                                           const SkeletonGraph& skeleton,
-                                           const ContinuationOptions& options) {
+                                           const SkeletonGraph& skeleton) {
   std::vector<BranchContinuation> wires;
-  for (const BranchContinuation& path : FindContinuations(skeleton, options)) {
+  for (const BranchContinuation& path : FindContinuations(skeleton)) {
     double most = 0;
     BranchContinuation best;
     for (BranchContinuation& turned : WithShifts(skeleton, path)) {
@@ -96,12 +95,11 @@ std::vector<BranchContinuation> WiresAhead(const WireSilhouettes& silhouettes, d
 }  // namespace
 
 int ContinueWires(const WireSilhouettes& silhouettes, double min_share, SkeletonGraph& skeleton) {
-  const ContinuationOptions options;
   int count = 0;
   for (int round = 0; round < kMaxRounds; ++round) {
-    const auto wires = WiresAhead(silhouettes, min_share, skeleton, options);
+    const auto wires = WiresAhead(silhouettes, min_share, skeleton);
     if (wires.empty()) break;
-    AddContinuations(skeleton, wires, options);
+    AddContinuations(skeleton, wires);
     count += static_cast<int>(wires.size());
   }
   return count;

@@ -23,6 +23,7 @@ constexpr double kMaxClearancePx = 40;    // a strip and its background fit in
 constexpr double kBorderPx = 8;           // samples nearer to the image border are left out
 constexpr double kCrossingPx = 8;         // farther along a wire a curve may cross it
 constexpr double kAgreement = 0.25;       // strips this near to the mode count, relative
+constexpr int kMinStrips = 5;             // chosen: an edge with fewer that agree is not measured
 constexpr int kMinOwnStrips = 20;         // to tell that a piece of a wire is thicker or thinner
 constexpr double kAlikeStrips = 3;        // so many strips err together
 constexpr double kCommonError = 0.015;    // relative; of blur and shade, in all strips of a wire
@@ -82,7 +83,7 @@ std::vector<StripWidth> MeasureStrips(const ColourViews& views, std::vector<Curv
   for (const StripWidth& strip : widths) ++strips_of_wire[wires.at(strip.edge)];
   const auto is_measured = [&](EdgeId edge) {
     const auto strips = strips_of_wire.find(wires.at(edge));
-    return strips != strips_of_wire.end() && strips->second >= options.min_strips;
+    return strips != strips_of_wire.end() && strips->second >= kMinStrips;
   };
   std::erase_if(samples, [&](const CurveSample& sample) { return is_measured(sample.edge); });
   if (samples.empty()) return widths;
@@ -145,11 +146,10 @@ std::map<int, Agreement> AgreeByWire(const std::map<int, std::vector<double>>& d
   return agreements;
 }
 
-std::vector<MeasuredDiameter> GaugesOf(const std::map<int, Agreement>& wires,
-                                       const RadiusOptions& options) {
+std::vector<MeasuredDiameter> GaugesOf(const std::map<int, Agreement>& wires) {
   std::vector<MeasuredDiameter> measured;
   for (const auto& [wire, agreed] : wires) {
-    if (agreed.count >= options.min_strips) measured.push_back({agreed.diameter, agreed.count});
+    if (agreed.count >= kMinStrips) measured.push_back({agreed.diameter, agreed.count});
   }
   return FindGauges(std::move(measured));
 }
@@ -194,13 +194,13 @@ void Summarize(const SkeletonGraph& skeleton, const RadiusOptions& options,
   const std::vector<double> all = DiametersOf(estimate.strips);
   estimate.global_radius = 0.5 * Agree(all, options).diameter;
   std::map<int, Agreement> agreed_by_wire = AgreeByWire(by_wire, options);
-  const std::vector<MeasuredDiameter> gauges = GaugesOf(agreed_by_wire, options);
+  const std::vector<MeasuredDiameter> gauges = GaugesOf(agreed_by_wire);
   estimate.unmeasured_radius =
       gauges.empty() ? estimate.global_radius : 0.5 * gauges.front().diameter;
   for (const EdgeId edge : skeleton.Edges()) {
     const Agreement agreed =
         ChooseAgreement(Agree(DiametersOf(by_edge[edge]), options), agreed_by_wire[wires.at(edge)]);
-    if (agreed.count < options.min_strips) {
+    if (agreed.count < kMinStrips) {
       estimate.edges.push_back({edge, 0, 0, agreed.count, {}});
       continue;
     }
@@ -277,19 +277,6 @@ void VisitOptions(RadiusOptions& options, OptionVisitor& visitor) {
   visitor.Visit({"max_diameter", "m", 0.001, 0.2,
                  "Wider strips are no wires. CurveFusion 5 shows wires up to 12 mm."},
                 options.max_diameter);
-  visitor.Visit(
-      {"luma_blur_px", "px", 0.1, 5,
-       "Blur of luma in the strip model, standard deviation. Measured on simulated scans."},
-      options.luma_blur_px);
-  visitor.Visit({"chroma_blur_px", "px", 0.1, 5,
-                 "The same for colour differences, where strips are too alike to calibrate it."},
-                options.chroma_blur_px);
-  visitor.Visit({"min_contrast", "grey levels", 0, 255,
-                 "Colour distance of a strip to both of its sides in the strip model."},
-                options.min_contrast);
-  visitor.Visit(
-      {"min_strips", "", 1, 100000, "An edge with fewer agreeing strips is not measured."},
-      options.min_strips);
 }
 
 }  // namespace curvefusion

@@ -17,10 +17,6 @@ struct RadiusOptions {
   double gauge_strips = 100;
   double search_px = 10;
   double max_diameter = 0.025;
-  double luma_blur_px = 0.95;
-  double chroma_blur_px = 1.4;
-  double min_contrast = 15;
-  int min_strips = 5;
 };
 void VisitOptions(RadiusOptions& options, OptionVisitor& visitor);
 

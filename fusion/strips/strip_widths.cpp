@@ -18,6 +18,7 @@ constexpr int kRounds = 4;                  // colour from widths, widths from c
 constexpr double kClearWidths = 1.5;        // another curve must be farther away
 constexpr int kHalfLengthPx = 4;            // of the stretch that a profile is averaged over
 constexpr double kMinRoomPx = 4;            // less would cut wires off and take the rest for all
+constexpr double kMinContrast = 15;         // grey levels, to both sides; chosen
 constexpr int64_t kGrain = 16;              // samples looked at by one task
 constexpr double kMaxCenterSpreadPx = 1.5;  // from the strips around on the same edge
 constexpr size_t kConsistencyReach = 3;     // strips before and behind one on its edge
@@ -46,8 +47,7 @@ double BackgroundRoom(const FoundStrip& strip) {
 
 // The colour of each edge: its own where it clearly differs from that of all.
 std::map<EdgeId, WireColor> ColorsByEdge(const std::vector<FoundStrip>& strips,
-                                         const std::vector<ColoredStrip>& colored,
-                                         const RadiusOptions& options) {
+                                         const std::vector<ColoredStrip>& colored) {
   std::vector<ColoredStrip> all, clear;
   std::map<EdgeId, std::vector<ColoredStrip>> by_edge;
   for (size_t i = 0; i < strips.size(); ++i) {
@@ -58,7 +58,7 @@ std::map<EdgeId, WireColor> ColorsByEdge(const std::vector<FoundStrip>& strips,
   }
   std::map<EdgeId, WireColor> colors;
   if (all.empty()) return colors;
-  ImageBlur blur{options.luma_blur_px, options.chroma_blur_px};
+  ImageBlur blur;
   blur.chroma_px = CalibrateChromaBlur(all, blur);
   const WireColor estimated = EstimateWireColor(all, blur);
   const WireColor common = DrawnToVanishing(estimated, clear);
@@ -163,7 +163,7 @@ std::vector<FoundStrip> FindStrips(const ColorImage& image, int frame,
     const double half_width_px = options.search_px + 0.5 * max_width_px + kStripMarginPx + 1;
     StripProfile profile = ReadProfile(image, sample, half_width_px, kHalfLengthPx);
     const double search_px = std::min(options.search_px, 0.5 * sample.clearance_px);
-    const auto position = FindStrip(profile, search_px, max_width_px, options.min_contrast);
+    const auto position = FindStrip(profile, search_px, max_width_px, kMinContrast);
     if (position) found[i] = {frame, sample, std::move(profile), *position};
   });
   std::erase_if(found, [](const FoundStrip& strip) { return strip.position.width_px <= 0; });
@@ -176,7 +176,7 @@ std::vector<StripWidth> SolveStripWidths(std::vector<FoundStrip> strips,
   for (int round = 0; round < kRounds; ++round) {
     if (round > 0) Reposition(solved, options.histogram_bin, strips);
     const std::vector<ColoredStrip> colored = MeasureColors(strips);
-    solved = SolveAll(strips, colored, ColorsByEdge(strips, colored, options));
+    solved = SolveAll(strips, colored, ColorsByEdge(strips, colored));
   }
   std::vector<StripWidth> widths;
   for (const size_t i : BestStrips(strips, solved)) {

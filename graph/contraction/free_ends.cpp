@@ -23,6 +23,12 @@ namespace {
 constexpr double kAttachedFactor = 2;
 // Where two ends continue each other this well the longer of their edges vouches for both.
 constexpr double kContinuing = 0.9;
+// All chosen.
+constexpr double kMaxAngle = 1.1;        // radians, at which an end reaches nothing any more
+constexpr double kMaxFacingAngle = 1.2;  // radians, at which two ends do not face each other
+constexpr double kFitLength = 0.015;     // metres: length of the end piece that gives its direction
+constexpr double kSnapDistance = 0.006;  // metres: a curve met so near to its end is met there
+constexpr double kMinLoop = 0.035;       // metres: bridges close no shorter loops
 
 struct FacingEnd : OpenEnd {
   double max_gap;  ///< farther it reaches in no direction
@@ -64,7 +70,7 @@ std::vector<FacingEnd> FreeEnds(const SkeletonGraph& graph, const FreeEndOptions
   std::vector<FacingEnd> ends;
   for (const NodeId node : graph.Nodes()) {
     if (graph.Degree(node) != 1) continue;
-    ends.push_back(WithReach(graph, FreeEnd(graph, node, {.length = options.fit_length}), options));
+    ends.push_back(WithReach(graph, FreeEnd(graph, node, {.length = kFitLength}), options));
   }
   return ends;
 }
@@ -76,7 +82,7 @@ using FacingEnds = std::vector<std::vector<FacingEnd>>;
 FacingEnds FindFacingEnds(const SkeletonGraph& graph, const FreeEndOptions& options) {
   FacingEnds facing;
   if (!graph.Nodes().empty()) facing.resize(graph.Nodes().back() + 1);
-  for (const OpenEnd& end : OpenEnds(graph, {.length = options.fit_length}))
+  for (const OpenEnd& end : OpenEnds(graph, {.length = kFitLength}))
     facing[end.node].push_back(WithReach(graph, end, options));
   return facing;
 }
@@ -131,7 +137,7 @@ double ReachAt(double cosine, double max_gap, double max_angle, double touch_dis
 double ReachForSide(const FacingEnd& end, const Vec3& p, const GapEvidence& evidence,
                     const FreeEndOptions& options) {
   const Vec3 gap = p - end.position;
-  double reach = ReachAt(end.outward.dot(gap.normalized()), options.max_gap, options.max_angle,
+  double reach = ReachAt(end.outward.dot(gap.normalized()), options.max_gap, kMaxAngle,
                          options.touch_distance);
   if (gap.norm() > reach && gap.norm() < reach * (1 + options.evidence_gain)) {
     reach *= 1 + options.evidence_gain * evidence.PointShare(end.position, p);
@@ -146,7 +152,7 @@ double ReachForFacing(const FacingEnd& end, const FacingEnd& other, const Vec3& 
   const double cosine = std::min(end.outward.dot(direction), -other.outward.dot(direction));
   if (!other.is_free && cosine < kContinuing) return 0;
   const double reach =
-      ReachAt(cosine, options.max_facing_gap, options.max_facing_angle, options.touch_distance);
+      ReachAt(cosine, options.max_facing_gap, kMaxFacingAngle, options.touch_distance);
   return std::min(reach, cosine > kContinuing ? std::max(end.max_gap, other.max_gap)
                                               : std::min(end.max_gap, other.max_gap));
 }
@@ -160,7 +166,7 @@ Join MakeJoin(const SkeletonGraph& graph, const std::vector<FacingEnd>& ends, in
   Join join{std::numeric_limits<double>::infinity(), index, target.edge, target.index, nullptr};
   const Vec3& p = graph.edge(target.edge).points[target.index];
   const double length = (p - end.position).norm();
-  const NodeId node = NodeNear(graph, target, options.snap_distance);
+  const NodeId node = NodeNear(graph, target, kSnapDistance);
   if (node == end.node || length <= 0) return join;
   double reach = 0;
   const bool is_free = node >= 0 && graph.Degree(node) == 1;
@@ -176,7 +182,7 @@ Join MakeJoin(const SkeletonGraph& graph, const std::vector<FacingEnd>& ends, in
       join.facing = &other;
     }
   }
-  if (length <= reach && LoopLength(graph, end, target) >= options.min_loop) {
+  if (length <= reach && LoopLength(graph, end, target) >= kMinLoop) {
     join.cost = length / reach;
   }
   return join;
@@ -219,7 +225,7 @@ std::vector<Join> SelectJoins(const SkeletonGraph& graph, const std::vector<Faci
   std::vector<Join> selected;
   for (const Join& join : CandidateJoins(graph, ends, facing, evidence, options)) {
     const NodeId from = ends[join.end].node;
-    const NodeId to = NodeNear(graph, {join.edge, join.index}, options.snap_distance);
+    const NodeId to = NodeNear(graph, {join.edge, join.index}, kSnapDistance);
     if (used[from] || (to >= 0 && used[to])) continue;
     used[from] = 1;
     if (to >= 0 && graph.Degree(to) == 1) used[to] = 1;
@@ -261,13 +267,6 @@ void VisitOptions(FreeEndOptions& options, OptionVisitor& visitor) {
   visitor.Visit(
       {"max_gap", "m", 0, 0.1, "Deviation: how far an end may reach for a curve straight ahead."},
       options.max_gap);
-  visitor.Visit({"max_angle", "rad", 0.01, 1.6,
-                 "Deviation: the angle at which an end reaches nothing any more."},
-                options.max_angle);
-  visitor.Visit({"max_gap_per_length", "", 0, 100,
-                 "Deviation: how far an end may reach over the length of its edge: short pieces "
-                 "are likelier to be noise."},
-                options.max_gap_per_length);
   visitor.Visit({"evidence_gain", "", 0, 10,
                  "Deviation: how much farther, over the gap, an end may reach for a curve where "
                  "points lie all the way."},
@@ -278,23 +277,12 @@ void VisitOptions(FreeEndOptions& options, OptionVisitor& visitor) {
   visitor.Visit({"max_facing_gap", "m", 0, 0.1,
                  "Deviation: how far an end may reach for another end that faces it."},
                 options.max_facing_gap);
-  visitor.Visit({"max_facing_angle", "rad", 0.01, 1.6,
-                 "Deviation: the angle at which two ends do not face each other any more."},
-                options.max_facing_angle);
   visitor.Visit({"touch_distance", "m", 0, 0.1,
                  "Deviation: how far an end reaches ahead whatever the angle."},
                 options.touch_distance);
-  visitor.Visit({"fit_length", "m", 0.001, 0.5,
-                 "Deviation: length of the end piece that gives its direction."},
-                options.fit_length);
   visitor.Visit(
       {"tip_length", "m", 0, 0.1, "Deviation: so much of a free end is noise and straightened."},
       options.tip_length);
-  visitor.Visit({"snap_distance", "m", 0, 0.1,
-                 "Deviation: a bridge that meets a curve this near to its end ends there."},
-                options.snap_distance);
-  visitor.Visit({"min_loop", "m", 0, 1, "Deviation: bridges do not close shorter loops."},
-                options.min_loop);
 }
 
 void StraightenTips(SkeletonGraph& graph, const FreeEndOptions& options) {
@@ -302,8 +290,8 @@ void StraightenTips(SkeletonGraph& graph, const FreeEndOptions& options) {
     if (graph.Degree(node) != 1) continue;
     const EdgeId edge = graph.IncidentEdges(node)[0];
     Polyline points = PointsFrom(graph, node, edge);
-    if (Length(points) < options.tip_length + options.fit_length) continue;
-    points = WithStraightTip(points, options.tip_length, options.fit_length);
+    if (Length(points) < options.tip_length + kFitLength) continue;
+    points = WithStraightTip(points, options.tip_length, kFitLength);
     graph.MoveNode(node, points.front());
     if (graph.edge(edge).nodes[0] != node) std::reverse(points.begin(), points.end());
     graph.SetCurve(edge, std::move(points));
@@ -320,7 +308,7 @@ void CloseFreeEnds(SkeletonGraph& graph, const FreeEndOptions& options,
   std::vector<Bridge> bridges;
   std::map<EdgeId, std::map<int, std::vector<const FacingEnd*>, std::greater<>>> splits;
   for (const Join& join : joins) {
-    const NodeId node = NodeNear(graph, {join.edge, join.index}, options.snap_distance);
+    const NodeId node = NodeNear(graph, {join.edge, join.index}, kSnapDistance);
     const FacingEnd* from = &ends[join.end];
     if (node >= 0) bridges.push_back({from, node, join.facing});
     if (node < 0) splits[join.edge][join.index].push_back(from);

@@ -147,9 +147,6 @@ void VisitOptions(JunctionRefinementOptions& options, OptionVisitor& visitor) {
                  "Deviation: branches are not trusted nearer than this to a junction, where the "
                  "kernel blends them."},
                 options.inner_radius);
-  visitor.Visit({"fit_length", "m", 0.001, 0.5,
-                 "Deviation: length of the lines fitted to branches beyond that."},
-                options.fit_length);
   visitor.Visit({"reach", "m", 0.001, 0.5,
                  "Deviation: how far a junction may move, as it must where wires part at a small "
                  "angle."},
@@ -161,13 +158,6 @@ void VisitOptions(JunctionRefinementOptions& options, OptionVisitor& visitor) {
                  "Deviation: junctions joined by an edge shorter than this are one: the kernel "
                  "cannot tell them apart."},
                 options.min_distance);
-  visitor.Visit({"max_residual", "m", 0, 0.1,
-                 "Deviation: greatest distance of a branch's line from a merged junction, and of "
-                 "two wires where one forks off the other."},
-                options.max_residual);
-  visitor.Visit({"fork_clearance", "m", 0, 0.1,
-                 "Deviation: wires that part at a small angle blend up to this distance."},
-                options.fork_clearance);
   visitor.Visit({"fork_fit_length", "m", 0.001, 0.5,
                  "Deviation: length of the curves that are carried on to where such wires meet."},
                 options.fork_fit_length);

@@ -9,12 +9,14 @@ namespace curvefusion {
 /// the junction, which blurs it by the kernel's width.
 struct JunctionRefinementOptions {
   double inner_radius = 0.007;
-  double fit_length = 0.018;
+  double fit_length = 0.018;  ///< metres: length of the lines fitted to branches beyond that
   double reach = 0.025;
   double merge_distance = 0.014;
   double min_distance = 0.0085;
+  /// Metres: greatest distance of a branch's line from a merged junction, and of two wires where
+  /// one forks off the other.
   double max_residual = 0.0035;
-  double fork_clearance = 0.0085;
+  double fork_clearance = 0.0085;  ///< metres: wires that part at a small angle blend up to this
   double fork_fit_length = 0.05;
 };
 void VisitOptions(JunctionRefinementOptions& options, OptionVisitor& visitor);

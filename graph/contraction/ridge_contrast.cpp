@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "kernel/parallel.h"
+#include "kernel/point_grid.h"
 
 namespace curvefusion {
 
@@ -15,6 +16,16 @@ constexpr int kGrain = 32;
 constexpr int kDirectionsAcross = 4;
 // Rays of points agree where their mean, without its part along the ridge, is longer than this.
 constexpr double kLeastRay = 0.5;
+// Chosen: a weak ridge of which both sides hold more than this part of its own points is noise.
+constexpr double kMaxFlank = 0.3;
+
+// What was seen of a place.
+double CountWithin(const PointGrid& grid, const std::vector<float>& counts, const Vec3& center,
+                   double radius) {
+  double sum = 0;
+  grid.ForEachWithin(center, radius, [&](int i, const Vec3&) { sum += counts[i]; });
+  return sum;
+}
 
 // The mean viewing ray of the points in a ball, the longer the more they agree.
 Vec3 MeanRay(const PointGrid& grid, const ObservedPoints& points, const Vec3& center,
@@ -52,30 +63,10 @@ double FullestFlank(const PointGrid& grid, const ObservedPoints& points, const V
 }  // namespace
 
 void VisitOptions(RidgeContrastOptions& options, OptionVisitor& visitor) {
-  visitor.Visit({"ball_radius", "m", 0.0005, 0.05,
-                 "Deviation: what was seen of a place are the points within this distance."},
-                options.ball_radius);
-  visitor.Visit({"flank_distance", "m", 0.001, 0.05,
-                 "Deviation: how far beside a ridge noise is looked for."},
-                options.flank_distance);
-  visitor.Visit({"neighbourhood", "m", 0.001, 0.2,
-                 "Deviation: a ridge is compared with the best one within this distance."},
-                options.neighbourhood);
-  visitor.Visit({"max_flank", "", 0, 100,
-                 "Deviation: a weak ridge of which both sides hold more than this part of its own "
-                 "points is noise."},
-                options.max_flank);
   visitor.Visit({"min_share", "", 0, 1,
                  "Deviation: a ridge is weak with less than this part of the points of the best "
                  "one nearby."},
                 options.min_share);
-}
-
-double CountWithin(const PointGrid& grid, const std::vector<float>& counts, const Vec3& center,
-                   double radius) {
-  double sum = 0;
-  grid.ForEachWithin(center, radius, [&](int i, const Vec3&) { sum += counts[i]; });
-  return sum;
 }
 
 std::vector<char> StandsOut(const ObservedPoints& points, const std::vector<Vec3>& places,
@@ -96,7 +87,7 @@ std::vector<char> StandsOut(const ObservedPoints& points, const std::vector<Vec3
                               [&](int j, const Vec3&) { best = std::max(best, own[j]); });
     if (own[i] >= options.min_share * best) return;
     stands_out[i] =
-        FullestFlank(grid, points, places[i], directions[i], options) <= options.max_flank * own[i];
+        FullestFlank(grid, points, places[i], directions[i], options) <= kMaxFlank * own[i];
   });
   return stands_out;
 }

@@ -34,6 +34,9 @@ constexpr double kCellPerSpacing = 1.6;
 constexpr double kCellPerRadius = 0.35;
 // After so many steps most seeds have come together and need not all be followed to the end.
 constexpr int kGatheringIterations = 3;
+constexpr int kIterations = 30;  // chosen: most mean-shift steps of a point
+// Chosen: what is seen less often than this part of the median stays weak: it is outliers.
+constexpr double kLeastRelativeCount = 0.05;
 
 struct RidgeSeed {
   Vec3 position;
@@ -268,7 +271,7 @@ RidgePoints WiresOfTheirOwn(const ObservedPoints& points, const std::vector<Ridg
 // The ridge points to which seeds near ridges lead.
 RidgePoints RidgesFrom(const ObservedPoints& observed, const std::vector<DensityField>& levels,
                        std::vector<RidgeSeed> seeds, const RidgeProjectionOptions& options) {
-  ProjectSeeds(levels, {MomentsAbout::kSeed, options.iterations, options.stretch}, seeds);
+  ProjectSeeds(levels, {MomentsAbout::kSeed, kIterations, options.stretch}, seeds);
   seeds = ThinOut(seeds, options.spacing);
   const int widest_level = static_cast<int>(levels.size()) - 1;
   return WiresOfTheirOwn(observed, TrueRidgeSeeds(seeds, widest_level, options), widest_level,
@@ -289,24 +292,11 @@ void VisitOptions(RidgeProjectionOptions& options, OptionVisitor& visitor) {
   visitor.Visit({"sigma_per_thickness", "", 0, 10,
                  "Deviation: width of the kernel over the rms half width of the points across."},
                 options.sigma_per_thickness);
-  visitor.Visit({"equalization_radius", "m", 0.0005, 0.1,
-                 "Deviation: counts are divided by what is usual within this distance, so that "
-                 "parts seen seldom hold their own beside parts seen often."},
-                options.equalization_radius);
-  visitor.Visit({"least_relative_count", "", 0, 1,
-                 "Deviation: what is seen less often than this part of the median stays weak: it "
-                 "is outliers."},
-                options.least_relative_count);
-  visitor.Visit({"iterations", "", 1, 1000, "Deviation: most mean-shift steps of a point."},
-                options.iterations);
   visitor.Visit({"spacing", "m", 0.0002, 0.02, "Deviation: least distance of ridge points."},
                 options.spacing);
   visitor.Visit({"min_relative_strength", "", 0, 1,
                  "Deviation: ridge points weaker than this part of the typical one are outliers."},
                 options.min_relative_strength);
-  visitor.Visit({"strength_radius", "m", 0.001, 0.1,
-                 "Deviation: neighbourhood in which ridge points are compared."},
-                options.strength_radius);
   visitor.Visit({"min_local_strength", "", 0, 1,
                  "Deviation: ridge points weaker than this part of what is typical in their "
                  "neighbourhood lie beyond an end or beside a wire."},
@@ -341,7 +331,7 @@ ObservedPoints ShiftAlongRays(const ObservedPoints& points, const std::vector<do
 RidgePoints ProjectToRidges(const ObservedPoints& points, const RidgeProjectionOptions& options) {
   const ObservedPoints observed = UsablePoints(points);
   ObservedPoints usable = observed;
-  EqualizeCounts(usable, options.equalization_radius, options.least_relative_count);
+  EqualizeCounts(usable, options.equalization_radius, kLeastRelativeCount);
   const std::vector<DensityField> levels = MakeLevels(usable, options);
   std::vector<RidgeSeed> seeds = MakeSeeds(usable, levels, options);
   // Step by step, so that seeds that share their neighbours follow one another.
@@ -355,7 +345,7 @@ RidgePoints FollowRidges(const ObservedPoints& points, const RidgePoints& before
                          const RidgeProjectionOptions& options) {
   const ObservedPoints observed = UsablePoints(points);
   ObservedPoints usable = observed;
-  EqualizeCounts(usable, options.equalization_radius, options.least_relative_count);
+  EqualizeCounts(usable, options.equalization_radius, kLeastRelativeCount);
   std::vector<RidgeSeed> seeds;
   for (size_t i = 0; i < before.size(); ++i) {
     // Those between close the gaps that thinning out would widen from time to time.

@@ -16,12 +16,12 @@ struct RidgeProjectionOptions {
   double kernel_sigma = 0.0035;
   double max_sigma = 0.007;
   double sigma_per_thickness = 1.3;
+  /// Metres: counts are divided by what is usual so near, so that parts seen seldom hold their own
+  /// beside parts seen often.
   double equalization_radius = 0.01;
-  double least_relative_count = 0.05;
-  int iterations = 30;
   double spacing = 0.0015;
   double min_relative_strength = 0.05;
-  double strength_radius = 0.01;
+  double strength_radius = 0.01;  ///< metres: neighbourhood in which ridge points are compared
   double min_local_strength = 0.4;
   double max_elongation = 1.6;
   double stretch = 2;

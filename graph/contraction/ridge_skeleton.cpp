@@ -74,8 +74,6 @@ void VisitOptions(RidgeOptions& options, OptionVisitor& visitor) {
   VisitOptions(options.projection, visitor);
   visitor.BeginSection("curve_network");
   VisitOptions(options.network, visitor);
-  visitor.BeginSection("ridge_edges");
-  VisitOptions(options.edges, visitor);
   visitor.BeginSection("free_ends");
   VisitOptions(options.free_ends, visitor);
   visitor.BeginSection("junction_refinement");
@@ -102,14 +100,12 @@ SkeletonGraph ExtractRidgeSkeleton(const ObservedPoints& observed, const RidgePo
                                    const RidgeOptions& options) {
   const ObservedPoints points = FinitePoints(observed);
   SkeletonGraph graph = ConnectRidgePoints(ridge, options.network);
-  DropNoiseEdges(graph, points, options.edges);
   DropSmallComponents(graph, options.fragment_length);
   SmoothEdges(graph, options.smoothing_length, options.step);
   StraightenTips(graph, options.free_ends);
   // Ends that miss a junction in its blurred place may meet it in its right one.
   for (int round = 0; round < 2; ++round) {
     CloseFreeEnds(graph, options.free_ends, points);
-    DropNoiseEdges(graph, points, options.edges);
     RefineJunctions(graph, options.junctions);
     MergeParallelEdges(graph, options.junctions.min_distance);
     DropShortLoops(graph, options.network.min_loop);

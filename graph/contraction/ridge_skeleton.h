@@ -3,7 +3,6 @@
 #include "graph/contraction/curve_network.h"
 #include "graph/contraction/free_ends.h"
 #include "graph/contraction/junction_refinement.h"
-#include "graph/contraction/ridge_edges.h"
 #include "graph/contraction/ridge_projection.h"
 #include "graph/skeleton_graph.h"
 #include "kernel/observed_points.h"
@@ -15,7 +14,6 @@ namespace curvefusion {
 struct RidgeOptions {
   RidgeProjectionOptions projection;
   CurveNetworkOptions network;
-  RidgeEdgeOptions edges;
   FreeEndOptions free_ends;
   JunctionRefinementOptions junctions;
   double fragment_length = 0.008;

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "fusion/best/measure_trust.h"
+#include "fusion/curve_graph/wire_proof.h"
 #include "fusion/pipeline.h"
 
 namespace curvefusion {

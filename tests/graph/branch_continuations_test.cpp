@@ -27,7 +27,7 @@ SkeletonGraph Comb() {
 
 std::vector<BranchContinuation> Downward(const SkeletonGraph& graph) {
   std::vector<BranchContinuation> downward;
-  for (BranchContinuation& path : FindContinuations(graph, {})) {
+  for (BranchContinuation& path : FindContinuations(graph)) {
     if (path.curve.back().y() < path.curve.front().y() - 0.02) downward.push_back(path);
   }
   return downward;
@@ -63,18 +63,20 @@ TEST(FindContinuations, LeadToAnEndThatFacesOnce) {
   SkeletonGraph graph;
   graph.AddPolyline(StraightLine({-0.06, 0, 0}, {0, 0, 0}));
   graph.AddPolyline(StraightLine({0.04, 0.002, 0}, {0.1, 0.002, 0}));
-  const auto paths = FindContinuations(graph, {});
+  const auto paths = FindContinuations(graph);
   ASSERT_EQ(paths.size(), 1u);
   EXPECT_GE(paths[0].to, 0);
   EXPECT_EQ(paths[0].curve.back(), graph.position(paths[0].to));
 }
 
 TEST(FindContinuations, ReachNoFartherThanTheyMay) {
-  SkeletonGraph graph = Comb();
-  ContinuationOptions options;
-  options.max_gap = 0.03;
-  EXPECT_TRUE(FindContinuations(graph, options).empty());
-  EXPECT_TRUE(FindContinuations({}, {}).empty());
+  for (const double gap : {0.055, 0.08}) {
+    SkeletonGraph graph;
+    graph.AddPolyline(StraightLine({0, 0, 0}, {0.1, 0, 0}));
+    graph.AddPolyline(StraightLine({0.05, gap, 0}, {0.05, gap + 0.1, 0}));
+    EXPECT_EQ(FindContinuations(graph).size(), gap < 0.06 ? 1u : 0u);
+  }
+  EXPECT_TRUE(FindContinuations({}).empty());
 }
 
 TEST(AddContinuations, MakeCyclesOfAComb) {
@@ -85,7 +87,7 @@ TEST(AddContinuations, MakeCyclesOfAComb) {
   }
   EXPECT_EQ(graph.CycleRank(), 0);
   const auto paths = Downward(graph);
-  AddContinuations(graph, paths, {});
+  AddContinuations(graph, paths);
   EXPECT_EQ(graph.CycleRank(), 1);
   EXPECT_EQ(graph.ComponentCount(), 1);
   EXPECT_EQ(CountDegree(graph, 4), 2);

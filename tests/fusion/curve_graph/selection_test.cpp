@@ -32,8 +32,8 @@ struct Edge {
       proofs.push_back({log_odds[i], doubt, log_odds[i], 0});
     }
   }
-  double Keep(double min_probability = 0.5) {
-    return KeepProven(evidence, proofs, min_probability, skeleton, uncertain);
+  double Keep(const ProofLimits& limits = {.usual = 0.5}) {
+    return KeepProven(evidence, proofs, limits, skeleton, uncertain);
   }
 };
 
@@ -112,16 +112,51 @@ TEST(KeepProven, CountsByWhatSpeaksAgainstIt) {
   EXPECT_NEAR(unknown.uncertain.lengths.Sum(), kStep, 1e-12);
 }
 
+// Probabilities of .3 and .6, then none at all.
+Edge Doubtful(int doubtful, int likelier) {
+  std::vector<double> log_odds(doubtful, -0.85);
+  log_odds.insert(log_odds.end(), likelier, 0.4);
+  log_odds.insert(log_odds.end(), 2, -5);
+  return Edge(log_odds);
+}
+
+TEST(KeepProven, WantsMoreOfAPartThatIsHardlyWire) {
+  Edge lenient = Doubtful(60, 60), strict = lenient;
+  lenient.Keep({.usual = 0.2});
+  EXPECT_NEAR(lenient.skeleton.TotalLength(), 120 * kStep, 1e-9);
+  strict.Keep({.usual = 0.2, .doubtful = 0.5});
+  EXPECT_NEAR(strict.skeleton.TotalLength(), 60 * kStep, 1e-9);
+  EXPECT_NEAR(strict.uncertain.graph.TotalLength(), 62 * kStep, 1e-9);
+  for (const NodeId node : strict.skeleton.Nodes()) {
+    EXPECT_GE(strict.skeleton.position(node).x(), 60 * kStep - 1e-9);
+    EXPECT_LE(strict.skeleton.position(node).x(), 120 * kStep + 1e-9);
+  }
+}
+
+TEST(KeepProven, WantsMuchOfWhatIsLeftOfSuchAPart) {
+  Edge edge = Doubtful(20, 20);  // what is left would be worth 8
+  edge.Keep({.usual = 0.2, .doubtful = 0.5});
+  EXPECT_TRUE(edge.skeleton.empty());
+}
+
+TEST(KeepProven, KeepsTheUsualLimitWhereMuchIsLikely) {
+  std::vector<double> log_odds(30, -0.85);
+  log_odds.insert(log_odds.end(), 8, 1.5);  // .32 m
+  Edge edge(log_odds);
+  edge.Keep({.usual = 0.2, .doubtful = 0.5});
+  EXPECT_NEAR(edge.skeleton.TotalLength(), 38 * kStep, 1e-12);
+}
+
 TEST(KeepProven, ZeroKeepsAll) {
   Edge edge({-3, -3});
-  EXPECT_NEAR(edge.Keep(0), 2 * kStep * Probability(-3), 1e-12);
+  EXPECT_NEAR(edge.Keep({}), 2 * kStep * Probability(-3), 1e-12);
   EXPECT_NEAR(edge.skeleton.TotalLength(), 2 * kStep, 1e-12);
 }
 
 TEST(KeepProven, OfNothingIsNothing) {
   SkeletonGraph skeleton;
   UncertainCurves uncertain;
-  EXPECT_EQ(KeepProven({}, {}, 0.5, skeleton, uncertain), 0);
+  EXPECT_EQ(KeepProven({}, {}, {.usual = 0.5}, skeleton, uncertain), 0);
 }
 
 }  // namespace

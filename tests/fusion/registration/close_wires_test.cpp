@@ -26,7 +26,6 @@ TEST(ForCloseWires, DividesLengthsAlone) {
   EXPECT_EQ(close.kernel_sigma, options.kernel_sigma / 2);
   EXPECT_EQ(close.contrast.flank_distance, options.contrast.flank_distance / 2);
   EXPECT_EQ(close.min_local_strength, options.min_local_strength);
-  EXPECT_EQ(close.iterations, options.iterations);
 }
 
 // Six wires 8 mm apart, 150 mm long, measured to 1 mm.

@@ -28,7 +28,7 @@ TEST(ColourEdges, FindsAStepInOneChannel) {
 }
 
 TEST(ColourEdges, AnEvenImageHasNone) {
-  const MaskImage edges = ColourEdges(TwoHalves({100, 100, 100}), {});
+  const MaskImage edges = ColourEdges(TwoHalves({100, 100, 100}));
   for (size_t i = 0; i < edges.size(); ++i) EXPECT_EQ(edges.data()[i], 0);
 }
 
@@ -37,14 +37,13 @@ TEST(MaskPixelsOnEdges, FollowsTheRegistration) {
   edges(40, 24) = 1;
   const DepthImage depth(64, 48, 0.6f);
   const MaskImage all(64, 48, 1);
-  ColourEdgeOptions exact;
-  exact.tolerance_px = 0;
+  constexpr double kExact = 0;
   RigidTransform T_color_depth = RigidTransform::Identity();
-  EXPECT_EQ(MaskPixelsOnEdges(all, depth, edges, kCamera, kCamera, T_color_depth, exact)(40, 24),
+  EXPECT_EQ(MaskPixelsOnEdges(all, depth, edges, kCamera, kCamera, T_color_depth, kExact)(40, 24),
             1);
   T_color_depth.translation() = Vec3(0.05, 0, 0);  // 60 px * 0.05 / 0.6 = 5 px to the right
   const MaskImage shifted =
-      MaskPixelsOnEdges(all, depth, edges, kCamera, kCamera, T_color_depth, exact);
+      MaskPixelsOnEdges(all, depth, edges, kCamera, kCamera, T_color_depth, kExact);
   EXPECT_EQ(shifted(40, 24), 0);
   EXPECT_EQ(shifted(35, 24), 1);
 }
@@ -53,7 +52,7 @@ TEST(MaskPixelsOnEdges, OnlyMaskPixelsCount) {
   const MaskImage edges(64, 48, 1), none(64, 48, 0);
   const DepthImage depth(64, 48, 0.6f);
   const MaskImage on_edge =
-      MaskPixelsOnEdges(none, depth, edges, kCamera, kCamera, RigidTransform::Identity(), {});
+      MaskPixelsOnEdges(none, depth, edges, kCamera, kCamera, RigidTransform::Identity(), 1);
   for (size_t i = 0; i < on_edge.size(); ++i) EXPECT_EQ(on_edge.data()[i], 0);
 }
 

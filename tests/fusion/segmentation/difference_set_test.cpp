@@ -75,7 +75,7 @@ TEST(ImageDifferenceSet, KnowsTheSizeOfSmallerRenderingsThatWasRounded) {
 TEST(ImageDifferenceSet, NoiseOfASurfaceIsNotThin) {
   const DepthImage wall(kCamera.width, kCamera.height, kWall);
   // Two standard deviations in front: less than the default three.
-  const auto noisy = static_cast<float>(kWall - 2 * DepthNoise(kWall, {}));
+  const auto noisy = static_cast<float>(kWall - 2 * DepthNoise(kWall));
   EXPECT_EQ(Count(ImageDifferenceSet(DepthImage(160, 120, noisy), wall, wall, {})), 0);
 }
 

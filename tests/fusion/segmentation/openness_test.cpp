@@ -22,14 +22,8 @@ DepthImage RawDepth(int every) {
   return depth;
 }
 
-OpennessOptions Asked() {
-  OpennessOptions options;
-  options.stride = 1;
-  return options;
-}
-
 OpennessGrid GridOf(const DepthImage& depth, const DepthImage& rendering) {
-  OpennessGrid grid(Asked());
+  OpennessGrid grid;
   for (int i = 0; i < 10; ++i) grid.AddFrame(depth, rendering, kRendered, kPose);
   grid.Pool();
   return grid;
@@ -51,7 +45,7 @@ TEST(Openness, MarksTheGrilleAlone) {
 
 TEST(Openness, NoiseDoesNotPass) {
   DepthImage depth = RawDepth(0);
-  for (size_t i = 0; i < depth.size(); i += 3) depth.data()[i] = 1.015f;  // within passing_depth
+  for (size_t i = 0; i < depth.size(); i += 3) depth.data()[i] = 1.015f;  // within 20 mm
   EXPECT_EQ(GridOf(depth, DepthImage(160, 120, 1.0f)).Share(Vec3(0, 0, 1.0)), 0);
 }
 
