@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kMaxScore = 4;    // of one stretch: no more of it is calibrated
 constexpr double kChangeCost = 2;  // chosen: a change along an edge needs a stretch of 88 %
-constexpr double kPartCost = 1;    // chosen: a part of its own needs a stretch of 53 %
+constexpr double kPartCost = 4;    // chosen: a part of its own needs a stretch that is certain
 // Chosen: a doubtful one and one where no image shows a strip need .2 m that are certain. Of 44
 // such parts without strips in training scans 43 were no wires, worth 14 at most (docs/proof.md).
 constexpr double kLargePartCost = 20;
@@ -254,10 +254,10 @@ double KeepProven(const std::vector<StretchEvidence>& evidence,
     const auto select = [&] {
       selector.DecideAlongEdges();
       selector.Cut(skeleton, uncertain);
-      selector.DropSmallParts(skeleton, uncertain);
     };
     select();
     if (limits.doubtful > limits.usual && selector.RaiseLimits(limits.doubtful, skeleton)) select();
+    selector.DropSmallParts(skeleton, uncertain);
     selector.RememberRefuted(uncertain);
     skeleton.DissolveDegree2Nodes();
   }
