@@ -6,4 +6,14 @@ namespace curvefusion {
 /// Elberink 2012); generous for other cameras.
 inline constexpr double kNoisePerSquaredDepth = 1.425e-3;
 
+/// A step between neighbouring pixels of one surface over the square of the depth, 1/m: 3.5
+/// standard deviations.
+inline constexpr double kStepPerSquaredDepth = 0.005;
+
+/// What lies so many standard deviations before a surface is none of it, CurveFusion 4.1.
+inline constexpr double kClearDeviations = 3;
+
+/// Standard deviation at a depth, metres.
+inline double DepthNoise(double depth) { return kNoisePerSquaredDepth * depth * depth; }
+
 }  // namespace curvefusion

@@ -1,4 +1,3 @@
-# CGAL puts its own FindEigen3 on the module path, so Eigen is always looked up in CONFIG mode.
 # A library of one header and no CMake config, as Debian ships them; folders of the header follow.
 function(curvefusion_find_library name library header)
   find_path(${name}_INCLUDE_DIR ${header} PATH_SUFFIXES ${ARGN} REQUIRED)
@@ -11,6 +10,7 @@ function(curvefusion_find_library name library header)
 endfunction()
 
 find_package(Threads REQUIRED)
+# CGAL puts its own FindEigen3 on the module path, so Eigen is always looked up in CONFIG mode.
 find_package(Eigen3 3.4 CONFIG REQUIRED)
 find_package(CGAL 5.5 CONFIG REQUIRED)
 find_package(Boost 1.74 CONFIG REQUIRED COMPONENTS graph)

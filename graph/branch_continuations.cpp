@@ -19,9 +19,10 @@ namespace {
 // Chosen, in metres unless said; a shorter gap is left to the closing of free ends.
 constexpr double kMaxGap = 0.060;
 constexpr double kMinGap = 0.010;
-constexpr double kBaseMiss = 0.004;  // so near to a curve the path ahead meets it,
-constexpr double kMissPerGap =
-    0.15;  // and so much farther for each metre: directions are not exact
+// So near to a curve the path ahead meets it, and so much farther for each metre: directions are
+// not exact.
+constexpr double kBaseMiss = 0.004;
+constexpr double kMissPerGap = 0.15;
 constexpr double kFitLength = 0.020;     // of the end piece that gives the direction
 constexpr double kSnapDistance = 0.006;  // a curve that is met so near to its end is met there
 constexpr double kStep = 0.0015;

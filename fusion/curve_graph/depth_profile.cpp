@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "capture/depth_noise.h"
+
 namespace curvefusion {
 
 namespace {
@@ -15,10 +17,8 @@ constexpr double kBesidePx = 1;      // block matching widens outlines
 // Khoshelham's 1.425 mm z^2, at depth z in metres.
 constexpr double kToleranceNear = 0.015;
 constexpr double kToleranceFar = 0.0043;  // 1/m
-// Steps between neighbouring pixels of one surface: 3.5 standard deviations of a difference, as in
-// DepthOpeningOptions, and what a surface at 60 degrees adds.
+// Metres; derived: what a surface at 60 degrees adds to the noise of a step between pixels.
 constexpr double kStepNear = 0.005;
-constexpr double kStepFar = 0.005;  // 1/m
 // Derived: beyond 63 degrees a surface is not told from the ramp that sensors lay between near and
 // far things.
 constexpr double kSteep = 2;
@@ -28,7 +28,7 @@ constexpr int kMaxGapPx = 4;     // without a measurement; the shadow beside a w
 constexpr double kAlongPerAcross = 3;
 
 double DepthTolerance(double z) { return kToleranceNear + kToleranceFar * z * z; }
-double DepthStep(double z) { return kStepNear + kStepFar * z * z; }
+double DepthStep(double z) { return kStepNear + kStepPerSquaredDepth * z * z; }
 
 // The line of pixels across a curve.
 struct Line {

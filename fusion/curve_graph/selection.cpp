@@ -14,9 +14,9 @@ namespace curvefusion {
 
 namespace {
 
-constexpr double kMaxScore = 4;    // of one stretch: no more of it is calibrated
-constexpr double kChangeCost = 2;  // chosen: a change along an edge needs a stretch of 88 %
-constexpr double kPartCost = 4;    // chosen: a part of its own needs a stretch that is certain
+constexpr double kMaxScore = 4;          // of one stretch: no more of it is calibrated
+constexpr double kChangeCost = 2;        // chosen: a change along an edge needs a stretch of 88 %
+constexpr double kPartCost = kMaxScore;  // chosen: a part of its own needs a certain stretch
 // Chosen: a doubtful one and one where no image shows a strip need .2 m that are certain. Of 44
 // such parts without strips in training scans 43 were no wires, worth 14 at most (docs/proof.md).
 constexpr double kLargePartCost = 20;
@@ -81,10 +81,11 @@ void AddLength(const StretchEvidence& stretch, Doubt doubt, UnprovenLengths& len
 class Selector {
  public:
   Selector(const std::vector<StretchEvidence>& evidence, const std::vector<WireProof>& proofs,
-           double min_probability)
+           const ProofLimits& limits)
       : evidence_(evidence),
         proofs_(proofs),
-        thresholds_(evidence.size(), LogOdds(min_probability)),
+        usual_(LogOdds(limits.usual)),
+        doubtful_(LogOdds(limits.doubtful)),
         is_doubtful_(evidence.size()),
         kept_(evidence.size(), true) {
     for (size_t i = 0; i < evidence.size(); ++i) stretches_of_[evidence[i].edge].push_back(i);
@@ -116,22 +117,19 @@ class Selector {
     skeleton.RemoveIsolatedNodes();
   }
 
-  // Raises the limit of doubtful parts, and of all where the whole is doubtful; whether of any.
-  bool RaiseLimits(double min_probability, const SkeletonGraph& skeleton) {
-    bool is_raised = false;
+  // Finds doubtful parts, which are all where the whole is doubtful; whether there are any.
+  bool FindDoubtful(const SkeletonGraph& skeleton) {
+    bool is_any = false;
     std::vector<std::vector<EdgeId>> parts = ConnectedEdges(skeleton);
     parts.push_back(skeleton.Edges());
     for (const std::vector<EdgeId>& part : parts) {
       if (!IsDoubtful(part)) continue;
-      is_raised = true;
+      is_any = true;
       for (const EdgeId id : part) {
-        for (const size_t i : stretches_of_.at(id)) {
-          thresholds_[i] = LogOdds(min_probability);
-          is_doubtful_[i] = true;
-        }
+        for (const size_t i : stretches_of_.at(id)) is_doubtful_[i] = true;
       }
     }
-    return is_raised;
+    return is_any;
   }
 
   // Metres of what is left that are wire, as far as the proofs can be believed.
@@ -187,7 +185,8 @@ class Selector {
   static double LogOdds(double probability) { return std::log(probability / (1 - probability)); }
 
   double Score(size_t i) const {
-    return std::clamp(proofs_[i].log_odds - thresholds_[i], -kMaxScore, kMaxScore);
+    const double threshold = is_doubtful_[i] ? doubtful_ : usual_;
+    return std::clamp(proofs_[i].log_odds - threshold, -kMaxScore, kMaxScore);
   }
 
   bool IsDoubtful(const std::vector<EdgeId>& part) const {
@@ -238,8 +237,8 @@ class Selector {
 
   const std::vector<StretchEvidence>& evidence_;
   const std::vector<WireProof>& proofs_;
-  std::vector<double> thresholds_;  // log-odds, of every stretch
-  std::vector<bool> is_doubtful_;   // whether its part was
+  double usual_, doubtful_;        // limits, as log-odds
+  std::vector<bool> is_doubtful_;  // of every stretch, whether its part was
   std::vector<bool> kept_;
   std::map<EdgeId, std::vector<size_t>> stretches_of_;  // of the edges that are left
 };
@@ -249,14 +248,14 @@ class Selector {
 double KeepProven(const std::vector<StretchEvidence>& evidence,
                   const std::vector<WireProof>& proofs, const ProofLimits& limits,
                   SkeletonGraph& skeleton, UncertainCurves& uncertain) {
-  Selector selector(evidence, proofs, limits.usual);
+  Selector selector(evidence, proofs, limits);
   if (limits.usual > 0) {
     const auto select = [&] {
       selector.DecideAlongEdges();
       selector.Cut(skeleton, uncertain);
     };
     select();
-    if (limits.doubtful > limits.usual && selector.RaiseLimits(limits.doubtful, skeleton)) select();
+    if (limits.doubtful > limits.usual && selector.FindDoubtful(skeleton)) select();
     selector.DropSmallParts(skeleton, uncertain);
     selector.RememberRefuted(uncertain);
     skeleton.DissolveDegree2Nodes();

@@ -19,7 +19,6 @@ DepthOpeningOptions Opening(const SurfaceRemovalOptions& options) {
   return opening;
 }
 
-constexpr double kNoiseFactor = 3;
 // Kinect V1: nearer depth is below its range; farther depth lies on no thin structure (noise of
 // three standard deviations exceeds the thickness of what is scanned by far).
 constexpr double kMinDepth = 0.2;
@@ -27,7 +26,7 @@ constexpr double kMaxDepth = 3.0;
 
 // How far from a large surface a depth must lie.
 double Separation(double depth, const SurfaceRemovalOptions& options) {
-  return std::max(options.separation, kNoiseFactor * kNoisePerSquaredDepth * depth * depth);
+  return std::max(options.separation, kClearDeviations * DepthNoise(depth));
 }
 
 // Whether a surface that opening has left comes nearer to a depth pixel than `separation`.

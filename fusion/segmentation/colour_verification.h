@@ -3,17 +3,17 @@
 #include "kernel/camera.h"
 #include "kernel/geometry.h"
 #include "kernel/image.h"
-#include "kernel/options.h"
 
 namespace curvefusion {
 
-/// Curve edges of the colour images, with which candidates are verified, CurveFusion 4.1.
+/// Gradients in grey levels; chosen: CurveFusion 4.1 detects edges and gives no values.
 struct CannyThresholds {
-  double low = 40;
-  double high = 100;
+  double low = 40;    ///< at which an edge goes on
+  double high = 100;  ///< at which it begins
 };
 
-/// Colour edges (Canny on the channel with the strongest gradient), 1 on an edge.
+/// Colour edges (Canny on the channel with the strongest gradient), 1 on an edge. Candidates are
+/// verified with them, CurveFusion 4.1.
 MaskImage ColourEdges(const ColorImage& color, const CannyThresholds& thresholds = {});
 
 /// 1 at every pixel of `mask` (a mask of the depth image) whose point projects within tolerance_px

@@ -9,6 +9,7 @@
 #include <limits>
 #include <vector>
 
+#include "capture/depth_noise.h"
 #include "kernel/error.h"
 
 namespace curvefusion {
@@ -33,9 +34,7 @@ namespace {
 
 // A surface seen at more than 85 degrees from its normal cannot be told from a discontinuity.
 constexpr float kSteepestSlope = 11.4f;
-// 1/m: steps up to that times depth squared are noise, 3.5 standard deviations of a Kinect V1
-// (Khoshelham 2012).
-constexpr float kNoisePerSquare = 0.005f;
+constexpr auto kStepNoise = static_cast<float>(kStepPerSquaredDepth);
 // What is less solid was seen through: 1 = solid, 0 and less = mostly seen through. Chosen not far
 // above 0: behind a table seen at a grazing angle by some frames and from above by others it is a
 // small share only, but not negative.
@@ -77,7 +76,7 @@ class SurfaceLinks {
     const float a = depth_(u, v), b = depth_(u + du, v + dv);
     if (a > 0 && b > 0) {
       const float near = std::min(a, b), step = std::abs(a - b);
-      const float tolerance = std::max(discontinuity_, kNoisePerSquare * near * near);
+      const float tolerance = std::max(discontinuity_, kStepNoise * near * near);
       if (step <= tolerance ||
           (step <= steepest * near && ContinuesSlope(u, v, du, dv, tolerance))) {
         links_(u, v) |= link;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "capture/depth_noise.h"
 #include "kernel/parallel.h"
 
 namespace curvefusion {
@@ -13,8 +14,6 @@ namespace {
 
 constexpr float kNothing = std::numeric_limits<float>::infinity();
 constexpr int64_t kRowsPerChunk = 16;
-constexpr double kNoiseFactor =
-    3;  // standard deviations in front of the rendering, CurveFusion 4.1
 // Metres. Chosen: farther behind a removed thin part a pixel is background seen past it.
 constexpr double kBehindRemoved = 0.02;
 
@@ -52,7 +51,7 @@ bool IsThin(float depth, float rendered, float kept, float nearest_kept,
             const DifferenceSetOptions& options) {
   if (depth < options.min_depth || depth > options.max_depth) return false;
   if (rendered <= 0 && !options.accept_where_nothing_rendered) return false;
-  const double noise = kNoiseFactor * DepthNoise(depth);
+  const double noise = kClearDeviations * DepthNoise(depth);
   if (depth > nearest_kept - std::max(options.front_distance, noise)) return false;
   const bool removed = rendered > 0 && kept <= 0;
   return !removed || depth < rendered + std::max(kBehindRemoved, noise);
@@ -67,7 +66,7 @@ MaskImage WithNeighbours(const MaskImage& mask, const DepthImage& depth,
     for (int u = 0; u < mask.width(); ++u) {
       if (!mask(u, v)) continue;
       const float z = depth(u, v);
-      const double tolerance = std::max(0.005, kNoiseFactor * DepthNoise(z));
+      const double tolerance = std::max(0.005, kClearDeviations * DepthNoise(z));
       int neighbours = -1;  // not itself
       for (int y = std::max(0, v - 2); y <= std::min(mask.height() - 1, v + 2); ++y) {
         for (int x = std::max(0, u - 2); x <= std::min(mask.width() - 1, u + 2); ++x) {
@@ -105,8 +104,6 @@ void VisitOptions(DifferenceSetOptions& options, OptionVisitor& visitor) {
                  "Farther depth is ignored: thin structures are not measured there."},
                 options.max_depth);
 }
-
-double DepthNoise(double depth) { return kNoisePerSquaredDepth * depth * depth; }
 
 MaskImage ImageDifferenceSet(const DepthImage& depth, const DepthImage& rendering,
                              const DepthImage& kept, const DifferenceSetOptions& options) {

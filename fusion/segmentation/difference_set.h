@@ -1,6 +1,5 @@
 #pragma once
 
-#include "capture/depth_noise.h"
 #include "kernel/camera.h"
 #include "kernel/image.h"
 #include "kernel/options.h"
@@ -17,9 +16,6 @@ struct DifferenceSetOptions {
   double max_depth = 3.0;
 };
 void VisitOptions(DifferenceSetOptions& options, OptionVisitor& visitor);
-
-/// Depth noise (standard deviation, metres) at a depth: kNoisePerSquaredDepth times its square.
-double DepthNoise(double depth);
 
 /// The image difference set: 1 where a raw depth pixel lies in front of what is left of the
 /// volume's rendering after opening, or where nothing is left of it. `rendering` and `kept` (the

@@ -4,6 +4,7 @@
 #include <limits>
 #include <vector>
 
+#include "capture/depth_noise.h"
 #include "capture/frame_stream.h"
 #include "fusion/segmentation/difference_set.h"
 #include "fusion/segmentation/rendered_points.h"
@@ -56,8 +57,8 @@ void OpennessGrid::AddFrame(const DepthImage& depth, const DepthImage& rendering
       const float surface = rendering(u, v);
       const float farthest = FarthestAround(rendering, u, v);
       if (!(surface > 0) || farthest > surface * (1 + slope)) continue;
-      const float limit =
-          farthest + static_cast<float>(std::max(kPassingDepth, 3 * DepthNoise(farthest)));
+      const float limit = farthest + static_cast<float>(std::max(
+                                         kPassingDepth, kClearDeviations * DepthNoise(farthest)));
       Counts seen;
       for (int y = v * factor; y < (v + 1) * factor; ++y) {
         for (int x = u * factor; x < (u + 1) * factor; ++x) {

@@ -27,8 +27,7 @@ class OpennessGrid {
   /// The share of pixels that passed near a point, as of the last Pool; 0 where none was counted.
   double Share(const Vec3& p_world) const;
 
-  /// 1 at the pixels of a rendering where many of the pixels passed. Linear in
-  /// pixels.
+  /// 1 at the pixels of a rendering near which many passed. Linear in pixels.
   MaskImage Grilles(const DepthImage& rendering, const PinholeCamera& camera,
                     const RigidTransform& T_world_camera) const;
 
@@ -48,8 +47,7 @@ class OpennessGrid {
 };
 
 /// What every stride-th frame of a sequence says about the surfaces of the volume of all frames;
-/// nothing for a stride of 0.
-/// Throws Error(kBadInput) for an image that cannot be read.
+/// nothing for a stride of 0. Throws Error(kBadInput) for an image that cannot be read.
 OpennessGrid MeasureOpenness(const Sequence& sequence, const TsdfVolume& volume, int stride);
 
 }  // namespace curvefusion

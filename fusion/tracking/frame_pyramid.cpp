@@ -28,7 +28,7 @@ float SquareDepth(const DepthImage& depth, int first_u, int first_v, int side, f
   if (2 * count < side * side) return 0;
   std::nth_element(values, values + count / 2, values + count);
   const float median = values[count / 2];
-  const float reach = kSameSurface * static_cast<float>(kNoisePerSquaredDepth * median * median);
+  const float reach = kSameSurface * static_cast<float>(DepthNoise(median));
   float sum = 0;
   int near = 0;
   for (int i = 0; i < count; ++i) {

@@ -62,8 +62,7 @@ class PairFinder {
     if (offset.squaredNorm() > kMaxDistance * kMaxDistance) return Pairing::kNoModel;
     pair.distance = pair.normal.dot(offset);
     // Noise runs along the frame's ray.
-    const float sensor =
-        static_cast<float>(kNoisePerSquaredDepth * z * z) * pair.normal.dot(R_ * ray);
+    const float sensor = static_cast<float>(DepthNoise(z)) * pair.normal.dot(R_ * ray);
     pair.noise = std::sqrt(sensor * sensor + kModelNoise * kModelNoise);
     return Pairing::kPaired;
   }

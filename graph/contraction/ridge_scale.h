@@ -4,7 +4,6 @@
 
 #include "kernel/geometry.h"
 #include "kernel/observed_points.h"
-#include "kernel/options.h"
 
 namespace curvefusion {
 

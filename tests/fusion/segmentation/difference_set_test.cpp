@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "capture/depth_noise.h"
 #include "fusion/segmentation/depth_opening.h"
 
 namespace curvefusion {
