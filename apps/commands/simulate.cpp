@@ -66,9 +66,9 @@ double SpacingOf(const SimulateArguments& arguments) {
 
 // What `random` draws itself must not be given as well.
 void RefuseDrawnOptions(const CLI::App& command) {
-  static const std::set<std::string> kOwn = {"SCENE",   "--output",  "--family",
-                                             "--draw",  "--seed",    "--frames",
-                                             "--quiet", "--threads", "--help"};
+  static const std::set<std::string> kOwn = {"SCENE",     "--output", "--family", "--draw",
+                                             "--seed",    "--frames", "--sensor", "--quiet",
+                                             "--threads", "--help"};
   for (const CLI::Option* option : command.get_options()) {
     if (option->count() == 0 || kOwn.contains(option->get_name())) continue;
     if (kOwn.contains("--" + option->get_single_name())) continue;
@@ -86,8 +86,13 @@ SimulationOptions RandomScan(const CLI::App& command, const SimulateArguments& a
                 "simulate random needs --family (with --seed), or --draw with the settings.json of "
                 "an earlier scan");
   }
-  SimulationOptions scan = arguments.draw.empty() ? DrawScan(arguments.family, arguments.scan.seed)
-                                                  : ReadScanSettings(arguments.draw);
+  const std::string sensor = command.count("--sensor") > 0 ? arguments.scan.sensor : "";
+  if (!arguments.draw.empty() && !sensor.empty()) {
+    throw Error(ErrorKind::kUsage, "--draw has a sensor already: leave out --sensor");
+  }
+  SimulationOptions scan = arguments.draw.empty()
+                               ? DrawScan(arguments.family, arguments.scan.seed, sensor)
+                               : ReadScanSettings(arguments.draw);
   if (command.count("--frames") > 0) scan.frames = arguments.scan.frames;
   return scan;
 }

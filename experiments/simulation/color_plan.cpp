@@ -17,9 +17,9 @@ PinholeCamera Enlarged(const PinholeCamera& small) {
   return camera;
 }
 
-PinholeCamera OwnCamera(const ColorOptions& options, const PinholeCamera& depth_camera) {
-  const double scale = depth_camera.width / 640.0;
-  PinholeCamera camera = depth_camera;
+PinholeCamera OwnCamera(const ColorOptions& options, const PinholeCamera& registered_camera) {
+  const double scale = registered_camera.width / 640.0;
+  PinholeCamera camera = registered_camera;
   camera.fx = camera.fy = scale * options.focal_length_px;
   camera.cx += scale * options.center_u_px;
   camera.cy += scale * options.center_v_px;
@@ -61,16 +61,16 @@ std::vector<Vec3> Gains(const ColorOptions& options, int frames, double frame_ra
 
 }  // namespace
 
-ColorPlan PlanColor(const ColorOptions& options, const PinholeCamera& depth_camera, bool large,
+ColorPlan PlanColor(const ColorOptions& options, const PinholeCamera& registered_camera, bool large,
                     int frames, double frame_rate, uint64_t seed) {
   const auto sized = [&](const PinholeCamera& camera) { return large ? Enlarged(camera) : camera; };
   ColorPlan plan;
-  plan.told_camera = sized(depth_camera);
+  plan.told_camera = sized(registered_camera);
   plan.camera.camera = plan.told_camera;
   plan.camera.vignetting = options.vignetting;
   plan.gains = Gains(options, frames, frame_rate, seed);
   if (options.registration == Registration::kRegistered) return plan;
-  plan.camera.camera = sized(OwnCamera(options, depth_camera));
+  plan.camera.camera = sized(OwnCamera(options, registered_camera));
   plan.T_depth_color.translation() = Vec3(options.baseline, 0, 0);
   plan.shifts = options.registration == Registration::kCalibrated;
   if (options.registration == Registration::kRaw) return plan;

@@ -19,8 +19,9 @@ struct ColorPlan {
   std::vector<Vec3> gains;  ///< of red, green and blue, by frame
 };
 
-/// The plan for a depth camera's scan; `large` doubles the resolution.
-ColorPlan PlanColor(const ColorOptions& options, const PinholeCamera& depth_camera, bool large,
+/// The plan for a scan; `registered_camera` has the depth camera's place and shape in pixels of
+/// colour, `large` doubles the resolution.
+ColorPlan PlanColor(const ColorOptions& options, const PinholeCamera& registered_camera, bool large,
                     int frames, double frame_rate, uint64_t seed);
 
 }  // namespace curvefusion

@@ -44,6 +44,8 @@ const std::map<std::string, Maker>& Makers() {
       {"azure_kinect", TimeOfFlight(AzureKinect())},
       {"sr300", Footprint(RealSenseSr300())},
       {"d400", Footprint(RealSenseD400())},
+      {"d455", Footprint(RealSenseD455())},
+      {"phone", Footprint(PhoneLidar())},
       {"artec_spider", Footprint(ArtecSpider())},
       {"ideal", Footprint(IdealSensor())}};
   return makers;

@@ -38,12 +38,15 @@ class DepthSensor {
   /// How far from an object one would hold it, in metres.
   virtual double WorkingDistance() const { return 0.56; }
 
+  /// Pixels of its colour images to a pixel of depth.
+  virtual double ColorScale() const { return 1; }
+
   /// The depth image of one frame in metres, 0 where the sensor has no measurement.
   virtual DepthImage Measure(const Scene& scene, const Exposure& exposure) const = 0;
 };
 
 /// The names MakeDepthSensor knows: `kinect_v1`, `primesense`, `kinect_v2`, `azure_kinect`,
-/// `sr300`, `d400`, `artec_spider`, `ideal`.
+/// `sr300`, `d400`, `d455`, `phone`, `artec_spider`, `ideal`.
 std::vector<std::string> SensorNames();
 
 /// A sensor by name; `seed` draws its pattern and noise, `matching` is for those of structured

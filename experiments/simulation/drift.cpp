@@ -25,6 +25,7 @@ const std::map<std::string, PoseErrorModel>& Models() {
       {"true", PoseErrorModel()},
       {"orbslam2", Model(10, 4, 0.25, 0.3, 0.01, 0.15, 0.5, 0.03)},
       {"bundlefusion", Model(15, 5, 0.30, 0.3, 0.01, 0.3, 0.4, 0.03)},
+      {"arkit", Model(10, 4, 0.25, 2, 0.05, 0.1, 0.5, 0.03)},
       {"kinfu", Model(20, 4, 0.25, 1.5, 0.06, 0.3, 0.3, 0.02)},
       {"kitchen", Model(6, 5.5, 0.4, 0, 0, 0.3, 0.2, 0.02)},
       {"ptam", Model(5, 12, 0.8, 3, 0.1, 0.1, 2, 0.15)}};

@@ -10,7 +10,6 @@ namespace curvefusion {
 namespace {
 
 constexpr int kSubRays = 3;      // a pixel's side
-constexpr int kReach = 2;        // pixels the footprint extends to each side
 constexpr int kSupport = 3;      // half the filter's window
 constexpr double kNothing = 50;  // depth of a ray that meets nothing
 
@@ -27,11 +26,11 @@ Image<float> SubRayDepths(const SceneView& view, const PinholeCamera& camera) {
   return depths;
 }
 
-std::vector<float> FootprintWeights(double sigma_px) {
-  constexpr int kSide = (2 * kReach + 1) * kSubRays;
+std::vector<float> FootprintWeights(double sigma_px, int reach) {
+  const int side = (2 * reach + 1) * kSubRays;
   std::vector<float> weights;
-  for (int k = 0; k < kSide; ++k) {
-    const double offset = (k - kSide / 2) / (sigma_px * kSubRays);
+  for (int k = 0; k < side; ++k) {
+    const double offset = (k - side / 2) / (sigma_px * kSubRays);
     weights.push_back(static_cast<float>(std::exp(-offset * offset / 2)));
   }
   return weights;
@@ -48,8 +47,9 @@ struct Share {
 // which moves its depth by less than the noise.
 float DominantDepth(const Image<float>& depths, int u, int v, const std::vector<float>& weights) {
   const int side = static_cast<int>(weights.size());
-  const int left = (u - kReach) * kSubRays;
-  const int top = (v - kReach) * kSubRays;
+  const int reach = (side / kSubRays - 1) / 2;
+  const int left = (u - reach) * kSubRays;
+  const int top = (v - reach) * kSubRays;
   float least = depths(left, top);
   float greatest = least;
   for (int y = 0; y < side; ++y) {
@@ -83,8 +83,9 @@ DepthImage FootprintDepths(const SceneView& view, const FootprintSensorOptions& 
   const bool blurred = options.blur_sigma_px > 0;
   const Image<float> sub_rays = blurred ? SubRayDepths(view, camera) : Image<float>();
   const std::vector<float> weights =
-      blurred ? FootprintWeights(options.blur_sigma_px) : std::vector<float>();
-  const int border = blurred ? kReach : 0;
+      blurred ? FootprintWeights(options.blur_sigma_px, options.footprint_reach_px)
+              : std::vector<float>();
+  const int border = blurred ? options.footprint_reach_px : 0;
   for (int v = border; v < camera.height - border; ++v) {
     for (int u = border; u < camera.width - border; ++u) {
       depth(u, v) = blurred ? DominantDepth(sub_rays, u, v, weights)
@@ -110,6 +111,19 @@ DepthImage Supported(const DepthImage& depth, double share, double tolerance) {
     }
   }
   return kept;
+}
+
+// Stereo cameras of the 400 series; focal length in pixels, baseline in metres.
+FootprintSensorOptions RealSense400(double focal_length_px, double baseline) {
+  constexpr double kDisparitySigma = 0.08;
+  FootprintSensorOptions options;
+  options.camera = {848, 480, focal_length_px, focal_length_px, 423.5, 239.5};
+  options.nearest = 0.2;
+  options.farthest = 10;
+  options.blur_sigma_px = 1.5;  // its blocks
+  options.noise_per_square = kDisparitySigma / (focal_length_px * baseline);
+  options.step = 0.001;
+  return options;
 }
 
 }  // namespace
@@ -145,15 +159,20 @@ FootprintSensorOptions RealSenseSr300() {
   return options;
 }
 
-FootprintSensorOptions RealSenseD400() {
-  constexpr double kBaseline = 0.050;
-  constexpr double kDisparitySigma = 0.08;
+FootprintSensorOptions RealSenseD400() { return RealSense400(425, 0.050); }
+
+FootprintSensorOptions RealSenseD455() { return RealSense400(430, 0.095); }
+
+FootprintSensorOptions PhoneLidar() {
   FootprintSensorOptions options;
-  options.camera = {848, 480, 425, 425, 423.5, 239.5};
+  options.camera = {256, 192, 212, 212, 127.5, 95.5};
+  options.color_scale = 7.5;
   options.nearest = 0.2;
-  options.farthest = 10;
-  options.blur_sigma_px = 1.5;  // its blocks
-  options.noise_per_square = kDisparitySigma / (options.camera.fx * kBaseline);
+  options.farthest = 5;
+  options.working_distance = 0.5;
+  options.blur_sigma_px = 4;  // a third of the 11 px between beams
+  options.footprint_reach_px = 8;
+  options.noise_sigma = 0.004;
   options.step = 0.001;
   return options;
 }

@@ -11,6 +11,8 @@ struct FootprintSensorOptions {
   double farthest = 100;
   double working_distance = 0.56;
   double blur_sigma_px = 0;      ///< Gaussian footprint of a pixel; 0 = its middle ray alone
+  int footprint_reach_px = 2;    ///< how far that extends to each side
+  double color_scale = 1;        ///< pixels of colour to a pixel of depth
   double noise_sigma = 0;        ///< standard deviation of depth at any distance
   double noise_per_square = 0;   ///< and what adds to it per squared metre of distance
   double step = 0;               ///< depth is rounded to multiples of this; 0 = not
@@ -29,6 +31,7 @@ class FootprintSensor : public DepthSensor {
   const PinholeCamera& camera() const override { return options_.camera; }
   DepthRange Range() const override { return {options_.nearest, options_.farthest}; }
   double WorkingDistance() const override { return options_.working_distance; }
+  double ColorScale() const override { return options_.color_scale; }
   DepthImage Measure(const Scene& scene, const Exposure& exposure) const override;
 
  private:
@@ -45,6 +48,12 @@ FootprintSensorOptions RealSenseSr300();
 
 /// RealSense D435: stereo of baseline 50 mm, sigma .08 px of disparity.
 FootprintSensorOptions RealSenseD400();
+
+/// RealSense D455: the same with a baseline of 95 mm.
+FootprintSensorOptions RealSenseD455();
+
+/// A phone with LiDAR: 24x24 beams, made into 256x192 pixels of depth beside 1920x1440 of colour.
+FootprintSensorOptions PhoneLidar();
 
 /// Artec Space Spider: 0.2 to 0.3 m, a grid of .15 mm, sigma .05 mm.
 FootprintSensorOptions ArtecSpider();

@@ -94,8 +94,9 @@ ScanPlan PlanScan(const SimulationOptions& options) {
   plan.scene =
       MakeScene(MakeObject(options.object, options.object_options), options.scene, options.seed);
   plan.sensor = MakeDepthSensor(options.sensor, options.seed, options.matching);
-  plan.color = PlanColor(options.color, plan.sensor->camera(), options.large_color, options.frames,
-                         options.motion.frame_rate, options.seed);
+  plan.color =
+      PlanColor(options.color, plan.sensor->camera().Scaled(plan.sensor->ColorScale()),
+                options.large_color, options.frames, options.motion.frame_rate, options.seed);
   plan.color_shift_px = RegistrationShift(options);
   const ScanTask task = TaskOf(plan.scene, *plan.sensor, Standoff(options, *plan.sensor));
   plan.true_poses = HandheldPath(task, options.frames, options.motion, options.seed);

@@ -170,7 +170,7 @@ std::string WhyColourStart(const Sequence& given, const BestOptions& options,
     return options.depth.use == DepthRole::kNone ? kAskedFor : "the scan has no depth images";
   }
   if (options.depth.use == DepthRole::kBackground) return kAskedFor;
-  if (result.skeleton.empty()) return {};
+  if (result.skeleton.empty()) return "depth shows no wire";
   if (!adjusted) return "the colour images do not agree with the curves that depth shows";
   if (adjusted->depth_scatter <= kWrongScatter) return {};
   return fmt::format("depth scatters about the curves {:.1f} times as much as about a plane",
@@ -199,7 +199,9 @@ void StartFromColourWhereDepthFails(const PosedScan& scan, const WireColours& co
   if (why.empty()) return;
   size.by_colour = true;
   TellPlan(size, options, reporter, result);
-  const DepthCurves depth_curves = adjusted ? DepthCurves::kMisplaced : DepthCurves::kDoubtful;
+  const DepthCurves depth_curves = result.skeleton.empty() ? DepthCurves::kNone
+                                   : adjusted              ? DepthCurves::kMisplaced
+                                                           : DepthCurves::kDoubtful;
   std::optional<ColourCurves> from_colour =
       given.has_depth
           ? StartFromColour(given, errors, colours, depth_curves, options, reporter, result)

@@ -25,8 +25,8 @@ constexpr double kShownAsWire = 0.9;  // of the images
 // without any, where .42 at most do (docs/lab_notebook.md).
 constexpr double kMinThinInDepth = 0.6;
 // Or depth does not show them at all, but what is behind: .96 and .98 of the places of a white grid
-// by an SR300 and of springs; .39 to .88 of what three rooms without wires give. All are training
-// scans.
+// by an SR300 and of springs, .97 and .98 by a phone; .39 to .88 of what three rooms without wires
+// give. All are training scans. Of 24 rooms one has 1.0, but nothing that is proven.
 constexpr double kMinFreeInDepth = 0.9;
 constexpr int kThinImages = 20;    // chosen: enough for a share
 constexpr double kBehind = 0.03;   // metres; likewise what hides it: that of StripViews
@@ -172,9 +172,9 @@ struct ColourFit {
 };
 
 // Whether curves from colour agree with what depth shows, if it shows wires like that.
-bool IsLikely(WireDepth depth, const Reconstruction& result, const ColourFit& fit,
+bool IsLikely(bool depth_shows_them, const Reconstruction& result, const ColourFit& fit,
               const StageReporter& reporter) {
-  if (depth == WireDepth::kNotShown) {
+  if (depth_shows_them) {
     const double thin = ShareThinInDepth(result, fit.colour, fit.images.frames);
     reporter.log.Count(kWiresFromColour, "share thin in depth", thin);
     return thin >= kMinThinInDepth;
@@ -191,7 +191,9 @@ std::optional<ColourCurves> StartFromColour(const Sequence& given, PoseErrors po
                                             const BestOptions& options,
                                             const StageReporter& reporter, Reconstruction& result) {
   const bool is_asked_for = options.depth.use == DepthRole::kBackground;
-  if (!is_asked_for && (colours.posterior.empty() || result.points.empty())) return std::nullopt;
+  const bool is_none = depth_curves == DepthCurves::kNone;
+  if (!is_asked_for && !is_none && (colours.posterior.empty() || result.points.empty()))
+    return std::nullopt;
   const WireImages images =
       colours.posterior.empty() ? LookForContrast(given) : LookForColours(given, colours);
   const Eigen::AlignedBox3d around = RegionOf(given, result.points);
@@ -207,8 +209,10 @@ std::optional<ColourCurves> StartFromColour(const Sequence& given, PoseErrors po
     const ShownCurves after = CountShown(fitted, fit.images, fit.colour.skeleton);
     reporter.log.Count(kWiresFromColour, "of depth shown as wire, m", before.shown);
     reporter.log.Count(kWiresFromColour, "shown as wire, m", after.shown);
-    const bool is_likely = IsLikely(depth, result, fit, reporter);
-    if (!is_asked_for && !(is_likely && after.IsBetterThan(before, depth_curves))) continue;
+    const bool shows_thin = depth == WireDepth::kNotShown && !is_none;
+    const bool is_likely = IsLikely(shows_thin, result, fit, reporter);
+    const bool is_better = is_likely && (is_none || after.IsBetterThan(before, depth_curves));
+    if (!is_asked_for && !is_better) continue;
     TakeCurves(std::move(fit.colour), result);
     result.warnings.push_back(fmt::format(
         "the curves come from the colour images alone, and their scale from {}: the images show "

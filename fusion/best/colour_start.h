@@ -13,6 +13,7 @@ namespace curvefusion {
 
 /// What is known of depth's curves.
 enum class DepthCurves {
+  kNone,       ///< depth shows no wire
   kDoubtful,   ///< images do not fit them
   kMisplaced,  ///< depth was measured to scatter about the wires that images show
 };
@@ -30,9 +31,10 @@ enum class DepthCurves {
 /// curves may hardly show wires at all. Most of the new curves must lie in pixels in which depth
 /// shows something thin, as wires do and what is painted on surfaces does not; or depth, which then
 /// does not show them at all, must show something behind nearly all of them, and strips are
-/// followed from place to place. With
-/// DepthRole::kBackground wherever there are any; where depth has then shown nothing thin, places
-/// are sought where most cameras look, in what stands out from its surroundings. Nothing otherwise.
+/// followed from place to place. Where depth shows no wire it must show something behind nearly all
+/// of them, and no more is asked: the proof decides. With DepthRole::kBackground wherever there are
+/// any. Where depth has shown nothing thin, places are sought where most cameras look, in what
+/// stands out from its surroundings. Nothing otherwise.
 /// Throws Error(kBadInput) for an image that cannot be read. Costs about .1 s an image, at most 90
 /// of them.
 std::optional<ColourCurves> StartFromColour(const Sequence& given, PoseErrors pose_errors,

@@ -16,6 +16,8 @@ constexpr double kDegree = std::numbers::pi / 180;
 constexpr const char* kFurnished = "furnished";
 constexpr const char* kRoom = "room";
 constexpr uint64_t kMostFamilies = 64;
+constexpr const char* kPhone = "phone";
+constexpr double kPhoneShift = 0.5;  // pixels of depth. Chosen: a pixel of depth is 7.5 of colour
 
 // One of several, by weights.
 template <class Choice, size_t count>
@@ -43,18 +45,29 @@ void DrawObject(const std::string& family, Random& random, SimulationOptions& sc
   scan.scene.furniture = furnished ? random.Integer(12, 30) : random.Integer(0, 4);
 }
 
+struct Camera {
+  double weight;
+  const char* name;
+  double nearest, farthest;
+};
+
 // Mostly structured light, as in the recordings at hand; distances at which one would hold each.
-void DrawSensor(Random& random, SimulationOptions& scan) {
-  struct Camera {
-    double weight;
-    const char* name;
-    double nearest, farthest;
-  };
-  static constexpr Camera kCameras[] = {
-      {0.45, "kinect_v1", 0.45, 0.65}, {0.25, "primesense", 0.42, 0.65},
-      {0.12, "d400", 0.35, 0.6},       {0.08, "azure_kinect", 0.55, 0.8},
-      {0.05, "kinect_v2", 0.6, 0.8},   {0.05, "sr300", 0.3, 0.6}};
-  const Camera& camera = Drawn(random, kCameras);
+// Those of no weight are held only if asked for.
+constexpr Camera kCameras[] = {{0.45, "kinect_v1", 0.45, 0.65}, {0.25, "primesense", 0.42, 0.65},
+                               {0.12, "d400", 0.35, 0.6},       {0.08, "azure_kinect", 0.55, 0.8},
+                               {0.05, "kinect_v2", 0.6, 0.8},   {0.05, "sr300", 0.3, 0.6},
+                               {0, "d455", 0.45, 0.65},         {0, "phone", 0.35, 0.6}};
+
+const Camera& CameraOf(const std::string& sensor) {
+  for (const Camera& camera : kCameras)
+    if (camera.name == sensor) return camera;
+  throw Error(ErrorKind::kUsage, "no scan is drawn with the sensor " + sensor +
+                                     ": name one that people hold, such as kinect_v1 or phone");
+}
+
+void DrawSensor(const std::string& sensor, Random& random, SimulationOptions& scan) {
+  const Camera& drawn = Drawn(random, kCameras);
+  const Camera& camera = sensor.empty() ? drawn : CameraOf(sensor);
   scan.sensor = camera.name;
   scan.motion.standoff = random.Uniform(camera.nearest, camera.farthest);
   scan.readout_time = random.Chance(0.5) ? random.Uniform(0.01, 0.03) : 0;
@@ -85,6 +98,14 @@ void DrawColorCamera(Random& random, SimulationOptions& scan) {
   scan.color.exposure_drift = random.Uniform(0, 0.3);
   scan.color.white_balance_drift = random.Uniform(0, 0.08);
   scan.color.vignetting = random.Uniform(0, 0.35);
+}
+
+// A phone's driver lays depth onto colour, and tells poses of its own.
+void TakeByPhone(SimulationOptions& scan) {
+  scan.pose_source = "arkit";
+  scan.color.registration = Registration::kRegistered;
+  scan.registration_error_px = std::min(scan.registration_error_px, kPhoneShift);
+  scan.registration_jitter_px = 0;
 }
 
 // Half of the scans have fewer than 70 frames, one in ten more than 200: what a study of 120 scans
@@ -173,7 +194,8 @@ std::vector<std::string> FamilyNames() {
   return names;
 }
 
-SimulationOptions DrawScan(const std::string& family, uint64_t seed) {
+SimulationOptions DrawScan(const std::string& family, uint64_t seed,
+                           const std::string& sensor_name) {
   const std::vector<std::string> names = FamilyNames();
   const auto place = std::find(names.begin(), names.end(), family);
   if (place == names.end()) {
@@ -188,11 +210,12 @@ SimulationOptions DrawScan(const std::string& family, uint64_t seed) {
   Random object = stream(0), sensor = stream(1), path = stream(2), poses = stream(3);
   Random colors = stream(4), camera = stream(5);
   DrawObject(family, object, scan);
-  DrawSensor(sensor, scan);
+  DrawSensor(sensor_name, sensor, scan);
   DrawPath(path, scan);
   DrawPoses(poses, scan);
   DrawColors(colors, scan);
   DrawColorCamera(camera, scan);
+  if (scan.sensor == kPhone) TakeByPhone(scan);
   return scan;
 }
 

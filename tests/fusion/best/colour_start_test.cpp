@@ -146,6 +146,20 @@ TEST_F(ColourStart, TakesCurvesThatDepthLooksPast) {
   EXPECT_LT(MedianDistance(), 0.001);
 }
 
+// As a phone's: nothing was found that colours or a place could be taken from.
+TEST_F(ColourStart, FindsWiresOfWhichDepthShowsNothing) {
+  ASSERT_TRUE(StartWithCurves(DefaultBestOptions(), DepthCurves::kNone).has_value());
+  EXPECT_GT(Count("share free in depth"), 0.9);
+  EXPECT_LT(MedianDistance(), 0.001);
+}
+
+TEST_F(ColourStart, LeavesWhatLiesOnSurfacesWhereDepthShowsNoWire) {
+  const SilhouetteScan near_wall(kWires, {}, 0.655);
+  EXPECT_FALSE(StartIn(near_wall, DefaultBestOptions(), DepthCurves::kNone).has_value());
+  EXPECT_LT(Count("share free in depth"), 0.9);
+  EXPECT_TRUE(result_.skeleton.empty());
+}
+
 TEST_F(ColourStart, LeavesCurvesThatTheImagesShow) {
   EXPECT_FALSE(Start(0).has_value());
   EXPECT_EQ(result_.skeleton.edge_count(), 3);
