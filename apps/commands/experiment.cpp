@@ -12,6 +12,7 @@
 #include "apps/output_guard.h"
 #include "experiments/reproduction/reproduction.h"
 #include "experiments/reproduction/reproduction_page.h"
+#include "experiments/simulation/depth_sensor.h"
 #include "experiments/studies/regression_check.h"
 #include "experiments/studies/studies.h"
 #include "experiments/studies/study_runner.h"
@@ -233,6 +234,10 @@ void AddRequestOptions(CLI::App& command, ExperimentArguments& arguments) {
                   "Objects of the studies objects, bundle-size and comparisons, or families of "
                   "the studies families and ablation, separated by commas")
       ->delimiter(',');
+  command
+      .add_option("--sensor", arguments.request.sensor,
+                  "Of the studies families and ablation: all scans by this camera")
+      ->check(CLI::IsMember(SensorNames()));
   command
       .add_option(
           "--scans", arguments.request.scans,

@@ -33,6 +33,7 @@ std::string OptionsOf(const StudyRequest& request) {
   if (!request.objects.empty()) {
     options += fmt::format(" --objects {}", fmt::join(request.objects, ","));
   }
+  if (!request.sensor.empty()) options += " --sensor " + request.sensor;
   for (const std::string& assignment : request.assignments) options += " --set " + assignment;
   return options;
 }

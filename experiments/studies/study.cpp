@@ -68,7 +68,7 @@ std::vector<std::string> FamiliesOf(const StudyRequest& request) {
 
 SimulationOptions FamilyScan(const StudyRequest& request, const std::string& family,
                              uint64_t seed) {
-  SimulationOptions scan = DrawScan(family, seed);
+  SimulationOptions scan = DrawScan(family, seed, request.sensor);
   if (request.quick) scan.frames = std::min(scan.frames, kQuickFrames);
   return scan;
 }

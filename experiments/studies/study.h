@@ -34,6 +34,7 @@ struct StudyRequest {
   Split split = Split::kTrain;
   std::vector<std::string> assignments;      ///< "section.key=value" for the config of every case
   std::vector<std::string> objects;          ///< objects or families; empty = those of the study
+  std::string sensor;                        ///< of all random scans; empty = the drawn ones
   std::vector<std::filesystem::path> scans;  ///< folders of scans for `check` and `families`
   std::filesystem::path data;                ///< whose sim/ and real/ hold more for `families`
 };
@@ -53,7 +54,8 @@ SimulationOptions ObjectScan(const StudyRequest& request, const std::string& obj
 /// Error(kUsage) naming the nearest one for a family that does not exist.
 std::vector<std::string> FamiliesOf(const StudyRequest& request);
 
-/// The random scan of a family that studies look at: 60 frames at most of a quick study.
+/// The random scan of a family that studies look at: 60 frames at most of a quick study. Throws
+/// Error(kUsage) like DrawScan.
 SimulationOptions FamilyScan(const StudyRequest& request, const std::string& family, uint64_t seed);
 
 /// The config of a case: the profile's, with the request's assignments, then `more`.

@@ -182,6 +182,9 @@ void RefineAndJudge(const PosedScan& scan, const LearnedWires& wires, RunSize si
                     const BestOptions& options, const StageReporter& reporter,
                     Reconstruction& result) {
   RefineByColour(scan, wires, size, options, reporter, result);
+  // No adjustment to colour images alone knows its scale.
+  if (result.trust.from_colour && scan.given.has_depth) HoldToScaleOfDepth(result);
+  if (result.trust.from_colour && !scan.given.has_depth) HoldToScaleOf(scan.given, result);
   result.funnel.curves.curves = result.skeleton.TotalLength();
   result.trust = MeasureTrust(scan.given, result);
   const std::string places = PlacesWarning(result.trust);
@@ -196,7 +199,6 @@ Reconstruction ReconstructWithoutDepth(const PosedScan& scan, const BestOptions&
   result.sequence = scan.sequence;
   result.warnings = scan.sequence.warnings;
   RefineAndJudge(scan, {}, {.by_colour = true}, options, reporter, result);
-  HoldToScaleOf(scan.sequence, result);
   return result;
 }
 

@@ -1,8 +1,11 @@
 #include "fusion/best/scale_of_poses.h"
 
 #include <Eigen/Geometry>
+#include <optional>
 #include <utility>
 #include <vector>
+
+#include "capture/content/geometry_check.h"
 
 namespace curvefusion {
 
@@ -37,14 +40,8 @@ void Scale(double scale, RadiusEstimate& radii) {
   }
 }
 
-}  // namespace
-
-void HoldToScaleOf(const Sequence& given, Reconstruction& result) {
-  if (result.skeleton.empty()) return;
-  const Centers from = CentersOf(result.sequence), to = CentersOf(given);
-  if ((from.colwise() - from.col(0)).isZero() || (to.colwise() - to.col(0)).isZero()) return;
-  const Eigen::Matrix4d fitted = Eigen::umeyama(from, to, true);
-  const double scale = fitted.block<3, 1>(0, 0).norm();
+// About the middle of its curves.
+void ScaleBy(double scale, Reconstruction& result) {
   const Vec3 middle = BoundsOf(result.skeleton).center();
   const AffineTransform motion =
       Eigen::Translation3d(middle) * Eigen::Scaling(scale) * Eigen::Translation3d(-middle);
@@ -54,6 +51,21 @@ void HoldToScaleOf(const Sequence& given, Reconstruction& result) {
   Scale(scale, result.radii);
   for (SequenceFrame& frame : result.sequence.frames)
     frame.T_world_camera.translation() = motion * Vec3(frame.T_world_camera.translation());
+}
+
+}  // namespace
+
+void HoldToScaleOf(const Sequence& given, Reconstruction& result) {
+  if (result.skeleton.empty()) return;
+  const Centers from = CentersOf(result.sequence), to = CentersOf(given);
+  if ((from.colwise() - from.col(0)).isZero() || (to.colwise() - to.col(0)).isZero()) return;
+  const Eigen::Matrix4d fitted = Eigen::umeyama(from, to, true);
+  ScaleBy(fitted.block<3, 1>(0, 0).norm(), result);
+}
+
+void HoldToScaleOfDepth(Reconstruction& result) {
+  if (result.skeleton.empty()) return;
+  if (const std::optional<double> scale = ScaleByDepth(result.sequence)) ScaleBy(*scale, result);
 }
 
 }  // namespace curvefusion
