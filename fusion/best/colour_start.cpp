@@ -215,9 +215,8 @@ std::optional<ColourCurves> StartFromColour(const Sequence& given, PoseErrors po
     if (!is_asked_for && !is_better) continue;
     TakeCurves(std::move(fit.colour), result);
     result.warnings.push_back(fmt::format(
-        "the curves come from the colour images alone, and their scale from {}: the images show "
+        "the curves come from the colour images alone, and their size from depth: the images show "
         "{:.2f} m of them as wire, and {:.2f} of {:.2f} m of depth's",
-        pose_errors == PoseErrors::kJitter ? "the surfaces that depth shows" : "the poses",
         after.shown, before.shown, before.length));
     return std::move(fit.curves);
   }

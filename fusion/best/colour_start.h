@@ -23,7 +23,7 @@ enum class DepthCurves {
 /// behind a place (FindColourCandidates), and by its thin pixels the wires' colours (`colours`).
 /// Places that images agree on are contracted, and curves and poses adjusted to the images (`given`
 /// has the poses that are started from, which err as told); with the poses and colours then learned
-/// all of that once more. Scale is that of the surfaces that poses are held to, or of the poses.
+/// all of that once more. Scale is left to HoldToScaleOfDepth.
 ///
 /// Replaces curves, points, radii and poses of the result where the images show more metres of the
 /// new curves as wire than of those that were there, metres that they do not show taken off; where

@@ -65,7 +65,13 @@ void HoldToScaleOf(const Sequence& given, Reconstruction& result) {
 
 void HoldToScaleOfDepth(Reconstruction& result) {
   if (result.skeleton.empty()) return;
-  if (const std::optional<double> scale = ScaleByDepth(result.sequence)) ScaleBy(*scale, result);
+  if (const std::optional<double> scale = ScaleByDepth(result.sequence)) {
+    ScaleBy(*scale, result);
+  } else {
+    result.warnings.push_back(
+        "the depth images do not tell the size of the curves, which is that of the poses: measure "
+        "one length");
+  }
 }
 
 }  // namespace curvefusion

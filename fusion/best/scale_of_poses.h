@@ -11,7 +11,7 @@ namespace curvefusion {
 /// those of `given`. Nothing where there are no curves or the camera stands.
 void HoldToScaleOf(const Sequence& given, Reconstruction& result);
 
-/// Likewise so that depth images agree best (ScaleByDepth); nothing where they cannot tell.
+/// Likewise so that depth images agree best (ScaleByDepth); a warning where they cannot tell.
 void HoldToScaleOfDepth(Reconstruction& result);
 
 }  // namespace curvefusion

@@ -231,7 +231,8 @@ TEST(GeometryCheck, ABadStretchIsListed) {
   ASSERT_THAT(checked.causes, ElementsAre("bad-stretch"));
   ASSERT_THAT(checked.report.mistakes, SizeIs(1));
   const FrameStretch stretch = checked.report.mistakes[0].frames.at(0);
-  // At the stretch's ends, 7 degrees about x are 2.4 % of the distance in the median: no bad frames.
+  // At the stretch's ends, 7 degrees about x are 2.4 % of the distance in the median: no bad
+  // frames.
   EXPECT_NEAR(std::stoi(stretch.first), 20, 3);
   EXPECT_NEAR(std::stoi(stretch.last), 34, 3);
 }
@@ -331,6 +332,23 @@ TEST_F(RoomFiles, AReconstructionRefusesWhatCannotWork) {
   InvertPoses();
   Sequence wrong = OpenSequence(folder());
   EXPECT_THROW(RequireFittingPoses(wrong), Error);
+}
+
+TEST_F(RoomFiles, DepthTellsTheScaleOfPoses) {
+  Sequence scan = OpenSequence(folder());
+  ASSERT_TRUE(ScaleByDepth(scan));
+  EXPECT_NEAR(*ScaleByDepth(scan), 1, 0.002);
+  for (SequenceFrame& frame : scan.frames) frame.T_world_camera.translation() *= 1.03;
+  ASSERT_TRUE(ScaleByDepth(scan));
+  EXPECT_NEAR(*ScaleByDepth(scan), 1 / 1.03, 0.002);
+  for (SequenceFrame& frame : scan.frames) frame.T_world_camera.translation() *= 1.1;
+  EXPECT_FALSE(ScaleByDepth(scan));  // farther off than what was tried
+}
+
+TEST(GeometryCheck, ACameraThatStandsTellsNoScale) {
+  const TemporaryFolder files;
+  WriteRoomScan(MakeRoomScan(0), files.path() / "scan");
+  EXPECT_FALSE(ScaleByDepth(OpenSequence(files.path() / "scan")));
 }
 
 }  // namespace
