@@ -108,6 +108,12 @@ TEST(Trust, IsDoubtedWhereColourAloneHardlyShowsItsCurves) {
   ASSERT_EQ(Doubts(trust).size(), 1u);
   EXPECT_NE(Doubts(trust)[0].find("along 15 %"), std::string::npos);
   trust.colour_share = 0.45;
+  trust.measured_share = 0.56;
+  EXPECT_TRUE(Doubts(trust).empty());
+  trust.measured_share = 0.31;
+  ASSERT_EQ(Doubts(trust).size(), 1u);
+  EXPECT_NE(Doubts(trust)[0].find("on 31 %"), std::string::npos);
+  trust.from_colour = false;
   EXPECT_TRUE(Doubts(trust).empty());
 }
 
