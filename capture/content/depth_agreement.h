@@ -41,6 +41,7 @@ class DepthViews {
   /// `swap_bytes` reads every 16-bit value with its bytes swapped.
   DepthViews(const Thumbnails& thumbnails, double depth_scale, bool swap_bytes = false);
 
+  bool empty() const { return depth_.empty(); }
   bool Has(int frame) const { return !depth_[static_cast<size_t>(frame)].empty(); }
 
   /// Compares both ways, `from` seen in `to` and `to` in `from`.

@@ -182,7 +182,8 @@ GeometryReport Judge(const Sequence& sequence, const Thumbnails& thumbnails,
 class SampledDepth {
  public:
   SampledDepth(const Sequence& sequence, std::vector<FramePair> pairs)
-      : pairs_(std::move(pairs)), thumbnails_(DepthThumbnails(sequence, FramesOf(pairs_))) {}
+      : pairs_(std::move(pairs)),
+        views_(DepthThumbnails(sequence, FramesOf(pairs_)), sequence.depth_scale) {}
 
   // Shares of depth, in the median; nothing where it cannot tell.
   std::optional<double> Misfit(const Sequence& poses) const {
@@ -200,15 +201,14 @@ class SampledDepth {
 
  private:
   std::optional<PoseAgreement> Agreement(const Sequence& poses) const {
-    if (thumbnails_.depth.empty()) return std::nullopt;
-    const DepthViews views(thumbnails_, poses.depth_scale);
-    PoseAgreement agreement = MeasureAgreement(views, pairs_, GivenPoses(poses));
+    if (views_.empty()) return std::nullopt;
+    PoseAgreement agreement = MeasureAgreement(views_, pairs_, GivenPoses(poses));
     if (agreement.usable < kMinJudgedPairs) return std::nullopt;
     return agreement;
   }
 
   std::vector<FramePair> pairs_;
-  Thumbnails thumbnails_;
+  DepthViews views_;
 };
 
 // All pairs of some frames: those that are far apart tell most of scale.

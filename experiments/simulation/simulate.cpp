@@ -301,7 +301,10 @@ std::uintmax_t ScanBytes(const SimulationOptions& options) {
   // most 351 and 123 kB, 330 kB for large colour.
   constexpr std::uintmax_t kDepthBytes = 360000;
   constexpr std::uintmax_t kColorBytes = 140000;
-  const std::uintmax_t frame = kDepthBytes + kColorBytes * (options.large_color ? 4 : 1);
+  // A sensor whose colour has more pixels than its depth takes as much more.
+  const double scale = MakeDepthSensor(options.sensor, options.seed)->ColorScale();
+  const auto color_bytes = static_cast<std::uintmax_t>(kColorBytes * std::max(1.0, scale));
+  const std::uintmax_t frame = kDepthBytes + color_bytes * (options.large_color ? 4 : 1);
   return frame * static_cast<std::uintmax_t>(options.frames);
 }
 

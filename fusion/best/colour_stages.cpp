@@ -160,8 +160,7 @@ void PruneUnadjusted(const WireColours& colours, const SilhouetteOptions& option
   reporter.observer.OnGraph("corrected", result.skeleton);
 }
 
-// Why curves are sought in colour images alone; empty where they are not. Where depth shows no wire
-// at all there is none that colour images might show better.
+// Why curves are sought in colour images alone; empty where they are not.
 std::string WhyColourStart(const Sequence& given, const BestOptions& options,
                            const std::optional<ColourAdjustment>& adjusted,
                            const Reconstruction& result) {

@@ -52,11 +52,11 @@ struct Camera {
 };
 
 // Mostly structured light, as in the recordings at hand; distances at which one would hold each.
-// Those of no weight are held only if asked for.
-constexpr Camera kCameras[] = {{0.45, "kinect_v1", 0.45, 0.65}, {0.25, "primesense", 0.42, 0.65},
+// Those of no weight are held only if asked for; the last is one that may be drawn.
+constexpr Camera kCameras[] = {{0, "d455", 0.45, 0.65},         {0, kPhone, 0.35, 0.6},
+                               {0.45, "kinect_v1", 0.45, 0.65}, {0.25, "primesense", 0.42, 0.65},
                                {0.12, "d400", 0.35, 0.6},       {0.08, "azure_kinect", 0.55, 0.8},
-                               {0.05, "kinect_v2", 0.6, 0.8},   {0.05, "sr300", 0.3, 0.6},
-                               {0, "d455", 0.45, 0.65},         {0, "phone", 0.35, 0.6}};
+                               {0.05, "kinect_v2", 0.6, 0.8},   {0.05, "sr300", 0.3, 0.6}};
 
 const Camera& CameraOf(const std::string& sensor) {
   for (const Camera& camera : kCameras)
