@@ -146,6 +146,7 @@ std::vector<PlannedStage> BestStages(const Costs& costs, const RunSize& size, bo
     Append({costs.Adjustment(), costs.Strips(), costs.Silhouettes(), costs.Radius()}, probability,
            plan);
   }
+  Append({{"nets", 0}, radii_again}, 1, plan);  // in few scans
   Append({costs.Evidence()}, 1, plan);
   return plan;
 }

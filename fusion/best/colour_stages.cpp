@@ -11,6 +11,7 @@
 #include "capture/frame_stream.h"
 #include "fusion/best/colour_fit.h"
 #include "fusion/best/colour_start.h"
+#include "fusion/best/net_stage.h"
 #include "fusion/curve_graph/candidate_curves.h"
 #include "fusion/curve_graph/colour_candidates.h"
 #include "fusion/curve_graph/selection.h"
@@ -309,10 +310,12 @@ void RefineByColour(const PosedScan& scan, const LearnedWires& wires, RunSize si
                      result);
     strips.reset();
   }
+  const NetCurves nets = TraceNets(wires.nets, reporter, result);
   const int crossings = result.trust.adjusted ? SeparateCrossings(result.skeleton) : 0;
   const bool has_contacts = !Violations(result.skeleton, kProximity).empty();
   if (has_contacts) ResolveIntersections(result.skeleton, kProximity);
-  if (crossings > 0 || has_contacts) measure_radii();
+  if (crossings > 0 || has_contacts || nets.length > 0) measure_radii();
+  MeasureNetWires(nets, result);
   reporter.log.Count("radius", "crossings taken apart", crossings);
   LookForEvidence(options.evidence, reporter, result);
 }

@@ -81,7 +81,7 @@ const std::map<std::string, std::map<std::string, std::set<std::string>>> kRooms
       {"nets", {"tracking"}},
       {"paper", {"", "segmentation", "strips", "volume"}},
       {"best",
-       {"", "adjustment", "appearance", "curve_graph", "registration", "segmentation",
+       {"", "adjustment", "appearance", "curve_graph", "nets", "registration", "segmentation",
         "silhouettes", "strips", "tracking", "volume"}},
       {"shards", {"appearance", "best"}},
       {"solid_parts", {"volume"}},
