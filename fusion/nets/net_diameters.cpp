@@ -80,6 +80,7 @@ double DiameterOfLine(const ImageLine& line, const NetSheet& sheet, double step,
                       const std::vector<SheetView>& views, const std::vector<SheetLook>& looks,
                       const PinholeCamera& camera, double noise) {
   std::vector<double> diameters;
+  size_t too_thin = 0;  // for the images
   Profile profile;
   for (size_t i = kStride; i + kStride < line.size(); i += kStride) {
     const double angle = AngleAt(line, i);
@@ -92,10 +93,15 @@ double DiameterOfLine(const ImageLine& line, const NetSheet& sheet, double step,
       if (slant < kMinSlant || !LookAcross(looks[n], line[i], aside, profile)) continue;
       const double width = step * slant * WidthOf(profile, kMinClear * noise);
       const double blur = kBlurPx * sight.norm() / camera.fx;
-      if (width > 0) diameters.push_back(std::sqrt(std::max(0.0, width * width - blur * blur)));
+      if (width > blur) {
+        diameters.push_back(std::sqrt(width * width - blur * blur));
+      } else {
+        too_thin += width > 0;
+      }
     }
   }
-  return diameters.size() < kMinWidths ? 0 : Median(std::move(diameters));
+  const bool is_told = diameters.size() >= std::max(kMinWidths, too_thin);
+  return is_told ? Median(std::move(diameters)) : 0;
 }
 
 }  // namespace curvefusion
