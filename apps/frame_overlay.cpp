@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "capture/image_mat.h"
 #include "experiments/pictures/picture_style.h"
 
 namespace curvefusion {
@@ -83,8 +84,7 @@ struct CutOutMap {
 };
 
 cv::Mat CutAndScale(const ColorImage& image, const CutOutMap& map, const cv::Size& size) {
-  const cv::Mat source(image.height(), image.width(), CV_8UC3,
-                       const_cast<Rgb*>(image.data()));  // read only; cv::Mat has no const view
+  const cv::Mat source = MatOf(image);  // read only; cv::Mat has no const view
   const cv::Matx23d affine(map.scale, 0, -map.scale * map.origin.x(),  //
                            0, map.scale, -map.scale * map.origin.y());
   cv::Mat result;
@@ -167,8 +167,7 @@ ColorImage DrawFrameOverlay(const SkeletonGraph& graph, const Sequence& sequence
   cv::Mat image = CutAndScale(LoadColor(sequence, frame), map, size);
   PaintTubes(graph, {sequence.color_camera, T_color_world, map}, color, image);
   ColorImage result(width, height);
-  cv::Mat reduced(height, width, CV_8UC3, result.data());
-  cv::resize(image, reduced, reduced.size(), 0, 0, cv::INTER_AREA);
+  cv::resize(image, MatOf(result), {width, height}, 0, 0, cv::INTER_AREA);
   return result;
 }
 

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "apps/frame_overlay.h"
+#include "capture/image_mat.h"
 #include "capture/jpeg.h"
 
 namespace curvefusion {
@@ -61,12 +62,8 @@ double ScaleTo(int width, int max_width) {
 ColorImage Shrunk(ColorImage picture, int max_width) {
   const double scale = ScaleTo(picture.width(), max_width);
   if (scale == 1) return picture;
-  ColorImage shrunk(static_cast<int>(std::lround(picture.width() * scale)),
-                    static_cast<int>(std::lround(picture.height() * scale)));
-  cv::Mat to(shrunk.height(), shrunk.width(), CV_8UC3, shrunk.data());
-  cv::resize(cv::Mat(picture.height(), picture.width(), CV_8UC3, picture.data()), to, to.size(), 0,
-             0, cv::INTER_AREA);
-  return shrunk;
+  return ShrunkTo(static_cast<int>(std::lround(picture.width() * scale)),
+                  static_cast<int>(std::lround(picture.height() * scale)), picture);
 }
 
 }  // namespace

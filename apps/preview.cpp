@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "apps/frame_overlay.h"
+#include "capture/image_mat.h"
 #include "experiments/pictures/orthographic_view.h"
 #include "experiments/pictures/picture_style.h"
 #include "kernel/parallel.h"
@@ -27,8 +28,6 @@ constexpr double kFilled = 0.76;          // share of a panel that the graph fil
 constexpr double kSmallestExtent = 0.01;  // metres, so that a single point has a scale too
 
 cv::Scalar Ink(const Rgb& color) { return {double(color[0]), double(color[1]), double(color[2])}; }
-
-cv::Mat View(ColorImage& image) { return {image.height(), image.width(), CV_8UC3, image.data()}; }
 
 std::array<OrthographicView, 3> Views(const Mat3& front) {
   Mat3 side;
@@ -53,7 +52,7 @@ void Paste(ColorImage panel, int index, cv::Mat& canvas) {
   const int x = kGap + (index % 2) * (kPanelWidth + kGap);
   const int y = kTitleHeight + (index / 2) * (kPanelHeight + kGap);
   const cv::Rect place(x, y, kPanelWidth, kPanelHeight);
-  View(panel).copyTo(canvas(place));
+  MatOf(panel).copyTo(canvas(place));
   cv::rectangle(canvas, place, {218, 220, 224}, 1);
 }
 
@@ -101,7 +100,7 @@ ColorImage DrawPreview(const SkeletonGraph& graph, const SkeletonGraph& uncertai
                        const ObservedPoints& points, const Sequence& sequence,
                        const std::string& title) {
   ColorImage preview(kWidth, kHeight, kWhite);
-  cv::Mat canvas = View(preview);
+  cv::Mat canvas = MatOf(preview);
   const auto views = Views(MeanCameraAxes(sequence));
   const SkeletonGraph& shown = graph.empty() ? uncertain : graph;
   const double scale = CommonScale(shown, views);

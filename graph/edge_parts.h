@@ -23,6 +23,18 @@ double ShareOf(const Polyline& points, const EdgePart& part, const Holds& holds)
   return static_cast<double>(count) / static_cast<double>(PointCount(part));
 }
 
+/// The longest parts of so many points in which `holds(index)` for all.
+template <class Holds>
+std::vector<EdgePart> PartsWhere(size_t count, const Holds& holds) {
+  std::vector<EdgePart> parts;
+  for (size_t i = 0; i < count; ++i) {
+    if (!holds(i)) continue;
+    if (parts.empty() || parts.back().last + 1 < i) parts.push_back({i, i});
+    parts.back().last = i;
+  }
+  return parts;
+}
+
 /// Metres along a curve from the first to the last point of a part.
 double Length(const Polyline& points, const EdgePart& part);
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
+#include "capture/image_mat.h"
 #include "experiments/pictures/picture_style.h"
 
 namespace curvefusion {
@@ -59,14 +60,6 @@ class DepthBuffer {
   Image<float> depth_;
 };
 
-ColorImage Reduced(ColorImage& large) {
-  ColorImage small(large.width() / kSupersampling, large.height() / kSupersampling);
-  const cv::Mat from(large.height(), large.width(), CV_8UC3, large.data());
-  cv::Mat to(small.height(), small.width(), CV_8UC3, small.data());
-  cv::resize(from, to, to.size(), 0, 0, cv::INTER_AREA);
-  return small;
-}
-
 }  // namespace
 
 ColorImage DrawMesh(const TriangleMesh& mesh, const OrthographicView& view,
@@ -86,7 +79,7 @@ ColorImage DrawMesh(const TriangleMesh& mesh, const OrthographicView& view,
     const double light = kAmbient + (1 - kAmbient) * std::abs(normal.z());
     if (normal.allFinite()) buffer.Draw(corners, static_cast<uint8_t>(kGrey * light));
   }
-  return Reduced(buffer.picture());
+  return ShrunkTo(width, height, buffer.picture());
 }
 
 }  // namespace curvefusion

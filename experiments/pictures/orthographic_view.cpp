@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "capture/image_mat.h"
 #include "experiments/pictures/picture_style.h"
 
 namespace curvefusion {
@@ -84,8 +85,7 @@ class Panel {
 
   ColorImage Reduced() const {
     ColorImage result(image_.cols / kSupersampling, image_.rows / kSupersampling);
-    cv::Mat reduced(result.height(), result.width(), CV_8UC3, result.data());
-    cv::resize(image_, reduced, reduced.size(), 0, 0, cv::INTER_AREA);
+    cv::resize(image_, MatOf(result), {result.width(), result.height()}, 0, 0, cv::INTER_AREA);
     return result;
   }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "capture/image_mat.h"
 #include "experiments/simulation/random.h"
 #include "experiments/simulation/scene_view.h"
 #include "experiments/simulation/surface_texture.h"
@@ -123,9 +124,8 @@ ColorImage Developed(const LinearImage& light, double noise_sigma, Random random
     }
   }
   ColorImage image(light.width(), light.height());
-  cv::Mat pixels(light.height(), light.width(), CV_8UC3, image.data());
   // OpenCV names a mosaic by its second row's second and third pixel.
-  cv::cvtColor(mosaic, pixels, cv::COLOR_BayerBG2RGB);
+  cv::cvtColor(mosaic, MatOf(image), cv::COLOR_BayerBG2RGB);
   return image;
 }
 

@@ -39,8 +39,8 @@ std::vector<WireCurve> SmallBreadholder() {
 
 }  // namespace
 
-SimulationOptions FineScan(const StudyRequest& request, uint64_t seed) {
-  SimulationOptions scan = ObjectScan(request, kObject, seed);
+SimulationOptions FineScan(const StudyRequest& request, uint64_t seed, const FrameCounts& frames) {
+  SimulationOptions scan = ObjectScan(request, kObject, seed, frames);
   scan.object_options.curves = SmallBreadholder();
   scan.sensor = "artec_spider";
   scan.pose_source = "true";

@@ -11,7 +11,7 @@ inline constexpr double kFineWire = 1.5 * kMillimetre;
 /// A scan that only such a scanner can make: the breadholder as much smaller as its wire of 5 mm is
 /// thicker than kFineWire, 66 mm wide, which the scanner's field of view holds. Poses are true: the
 /// scanner's own program aligns its frames to less than what it resolves.
-SimulationOptions FineScan(const StudyRequest& request, uint64_t seed);
+SimulationOptions FineScan(const StudyRequest& request, uint64_t seed, const FrameCounts& frames);
 
 /// The config of a case with a scan. Of a FineScan all lengths of the paper profile, which are made
 /// for wires of some 5 mm, are scaled like the object, and depth with nothing behind it stays, as

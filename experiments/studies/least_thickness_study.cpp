@@ -13,8 +13,7 @@ namespace curvefusion {
 
 namespace {
 
-constexpr int kFrames = 60;
-constexpr int kQuickFrames = 30;        // one bundle of the paper
+constexpr FrameCounts kFrames = {60, 30};
 constexpr double kReconstructed = 0.9;  // chosen: nine tenths of the curves within 5 mm, both ways
 
 std::vector<int> DiametersOf(const StudyRequest& request) {
@@ -22,9 +21,9 @@ std::vector<int> DiametersOf(const StudyRequest& request) {
   return {12, 8, 6, 5, 4, 3, 2};
 }
 
-void AddCases(const StudyRequest& request, const std::string& diameter, SimulationOptions scan,
-              uint64_t seed, const Profile profile, std::vector<StudyCase>& cases) {
-  scan.frames = request.quick ? kQuickFrames : kFrames;
+void AddCases(const StudyRequest& request, const std::string& diameter,
+              const SimulationOptions& scan, uint64_t seed, const Profile profile,
+              std::vector<StudyCase>& cases) {
   cases.push_back(
       {{{"sensor", scan.sensor}, {"diameter", diameter}, {"profile", ProfileName(profile)}},
        seed,
@@ -38,14 +37,14 @@ std::vector<StudyCase> Cases(const StudyRequest& request) {
     for (const Profile profile : request.profiles) {
       for (const char* sensor : {"kinect_v2", "sr300", "kinect_v1"}) {
         for (const int diameter_mm : DiametersOf(request)) {
-          SimulationOptions scan = ObjectScan(request, "breadholder", seed);
+          SimulationOptions scan = ObjectScan(request, "breadholder", seed, kFrames);
           scan.sensor = sensor;
           scan.object_options.wire_diameter = diameter_mm * kMillimetre;
           AddCases(request, fmt::format("{}", diameter_mm), scan, seed, profile, cases);
         }
       }
-      AddCases(request, fmt::format("{}", kFineWire / kMillimetre), FineScan(request, seed), seed,
-               profile, cases);
+      AddCases(request, fmt::format("{}", kFineWire / kMillimetre),
+               FineScan(request, seed, kFrames), seed, profile, cases);
     }
   }
   return cases;

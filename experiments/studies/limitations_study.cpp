@@ -19,8 +19,7 @@ namespace curvefusion {
 
 namespace {
 
-constexpr int kFrames = 100;
-constexpr int kQuickFrames = 30;  // one bundle of the paper
+constexpr FrameCounts kFrames = {100, 30};
 
 // What is varied within one scan, and the curve that is drawn of it.
 struct Limit {
@@ -69,8 +68,8 @@ std::vector<StudyCase> Cases(const StudyRequest& request) {
   std::vector<StudyCase> cases;
   for (const Limit& limit : Limits()) {
     for (const uint64_t seed : SeedsOf(request)) {
-      SimulationOptions scan = ObjectScan(request, std::string("limit_") + limit.name, seed);
-      scan.frames = request.quick ? kQuickFrames : kFrames;
+      SimulationOptions scan =
+          ObjectScan(request, std::string("limit_") + limit.name, seed, kFrames);
       scan.object_options.curves = limit.object();
       scan.scene.table_gap = limit.table_gap;
       for (const Profile profile : request.profiles) {

@@ -17,7 +17,7 @@ namespace curvefusion {
 
 namespace {
 
-constexpr int kQuickFrames = 30;  // one bundle of the paper
+constexpr FrameCounts kFrames = {.quick = 30};
 
 struct Calibration {
   const char* poses;  // a pose source of the simulator, or what our tracker is given
@@ -38,8 +38,7 @@ std::vector<StudyCase> Cases(const StudyRequest& request) {
   std::vector<StudyCase> cases;
   for (const Calibration& calibration : kCalibrations) {
     for (const uint64_t seed : SeedsOf(request)) {
-      SimulationOptions scan = ObjectScan(request, "cat", seed);
-      if (request.quick) scan.frames = kQuickFrames;
+      SimulationOptions scan = ObjectScan(request, "cat", seed, kFrames);
       if (!IsTracked(calibration.poses)) scan.pose_source = calibration.poses;
       scan.color.registration = calibration.colour;
       for (const Profile profile : request.profiles) {

@@ -8,15 +8,14 @@ namespace curvefusion {
 
 namespace {
 
-constexpr int kQuickFrames = 30;  // one bundle of the paper
+constexpr FrameCounts kFrames = {.quick = 30};
 
 std::vector<StudyCase> Cases(const StudyRequest& request) {
   std::vector<StudyCase> cases;
   for (const char* object : {"cat", "deco"}) {
     for (const bool large : {false, true}) {
       for (const uint64_t seed : SeedsOf(request)) {
-        SimulationOptions scan = ObjectScan(request, object, seed);
-        if (request.quick) scan.frames = kQuickFrames;
+        SimulationOptions scan = ObjectScan(request, object, seed, kFrames);
         scan.large_color = large;
         for (const Profile profile : request.profiles) {
           cases.push_back({{{"object", object},

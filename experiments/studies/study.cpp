@@ -11,8 +11,6 @@ namespace curvefusion {
 
 namespace {
 
-constexpr int kFrames = 150;
-constexpr int kQuickFrames = 60;
 constexpr int kSeeds = 3;
 // Of train, validation and test: apart by more than the 99 seeds that may be asked for.
 constexpr uint64_t kFirstSeeds[] = {1, 201, 101};
@@ -30,6 +28,12 @@ std::vector<std::string> KnownNames(const std::vector<std::string>& asked,
                                     const std::vector<std::string>& known, const char* kind) {
   for (const std::string& name : asked) PlaceOf(name, known, kind);
   return asked;
+}
+
+// The same path in so many frames.
+void ThinOut(int frames, SimulationOptions& scan) {
+  scan.motion.frame_rate *= static_cast<double>(frames) / scan.frames;
+  scan.frames = frames;
 }
 
 }  // namespace
@@ -69,16 +73,17 @@ std::vector<std::string> FamiliesOf(const StudyRequest& request) {
 SimulationOptions FamilyScan(const StudyRequest& request, const std::string& family,
                              uint64_t seed) {
   SimulationOptions scan = DrawScan(family, seed, request.sensor);
-  if (request.quick) scan.frames = std::min(scan.frames, kQuickFrames);
+  if (request.quick) ThinOut(std::min(scan.frames, FrameCounts().quick), scan);
   return scan;
 }
 
-SimulationOptions ObjectScan(const StudyRequest& request, const std::string& object,
-                             uint64_t seed) {
+SimulationOptions ObjectScan(const StudyRequest& request, const std::string& object, uint64_t seed,
+                             const FrameCounts& frames) {
   SimulationOptions scan;
   scan.object = object;
   scan.seed = seed;
-  scan.frames = request.quick ? kQuickFrames : kFrames;
+  scan.frames = frames.full;
+  if (request.quick) ThinOut(frames.quick, scan);
   return scan;
 }
 

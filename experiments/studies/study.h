@@ -46,15 +46,22 @@ std::vector<uint64_t> SeedsOf(const StudyRequest& request);
 /// Error(kUsage) naming the nearest one for an object that cannot be simulated.
 std::vector<std::string> ObjectsOf(const StudyRequest& request);
 
+/// How many frames a study has of a scan.
+struct FrameCounts {
+  int full = 150;  ///< 30 a second
+  int quick = 60;  ///< of the same path: a part of it would show less of the object
+};
+
 /// The scan of an object that studies of the paper's objects look at: a Kinect V1 with the poses of
-/// ORB-SLAM2, 150 frames, or 60 of a quick study.
-SimulationOptions ObjectScan(const StudyRequest& request, const std::string& object, uint64_t seed);
+/// ORB-SLAM2.
+SimulationOptions ObjectScan(const StudyRequest& request, const std::string& object, uint64_t seed,
+                             const FrameCounts& frames = {});
 
 /// The families of random scans a request asks for: otherwise all, or five of a quick study. Throws
 /// Error(kUsage) naming the nearest one for a family that does not exist.
 std::vector<std::string> FamiliesOf(const StudyRequest& request);
 
-/// The random scan of a family that studies look at: 60 frames at most of a quick study. Throws
+/// The random scan of a family that studies look at, in 60 frames at most for a quick study. Throws
 /// Error(kUsage) like DrawScan.
 SimulationOptions FamilyScan(const StudyRequest& request, const std::string& family, uint64_t seed);
 

@@ -43,8 +43,7 @@ std::vector<StudyCase> Cases(const StudyRequest& request) {
   for (const TableRow& row : kRows) {
     if (!IsWanted(request, row)) continue;
     for (const uint64_t seed : SeedsOf(request)) {
-      SimulationOptions scan = ObjectScan(request, row.object, seed);
-      scan.frames = row.frames;
+      SimulationOptions scan = ObjectScan(request, row.object, seed, {row.frames, row.frames});
       for (const Profile profile : request.profiles) {
         cases.push_back(
             {{{"row", row.name}, {"object", row.object}, {"profile", ProfileName(profile)}},

@@ -18,8 +18,7 @@ namespace curvefusion {
 
 namespace {
 
-constexpr int kFrames = 100;
-constexpr int kQuickFrames = 30;            // one bundle of the paper
+constexpr FrameCounts kFrames = {100, 30};
 constexpr int kWires[] = {1, 2, 3, 4};      // mm; of the object `triangles`
 constexpr double kFound = 5 * kMillimetre;  // as F5
 
@@ -41,8 +40,7 @@ std::vector<StudyCase> Cases(const StudyRequest& request) {
   std::vector<StudyCase> cases;
   for (const Finish& finish : FinishesOf(request)) {
     for (const uint64_t seed : SeedsOf(request)) {
-      SimulationOptions scan = ObjectScan(request, "triangles", seed);
-      scan.frames = request.quick ? kQuickFrames : kFrames;
+      SimulationOptions scan = ObjectScan(request, "triangles", seed, kFrames);
       scan.scene.wire_albedo = finish.albedo;
       scan.scene.wire_shininess = finish.shininess;
       scan.scene.wire_saturation = 0;

@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "capture/image_mat.h"
 #include "kernel/quantile.h"
 
 namespace curvefusion {
@@ -24,7 +25,7 @@ constexpr size_t kEvery = 17;  // so many-th pixel tells what is usual
 }  // namespace
 
 PosteriorImage LocalContrast(const ColorImage& image, double strip_px) {
-  const cv::Mat pixels(image.height(), image.width(), CV_8UC3, const_cast<Rgb*>(image.data()));
+  const cv::Mat pixels = MatOf(image);
   cv::Mat smooth, around;
   cv::GaussianBlur(pixels, smooth, cv::Size(5, 5), kBlurPx);
   const int reach = static_cast<int>(std::ceil(std::min(strip_px, kWidestPx) + kBlurredPx));

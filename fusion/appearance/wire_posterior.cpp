@@ -4,6 +4,8 @@
 #include <numeric>
 #include <opencv2/imgproc.hpp>
 
+#include "capture/image_mat.h"
+
 namespace curvefusion {
 
 namespace {
@@ -71,9 +73,7 @@ PosteriorImage ApplyPosterior(const ColourBins& bins, const std::vector<uint8_t>
   PosteriorImage raw(bins.width(), bins.height());
   for (size_t i = 0; i < bins.size(); ++i) raw.data()[i] = posterior[bins.data()[i]];
   PosteriorImage image(bins.width(), bins.height());
-  const cv::Mat from(raw.height(), raw.width(), CV_8UC1, raw.data());
-  cv::Mat to(image.height(), image.width(), CV_8UC1, image.data());
-  cv::GaussianBlur(from, to, cv::Size(3, 3), kBlurPx);
+  cv::GaussianBlur(MatOf(raw), MatOf(image), cv::Size(3, 3), kBlurPx);
   return image;
 }
 

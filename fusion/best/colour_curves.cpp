@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "capture/frame_stream.h"
+#include "capture/image_mat.h"
 #include "fusion/appearance/local_contrast.h"
 #include "fusion/best/colour_fit.h"
 #include "fusion/curve_graph/colour_candidates.h"
@@ -65,14 +66,6 @@ void FindCurves(const WireImages& images, const Eigen::AlignedBox3d& around, con
   if (!colour.skeleton.empty()) AssignMeasuredRadii(0, options.radius, reporter, colour);
 }
 
-ColorImage ShrunkTo(const PinholeCamera& camera, const ColorImage& color) {
-  ColorImage small(camera.width, camera.height);
-  const cv::Mat from(color.height(), color.width(), CV_8UC3, const_cast<Rgb*>(color.data()));
-  cv::Mat to(small.height(), small.width(), CV_8UC3, small.data());
-  cv::resize(from, to, to.size(), 0, 0, cv::INTER_AREA);
-  return small;
-}
-
 }  // namespace
 
 WireImages LookForColours(const Sequence& sequence, const WireColours& colours) {
@@ -89,7 +82,8 @@ WireImages LookForContrast(const Sequence& sequence) {
   const PinholeCamera camera = StripViews::CameraLookedThrough(sequence.color_camera, kFirstScale);
   ForEachFrame(
       sequence, images.frames, {.depth = false, .color = true}, [&](const DecodedFrame& frame) {
-        images.posteriors.push_back(LocalContrast(ShrunkTo(camera, frame.color), kWidestStripPx));
+        images.posteriors.push_back(
+            LocalContrast(ShrunkTo(camera.width, camera.height, frame.color), kWidestStripPx));
       });
   return images;
 }

@@ -40,16 +40,8 @@ void KeepNewWires(const std::vector<Vec3>& known, SkeletonGraph& found) {
   const PointGrid curves(known, kBeside);
   for (const EdgeId id : found.Edges()) {
     const Polyline points = found.edge(id).points;
-    std::vector<EdgePart> parts;
-    for (size_t i = 0; i < points.size(); ++i) {
-      if (curves.Nearest(points[i], kBeside) >= 0) continue;
-      if (!parts.empty() && parts.back().last + 1 == i) {
-        parts.back().last = i;
-      } else {
-        parts.push_back({i, i});
-      }
-    }
-    KeepParts(id, parts, kMinPiece, found);
+    const auto is_new = [&](size_t i) { return curves.Nearest(points[i], kBeside) < 0; };
+    KeepParts(id, PartsWhere(points.size(), is_new), kMinPiece, found);
   }
   found.RemoveIsolatedNodes();
 }

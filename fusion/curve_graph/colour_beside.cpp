@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "capture/frame_stream.h"
+#include "capture/image_mat.h"
 
 namespace curvefusion {
 
@@ -191,8 +192,8 @@ ColourChange ColourBeside::Change() const {
 
 ColorImage Smoothed(const ColorImage& image) {
   ColorImage smoothed(image.width(), image.height());
-  const cv::Mat from(image.height(), image.width(), CV_8UC3, const_cast<Rgb*>(image.data()));
-  cv::Mat to(image.height(), image.width(), CV_8UC3, smoothed.data());
+  const cv::Mat from = MatOf(image);
+  cv::Mat to = MatOf(smoothed);
   cv::blur(from, to, cv::Size(3, 3));
   return smoothed;
 }

@@ -63,16 +63,7 @@ std::vector<EdgePart> RunsKept(const SkeletonGraph& skeleton, const SkeletonEdge
 }  // namespace
 
 std::vector<EdgePart> LowRuns(const std::vector<double>& shares, double min_share) {
-  std::vector<EdgePart> runs;
-  for (size_t i = 0; i < shares.size(); ++i) {
-    if (shares[i] >= min_share) continue;
-    if (!runs.empty() && runs.back().last + 1 == i) {
-      runs.back().last = i;
-    } else {
-      runs.push_back({i, i});
-    }
-  }
-  return runs;
+  return PartsWhere(shares.size(), [&](size_t i) { return !(shares[i] >= min_share); });
 }
 
 double DropRefutedParts(const SharesOfCurve& shares_of, double min_share,

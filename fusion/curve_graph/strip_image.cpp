@@ -4,6 +4,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "capture/image_mat.h"
+
 namespace curvefusion {
 
 namespace {
@@ -23,7 +25,7 @@ StripImage::StripImage(int width, int height, const cv::Rect& part, const StripP
 }
 
 void StripImage::Explain(const Eigen::Vector2i& from, const Eigen::Vector2i& to, int width_px) {
-  cv::Mat target(to_strip_.height(), to_strip_.width(), CV_8U, to_strip_.data());
+  cv::Mat target = MatOf(to_strip_);
   cv::line(target, {from.x(), from.y()}, {to.x(), to.y()}, cv::Scalar(kExplained), width_px);
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "capture/image_mat.h"
 #include "kernel/quantile.h"
 
 namespace curvefusion {
@@ -26,7 +27,7 @@ constexpr int kReachesPx[] = {3, 5, 8};  // from the middle of a strip to what i
 using Planes = std::array<Image<float>, 3>;
 
 Planes SmoothPlanes(const ColorImage& color) {
-  const cv::Mat pixels(color.height(), color.width(), CV_8UC3, const_cast<Rgb*>(color.data()));
+  const cv::Mat pixels = MatOf(color);
   cv::Mat smooth;
   cv::GaussianBlur(pixels, smooth, cv::Size(5, 5), kBlurPx);
   Planes planes;
@@ -35,7 +36,7 @@ Planes SmoothPlanes(const ColorImage& color) {
     planes[c] = Image<float>(color.width(), color.height());
     cv::Mat channel;
     cv::extractChannel(smooth, channel, c);
-    targets[c] = cv::Mat(color.height(), color.width(), CV_32F, planes[c].data());
+    targets[c] = MatOf(planes[c]);
     channel.convertTo(targets[c], CV_32F);
   }
   return planes;

@@ -7,6 +7,7 @@
 
 #include "capture/farthest_depth.h"
 #include "capture/frame_stream.h"
+#include "capture/image_mat.h"
 #include "fusion/curve_graph/strip_middles.h"
 #include "kernel/parallel.h"
 
@@ -42,16 +43,6 @@ Image<Pixel> Crop(const Image<Pixel>& image, const cv::Rect& region) {
     std::copy(row, row + region.width, crop.row(v));
   }
   return crop;
-}
-
-template <typename Pixel>
-Image<Pixel> Shrunk(const Image<Pixel>& image, const PinholeCamera& camera, int type) {
-  if (image.width() == camera.width && image.height() == camera.height) return image;
-  Image<Pixel> small(camera.width, camera.height);
-  const cv::Mat from(image.height(), image.width(), type, const_cast<Pixel*>(image.data()));
-  cv::Mat to(small.height(), small.width(), type, small.data());
-  cv::resize(from, to, to.size(), 0, 0, cv::INTER_AREA);
-  return small;
 }
 
 // What is looked at of a frame: the part of its colour image around the object.
@@ -108,9 +99,10 @@ StripViews::StripViews(const Sequence& sequence, const std::vector<int>& frames,
     const RigidTransform T_color_world = sequence.T_color_depth * T_depth_world;
     const auto place = std::lower_bound(frames.begin(), frames.end(), frame.index) - frames.begin();
     const cv::Rect region = RegionIn(T_color_world);
-    parts.push_back({T_depth_world, T_color_world, FarthestInCells(frame.depth), region,
-                     Crop(Shrunk(frame.color, color_camera_, CV_8UC3), region),
-                     Crop(Shrunk(posteriors[place], color_camera_, CV_8U), region)});
+    parts.push_back(
+        {T_depth_world, T_color_world, FarthestInCells(frame.depth), region,
+         Crop(ShrunkTo(color_camera_.width, color_camera_.height, frame.color), region),
+         Crop(ShrunkTo(color_camera_.width, color_camera_.height, posteriors[place]), region)});
   });
   views_.resize(parts.size());
   ParallelFor(0, static_cast<int64_t>(parts.size()), 1, [&](int64_t i) {

@@ -7,6 +7,8 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
+#include "capture/image_mat.h"
+#include "kernel/camera.h"
 #include "kernel/parallel.h"
 
 namespace curvefusion {
@@ -36,8 +38,6 @@ int TurnOf(double angle) {
 
 double AngleOf(int turn) { return turn * M_PI / kTurns; }
 
-Eigen::Vector2i Rounded(const Vec2& p) { return (p.array() + 0.5).floor().cast<int>(); }
-
 // Second derivative of a Gaussian across a line, one along it; in pixels. Sum 0, of absolute values
 // 1.
 cv::Mat LineKernel(double angle, double across, double along) {
@@ -59,7 +59,7 @@ cv::Mat LineKernel(double angle, double across, double along) {
 // For every direction how clearly a line runs there through a pixel.
 std::vector<Image<float>> ScoresOf(const Image<float>& image, double pixel) {
   std::vector<Image<float>> scores(kTurns);
-  const cv::Mat from(image.height(), image.width(), CV_32F, const_cast<float*>(image.data()));
+  const cv::Mat from = MatOf(image);
   ParallelFor(0, kTurns, 1, [&](int64_t turn) {
     Image<float> best(image.width(), image.height(), -1);
     cv::Mat to;
@@ -80,7 +80,7 @@ class OwnPath {
  public:
   // Whether it was there before, in this direction; it has been from then on.
   bool HasReturned(const Vec2& p, double angle) {
-    const Eigen::Vector2i at = Rounded(p);
+    const Eigen::Vector2i at = PinholeCamera::Rounded(p);
     for (int k = 0; k < 9; ++k) {
       const auto before = steps_.find({at.x() + k % 3 - 1, at.y() + k / 3 - 1});
       if (before != steps_.end() && before->second.number + kMinRing < count_ &&
@@ -168,7 +168,7 @@ class LineTracer {
   }
 
   bool IsDone(const Vec2& p, int turn) const {
-    const Eigen::Vector2i at = Rounded(p);
+    const Eigen::Vector2i at = PinholeCamera::Rounded(p);
     return done_[turn](at.x(), at.y()) != 0;
   }
 
@@ -191,7 +191,7 @@ class LineTracer {
           best_angle = angle + bend;
         }
       }
-      const Eigen::Vector2i at = Rounded(best_p);
+      const Eigen::Vector2i at = PinholeCamera::Rounded(best_p);
       const bool goes_on = best > kGoOn && known_.Contains(at.x(), at.y()) &&
                            known_(at.x(), at.y()) && !IsDone(best_p, TurnOf(best_angle));
       if (!goes_on) break;
@@ -204,7 +204,7 @@ class LineTracer {
 
   void Mark(const ImageLine& line) {
     for (size_t i = 0; i < line.size(); ++i) {
-      const Eigen::Vector2i at = Rounded(line[i]);
+      const Eigen::Vector2i at = PinholeCamera::Rounded(line[i]);
       const int turn = TurnOf(AngleAt(line, i));
       for (int t = turn - kSameTurns; t <= turn + kSameTurns; ++t) {
         MaskImage& done = done_[(t + kTurns) % kTurns];

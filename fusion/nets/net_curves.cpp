@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "capture/image_mat.h"
 #include "fusion/nets/line_tracing.h"
 #include "fusion/nets/net_diameters.h"
 #include "fusion/nets/net_sheets.h"
@@ -14,6 +15,7 @@
 #include "fusion/nets/sheet_views.h"
 #include "graph/edge_parts.h"
 #include "graph/intersections.h"
+#include "kernel/camera.h"
 #include "kernel/point_grid.h"
 #include "kernel/quantile.h"
 
@@ -41,7 +43,7 @@ size_t PointStride() { return static_cast<size_t>(std::lround(kPointStep / Sheet
 template <class Pixel, class Visit>
 void ForEachPixel(const ImageLine& line, const Image<Pixel>& image, const Visit& visit) {
   for (size_t i = 0; i < line.size(); ++i) {
-    const Eigen::Vector2i at = (line[i].array() + 0.5).floor().cast<int>();
+    const Eigen::Vector2i at = PinholeCamera::Rounded(line[i]);
     if (image.Contains(at.x(), at.y())) visit(i, at.x(), at.y());
   }
 }
@@ -98,7 +100,7 @@ MaskImage Between(const std::vector<ImageLine>& lines, int width, int height) {
   for (const ImageLine& line : lines)
     ForEachPixel(line, between, [&](size_t, int u, int v) { between(u, v) = 1; });
   const int reach = static_cast<int>(kHalfGap / SheetImage::kStep);
-  cv::Mat pixels(height, width, CV_8U, between.data());
+  cv::Mat pixels = MatOf(between);
   cv::morphologyEx(pixels, pixels, cv::MORPH_CLOSE,
                    cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * reach + 1, 2 * reach + 1}));
   return between;
@@ -175,16 +177,13 @@ void RemoveReplaced(const WiresOfSheet& found, SkeletonGraph& skeleton) {
   for (const EdgeId id : skeleton.Edges()) {
     const Polyline points = skeleton.edge(id).points;
     const std::vector<Vec3> tangents = Tangents(points);
-    std::vector<EdgePart> parts;
-    for (size_t i = 0; i < points.size(); ++i) {
+    const std::vector<EdgePart> parts = PartsWhere(points.size(), [&](size_t i) {
       bool is_replaced = found.Holds(points[i]);
       wires.ForEachWithin(points[i], kSameWire, [&](int near, const Vec3&) {
         is_replaced |= std::abs(directions[near].dot(tangents[i])) > kSameCosine;
       });
-      if (is_replaced) continue;
-      if (parts.empty() || parts.back().last + 1 < i) parts.push_back({i, i});
-      parts.back().last = i;
-    }
+      return !is_replaced;
+    });
     const bool is_whole = !parts.empty() && PointCount(parts[0]) == points.size();
     if (!is_whole) KeepParts(id, parts, kMinPiece, skeleton);
   }

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "capture/frame_stream.h"
+#include "capture/image_mat.h"
 #include "fusion/nets/smooth_depth.h"
 #include "kernel/quantile.h"
 
@@ -109,13 +110,10 @@ Plane MostPopulated(const std::vector<Vec3>& points) {
   return FitPlane(Near(points, FitPlane(most), kOnSheet));
 }
 
-cv::Mat MatOf(Image<float>& image) { return {image.height(), image.width(), CV_32F, image.data()}; }
-
 // Parts of what is known that are smaller than a net is are not.
 void DropSmallParts(NetSheet& sheet) {
-  const cv::Mat known(sheet.known.height(), sheet.known.width(), CV_8U, sheet.known.data());
   cv::Mat labels, figures, centers;
-  cv::connectedComponentsWithStats(known, labels, figures, centers);
+  cv::connectedComponentsWithStats(MatOf(sheet.known), labels, figures, centers);
   for (int v = 0; v < sheet.known.height(); ++v) {
     for (int u = 0; u < sheet.known.width(); ++u) {
       const int pixels = figures.at<int>(labels.at<int>(v, u), cv::CC_STAT_AREA);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "capture/image_mat.h"
+
 namespace curvefusion {
 
 namespace {
@@ -14,8 +16,6 @@ constexpr double kBroad = 0.006;  // metres: what is broader is no wire
 constexpr double kAround = 0.02;  // metres: light and what is behind change over more
 constexpr double kMinClear = 2;   // times noise: 3.5 and more on nets, .6 on a wall with texture
 constexpr float kFaint = 1e-6F;   // of a weight: as good as none
-
-cv::Mat MatOf(Image<float>& image) { return {image.height(), image.width(), CV_32F, image.data()}; }
 
 Image<float> StandsOut(const Image<float>& image, const MaskImage& known) {
   Image<float> out = MeanAround(image, known, kBroad / SheetImage::kStep);

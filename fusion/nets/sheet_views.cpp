@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "capture/frame_stream.h"
+#include "kernel/bilinear.h"
 #include "kernel/parallel.h"
 
 namespace curvefusion {
@@ -38,15 +39,8 @@ class Eye {
     const bool is_inside = u >= 0 && v >= 0 && u < static_cast<float>(view_.color.width() - 1) &&
                            v < static_cast<float>(view_.color.height() - 1);
     if (!is_inside || IsHidden(T_depth_world_ * p)) return false;
-    const int u0 = static_cast<int>(u), v0 = static_cast<int>(v);
-    const float x = u - static_cast<float>(u0), y = v - static_cast<float>(v0);
-    const Rgb* upper = view_.color.row(v0) + u0;
-    const Rgb* lower = view_.color.row(v0 + 1) + u0;
-    for (size_t k = 0; k < 3; ++k) {
-      const float above = (1 - x) * upper[0][k] + x * upper[1][k];
-      const float below = (1 - x) * lower[0][k] + x * lower[1][k];
-      colour[k] = static_cast<uint8_t>((1 - y) * above + y * below + 0.5F);
-    }
+    const Vec3f shown = Bilinear(view_.color, u, v);
+    for (int k = 0; k < 3; ++k) colour[k] = static_cast<uint8_t>(shown[k] + 0.5F);
     colour[3] = 1;
     return true;
   }

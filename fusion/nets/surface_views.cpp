@@ -10,6 +10,7 @@
 #include "fusion/nets/box_sums.h"
 #include "fusion/nets/smooth_depth.h"
 #include "fusion/tracking/view_alignment.h"
+#include "kernel/bilinear.h"
 #include "kernel/parallel.h"
 #include "kernel/quantile.h"
 
@@ -100,16 +101,8 @@ class View {
           v < static_cast<float>(color_.height() - 1))) {
       return false;
     }
-    const int u0 = static_cast<int>(u), v0 = static_cast<int>(v);
-    const float x = u - static_cast<float>(u0), y = v - static_cast<float>(v0);
-    const Rgb* upper = color_.row(v0) + u0;
-    const Rgb* lower = color_.row(v0 + 1) + u0;
-    for (int k = 0; k < 3; ++k) {
-      const auto c = static_cast<size_t>(k);
-      const float above = (1 - x) * upper[0][c] + x * upper[1][c];
-      const float below = (1 - x) * lower[0][c] + x * lower[1][c];
-      colour[c] = gain_[c] * ((1 - y) * above + y * below);
-    }
+    const Vec3f shown = Bilinear(color_, u, v);
+    for (int k = 0; k < 3; ++k) colour[k] = gain_[k] * shown[k];
     return true;
   }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "capture/image_mat.h"
 #include "fusion/appearance/wire_posterior.h"
 #include "fusion/segmentation/colour_lookup.h"
 #include "fusion/segmentation/stripe_field.h"
@@ -39,9 +40,7 @@ constexpr int kSharpeningRounds = 4;
 // The greatest value within a square around each pixel.
 Image<uint8_t> Dilated(const Image<uint8_t>& image, int radius) {
   Image<uint8_t> dilated(image.width(), image.height());
-  const cv::Mat source(image.height(), image.width(), CV_8U, const_cast<uint8_t*>(image.data()));
-  cv::Mat target(image.height(), image.width(), CV_8U, dilated.data());
-  cv::dilate(source, target, cv::Mat::ones(2 * radius + 1, 2 * radius + 1, CV_8U));
+  cv::dilate(MatOf(image), MatOf(dilated), cv::Mat::ones(2 * radius + 1, 2 * radius + 1, CV_8U));
   return dilated;
 }
 
@@ -128,9 +127,7 @@ Vec2 FindShift(const std::vector<WireCandidates>& frames, const std::vector<uint
 // Euclidean distances in pixels to the nearest pixel that is 0.
 Image<float> DistanceToZero(const MaskImage& mask) {
   Image<float> distance(mask.width(), mask.height());
-  const cv::Mat from(mask.height(), mask.width(), CV_8U, const_cast<uint8_t*>(mask.data()));
-  cv::Mat to(mask.height(), mask.width(), CV_32F, distance.data());
-  cv::distanceTransform(from, to, cv::DIST_L2, cv::DIST_MASK_5);
+  cv::distanceTransform(MatOf(mask), MatOf(distance), cv::DIST_L2, cv::DIST_MASK_5);
   return distance;
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "capture/image_mat.h"
 #include "kernel/parallel.h"
 
 namespace curvefusion {
@@ -38,17 +39,15 @@ MaskImage Dilated(const MaskImage& mask, double radius_px) {
   const int radius = static_cast<int>(std::lround(radius_px));
   if (radius < 1) return mask;
   MaskImage dilated(mask.width(), mask.height());
-  const cv::Mat source(mask.height(), mask.width(), CV_8U, const_cast<uint8_t*>(mask.data()));
-  cv::Mat target(mask.height(), mask.width(), CV_8U, dilated.data());
   const cv::Size size(2 * radius + 1, 2 * radius + 1);
-  cv::dilate(source, target, cv::getStructuringElement(cv::MORPH_ELLIPSE, size));
+  cv::dilate(MatOf(mask), MatOf(dilated), cv::getStructuringElement(cv::MORPH_ELLIPSE, size));
   return dilated;
 }
 
 }  // namespace
 
 MaskImage ColourEdges(const ColorImage& color, const CannyThresholds& thresholds) {
-  const cv::Mat rgb(color.height(), color.width(), CV_8UC3, const_cast<Rgb*>(color.data()));
+  const cv::Mat rgb = MatOf(color);
   cv::Mat dx, dy, edges;
   StrongestGradient(rgb, dx, dy);
   cv::Canny(dx, dy, edges, thresholds.low, thresholds.high, true);

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "capture/image_mat.h"
+
 namespace curvefusion {
 
 namespace {
@@ -20,10 +22,8 @@ constexpr float kLeastCurvature = 0.02f;
 
 StripeField::StripeField(const PosteriorImage& posterior)
     : smooth_(posterior.width(), posterior.height()) {
-  const cv::Mat from(posterior.height(), posterior.width(), CV_8U,
-                     const_cast<uint8_t*>(posterior.data()));
-  cv::Mat to(smooth_.height(), smooth_.width(), CV_32F, smooth_.data());
-  from.convertTo(to, CV_32F, 1 / 255.0);
+  cv::Mat to = MatOf(smooth_);
+  MatOf(posterior).convertTo(to, CV_32F, 1 / 255.0);
   cv::GaussianBlur(to, to, cv::Size(), kSigmaPx);
 }
 

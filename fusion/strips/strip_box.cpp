@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "capture/image_mat.h"
+
 namespace curvefusion {
 
 namespace {
@@ -22,8 +24,7 @@ struct Edges {
 };
 
 Edges ExtractEdges(const ColorImage& image) {
-  const cv::Mat rgb(image.height(), image.width(), CV_8UC3,
-                    const_cast<Rgb*>(image.data()));  // OpenCV has no view of const pixels
+  const cv::Mat rgb = MatOf(image);
   cv::Mat dx;
   cv::Mat dy;
   cv::Sobel(rgb, dx, CV_16S, 1, 0);

@@ -84,10 +84,19 @@ TEST(SensorsStudy, ScansDifferInTheSensorAlone) {
   }
 }
 
+// Half of the path would show half of the object.
+TEST(ObjectScan, QuickStudiesHaveTheWholePathInFewerFrames) {
+  const SimulationOptions full = ObjectScan({}, "rack", 1, {150, 30});
+  const SimulationOptions quick = ObjectScan({.quick = true}, "rack", 1, {150, 30});
+  EXPECT_EQ(full.frames, 150);
+  EXPECT_EQ(quick.frames, 30);
+  EXPECT_DOUBLE_EQ(full.frames / full.motion.frame_rate, quick.frames / quick.motion.frame_rate);
+}
+
 // The object is as much smaller as its wire is thinner, and so are the lengths of the paper
 // profile.
 TEST(FineScan, IsScaledAsAWhole) {
-  const SimulationOptions scan = FineScan({}, 1);
+  const SimulationOptions scan = FineScan({}, 1, {});
   const std::vector<WireCurve> own = MakeObject("breadholder").curves;
   const std::vector<WireCurve>& small = scan.object_options.curves;
   ASSERT_EQ(small.size(), own.size());
