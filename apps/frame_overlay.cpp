@@ -84,7 +84,7 @@ struct CutOutMap {
 };
 
 cv::Mat CutAndScale(const ColorImage& image, const CutOutMap& map, const cv::Size& size) {
-  const cv::Mat source = MatOf(image);  // read only; cv::Mat has no const view
+  const cv::Mat source = MatOf(image);
   const cv::Matx23d affine(map.scale, 0, -map.scale * map.origin.x(),  //
                            0, map.scale, -map.scale * map.origin.y());
   cv::Mat result;

@@ -49,7 +49,8 @@ std::vector<std::string> ObjectsOf(const StudyRequest& request);
 /// How many frames a study has of a scan.
 struct FrameCounts {
   int full = 150;  ///< 30 a second
-  int quick = 60;  ///< of the same path: a part of it would show less of the object
+  int quick = 60;  ///< of the same path: a part of it would show less of the object. 30 frames, a
+                   ///< bundle of the paper, then take longer than a second, and cameras drift more
 };
 
 /// The scan of an object that studies of the paper's objects look at: a Kinect V1 with the poses of

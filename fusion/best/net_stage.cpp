@@ -10,7 +10,6 @@ namespace curvefusion {
 
 namespace {
 
-constexpr double kSameWire = 0.003;     // metres; chosen: less than half of the spacing of wires
 constexpr double kDiameterError = 0.1;  // relative: docs/nets.md
 
 }  // namespace

@@ -58,9 +58,8 @@ void StripImage::SetStrips(const StripPixels& strips) {
 void StripImage::SetNearest(const StripPixels& strips) {
   MaskImage others(part_.width, part_.height);
   for (size_t i = 0; i < others.size(); ++i) others.data()[i] = strips.middles.data()[i] ? 0 : 1;
-  const cv::Mat from(part_.height, part_.width, CV_8U, others.data());
   cv::Mat distance, labels;
-  cv::distanceTransform(from, distance, labels, cv::DIST_L2, 5, cv::DIST_LABEL_PIXEL);
+  cv::distanceTransform(MatOf(others), distance, labels, cv::DIST_L2, 5, cv::DIST_LABEL_PIXEL);
   std::vector<uint8_t> direction_of_label(others.size() + 1, 0);
   for (int v = 0; v < part_.height; ++v) {
     for (int u = 0; u < part_.width; ++u) {
@@ -91,9 +90,8 @@ void StripImage::SetEvidence(Look look) {
     for (int u = part_.x; u < part_.x + part_.width; ++u)
       cells[u / kCellPx] += units[u] <= kReachPx[look] * kDistanceUnits;
   }
-  const cv::Mat from(height, width, CV_32F, shares.data());
   cv::Mat around;
-  cv::blur(from / (kCellPx * kCellPx), around, cv::Size(kAroundCells, kAroundCells));
+  cv::blur(MatOf(shares) / (kCellPx * kCellPx), around, cv::Size(kAroundCells, kAroundCells));
   seen_[look] = not_seen_[look] = Image<float>(width, height);
   for (int v = 0; v < height; ++v) {
     for (int u = 0; u < width; ++u) {

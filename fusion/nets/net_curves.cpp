@@ -28,7 +28,6 @@ constexpr double kMinSine = 0.43;      // of the angle at which lines cross: 25 
 constexpr size_t kMinCrossings = 3;    // of a wire
 constexpr double kMaxSpacing = 0.05;   // metres of a wire for each that crosses it
 constexpr double kHalfGap = 0.012;     // metres; gaps between wires are no wider than twice that
-constexpr double kSameWire = 0.003;    // metres
 constexpr double kSameCosine = 0.85;   // of the angle between curves that are one wire
 constexpr double kOnSheet = 0.006;     // metres
 constexpr double kMinPiece = 0.012;    // metres of a curve that is left: that of refuted_parts.h

@@ -9,6 +9,9 @@
 
 namespace curvefusion {
 
+/// Chosen: metres between curves that are one wire of a net, less than half of what is between two.
+inline constexpr double kSameWire = 0.003;
+
 /// A wire of a net.
 struct NetWire {
   Polyline points;
