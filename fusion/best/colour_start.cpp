@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "capture/frame_stream.h"
+#include "fusion/best/curves_in_depth.h"
 #include "fusion/curve_graph/viewed_region.h"
 #include "fusion/silhouettes/wire_silhouettes.h"
 #include "kernel/polyline.h"
@@ -20,17 +20,6 @@ namespace {
 
 constexpr double kStep = 0.003;       // metres, between the places that images are asked about
 constexpr double kShownAsWire = 0.9;  // of the images
-// Depth shows wires in wrong places, but in the right pixels. Chosen on four scans of wires, of
-// whose curves from colour .84 and more lie where depth shows something thin, and five rooms
-// without any, where .42 at most do (docs/lab_notebook.md).
-constexpr double kMinThinInDepth = 0.6;
-// Or depth does not show them at all, but what is behind: .96 and .98 of the places of a white grid
-// by an SR300 and of springs, .97 and .98 by a phone; .39 to .88 of what three rooms without wires
-// give. All are training scans. Of 24 rooms one has 1.0, but nothing that is proven.
-constexpr double kMinFreeInDepth = 0.9;
-constexpr int kThinImages = 20;    // chosen: enough for a share
-constexpr double kBehind = 0.03;   // metres; likewise what hides it: that of StripViews
-constexpr double kThinCellPx = 8;  // chosen: of images 640 pixels wide
 
 // Metres of curve, and how many of them the images show as wire.
 struct ShownCurves {
@@ -59,73 +48,6 @@ ShownCurves CountShown(const Sequence& sequence, const WireImages& images,
         Length(points) * static_cast<double>(shown) / static_cast<double>(shares.size());
   }
   return curves;
-}
-
-// Where images have pixels in which something lies, as cells with their neighbours.
-MaskImage CellsAround(const std::vector<Vec3>& points, const PinholeCamera& cells,
-                      const RigidTransform& T_camera_world) {
-  MaskImage around(cells.width, cells.height, 0);
-  for (const Vec3& point : points) {
-    const Vec3 p = T_camera_world * point;
-    if (p.z() <= 0) continue;
-    const Vec2 pixel = cells.Project(p);
-    if (!cells.Contains(pixel)) continue;
-    const Eigen::Vector2i at = PinholeCamera::Rounded(pixel);
-    for (int v = std::max(0, at.y() - 1); v <= std::min(cells.height - 1, at.y() + 1); ++v)
-      for (int u = std::max(0, at.x() - 1); u <= std::min(cells.width - 1, at.x() + 1); ++u)
-        around(u, v) = 1;
-  }
-  return around;
-}
-
-// How much of the curves from colour lies, in the images, where depth has points of something thin,
-// in whatever distance: a share of the places of all images.
-double ShareThinInDepth(const Reconstruction& depth, const Reconstruction& colour,
-                        const std::vector<int>& frames) {
-  const PinholeCamera& camera = depth.sequence.color_camera;
-  const PinholeCamera cells = camera.Scaled(640 / (kThinCellPx * camera.width));
-  size_t looked = 0, thin = 0;
-  for (const int frame : EvenlyThinned(frames, kThinImages)) {
-    const MaskImage around = CellsAround(
-        depth.points.positions, cells,
-        depth.sequence.T_color_depth * depth.sequence.frames[frame].T_world_camera.inverse());
-    const RigidTransform T_color_world =
-        colour.sequence.T_color_depth * colour.sequence.frames[frame].T_world_camera.inverse();
-    for (const EdgeId id : colour.skeleton.Edges()) {
-      for (const Vec3& point : Resample(colour.skeleton.edge(id).points, kStep)) {
-        const Vec3 p = T_color_world * point;
-        if (p.z() <= 0 || !cells.Contains(cells.Project(p))) continue;
-        const Eigen::Vector2i at = PinholeCamera::Rounded(cells.Project(p));
-        ++looked;
-        thin += around(at.x(), at.y());
-      }
-    }
-  }
-  return looked > 0 ? static_cast<double>(thin) / static_cast<double>(looked) : 0;
-}
-
-// How much of the curves from colour lies in free space: a share of their places in all images in
-// which depth shows something there, or behind it.
-double ShareFreeInDepth(const Sequence& sequence, const SkeletonGraph& skeleton,
-                        const std::vector<int>& frames) {
-  size_t told = 0, free = 0;
-  for (const int frame : EvenlyThinned(frames, kThinImages)) {
-    const DepthImage depth = LoadDepth(sequence, frame);
-    const RigidTransform T_camera_world = sequence.frames[frame].T_world_camera.inverse();
-    for (const EdgeId id : skeleton.Edges()) {
-      for (const Vec3& point : Resample(skeleton.edge(id).points, kStep)) {
-        const Vec3 p = T_camera_world * point;
-        if (p.z() <= 0 || !sequence.depth_camera.Contains(sequence.depth_camera.Project(p)))
-          continue;
-        const Eigen::Vector2i at = PinholeCamera::Rounded(sequence.depth_camera.Project(p));
-        const float there = depth(at.x(), at.y());
-        if (there < p.z() - kBehind) continue;  // hidden, or not measured
-        ++told;
-        free += there > p.z() + kBehind;
-      }
-    }
-  }
-  return told > 0 ? static_cast<double>(free) / static_cast<double>(told) : 0;
 }
 
 // The motion of the world that takes the cameras of one reconstruction to those of another.
@@ -177,11 +99,14 @@ bool IsLikely(bool depth_shows_them, const Reconstruction& result, const ColourF
   if (depth_shows_them) {
     const double thin = ShareThinInDepth(result, fit.colour, fit.images.frames);
     reporter.log.Count(kWiresFromColour, "share thin in depth", thin);
-    return thin >= kMinThinInDepth;
+    return IsThinInDepth(thin);
   }
-  const double free = ShareFreeInDepth(fit.colour.sequence, fit.colour.skeleton, fit.images.frames);
-  reporter.log.Count(kWiresFromColour, "share free in depth", free);
-  return free >= kMinFreeInDepth;
+  const PlacesInDepth places =
+      LookUpDepth(fit.colour.sequence, fit.colour.skeleton, fit.images.frames);
+  reporter.log.Count(kWiresFromColour, "places looked at in depth", places.looked);
+  reporter.log.Count(kWiresFromColour, "places measured in depth", places.measured);
+  reporter.log.Count(kWiresFromColour, "share free in depth", places.ShareOpen());
+  return places.AreOpen();
 }
 
 }  // namespace

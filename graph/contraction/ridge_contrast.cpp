@@ -39,27 +39,6 @@ Vec3 MeanRay(const PointGrid& grid, const ObservedPoints& points, const Vec3& ce
   return count > 0 ? Vec3(sum / count) : sum;
 }
 
-// Of two opposite sides the emptier one, in the direction across in which that is fullest. A depth
-// camera scatters the points of a wire along its viewing ray, so where that is known only the sides
-// of the wire as seen by the camera count.
-double FullestFlank(const PointGrid& grid, const ObservedPoints& points, const Vec3& place,
-                    const Vec3& direction, const RidgeContrastOptions& options) {
-  const Vec3 beside = direction.cross(MeanRay(grid, points, place, options.ball_radius));
-  const bool is_seen = beside.norm() > kLeastRay;
-  const Vec3 first = is_seen ? beside.normalized() : direction.unitOrthogonal();
-  const Vec3 second = direction.cross(first);
-  double fullest = 0;
-  for (int k = 0; k < (is_seen ? 1 : kDirectionsAcross); ++k) {
-    const double angle = std::numbers::pi * k / kDirectionsAcross;
-    const Vec3 side = options.flank_distance * (std::cos(angle) * first + std::sin(angle) * second);
-    const double one = CountWithin(grid, points.counts, place + side, options.ball_radius);
-    if (one <= fullest) continue;
-    const double other = CountWithin(grid, points.counts, place - side, options.ball_radius);
-    fullest = std::max(fullest, std::min(one, other));
-  }
-  return fullest;
-}
-
 }  // namespace
 
 void VisitOptions(RidgeContrastOptions& options, OptionVisitor& visitor) {
@@ -69,25 +48,58 @@ void VisitOptions(RidgeContrastOptions& options, OptionVisitor& visitor) {
                 options.min_share);
 }
 
+RidgeContrast::RidgeContrast(const ObservedPoints& points, const std::vector<Vec3>& places,
+                             const std::vector<Vec3>& directions,
+                             const RidgeContrastOptions& options)
+    : points_(points),
+      places_(places),
+      directions_(directions),
+      options_(options),
+      grid_(points.positions, options.ball_radius),
+      own_(places.size()),
+      best_(places.size()) {
+  assert(directions.size() == places.size());
+  const auto n = static_cast<int64_t>(places.size());
+  ParallelFor(0, n, kGrain, [&](int64_t i) {
+    own_[i] = CountWithin(grid_, points.counts, places[i], options.ball_radius);
+  });
+  const PointGrid places_grid(places, options.neighbourhood);
+  ParallelFor(0, n, kGrain, [&](int64_t i) {
+    places_grid.ForEachWithin(places[i], options.neighbourhood,
+                              [&](int j, const Vec3&) { best_[i] = std::max(best_[i], own_[j]); });
+  });
+}
+
+// A depth camera scatters the points of a wire along its viewing ray.
+double RidgeContrast::Flank(size_t place, RidgeSides sides) const {
+  const Vec3& at = places_[place];
+  const Vec3& direction = directions_[place];
+  const double radius = options_.ball_radius;
+  const Vec3 beside = direction.cross(MeanRay(grid_, points_, at, radius));
+  const bool is_seen = sides == RidgeSides::kSeen && beside.norm() > kLeastRay;
+  const Vec3 first = is_seen ? beside.normalized() : direction.unitOrthogonal();
+  const Vec3 second = direction.cross(first);
+  double fullest = 0;
+  for (int k = 0; k < (is_seen ? 1 : kDirectionsAcross); ++k) {
+    const double angle = std::numbers::pi * k / kDirectionsAcross;
+    const Vec3 side =
+        options_.flank_distance * (std::cos(angle) * first + std::sin(angle) * second);
+    const double one = CountWithin(grid_, points_.counts, at + side, radius);
+    if (one <= fullest) continue;
+    fullest =
+        std::max(fullest, std::min(one, CountWithin(grid_, points_.counts, at - side, radius)));
+  }
+  return fullest;
+}
+
 std::vector<char> StandsOut(const ObservedPoints& points, const std::vector<Vec3>& places,
                             const std::vector<Vec3>& directions,
                             const RidgeContrastOptions& options) {
-  assert(directions.size() == places.size());
-  const auto n = static_cast<int64_t>(places.size());
-  const PointGrid grid(points.positions, options.ball_radius);
-  std::vector<double> own(places.size());
-  ParallelFor(0, n, kGrain, [&](int64_t i) {
-    own[i] = CountWithin(grid, points.counts, places[i], options.ball_radius);
-  });
-  const PointGrid places_grid(places, options.neighbourhood);
+  const RidgeContrast contrast(points, places, directions, options);
   std::vector<char> stands_out(places.size(), 1);
-  ParallelFor(0, n, kGrain, [&](int64_t i) {
-    double best = 0;
-    places_grid.ForEachWithin(places[i], options.neighbourhood,
-                              [&](int j, const Vec3&) { best = std::max(best, own[j]); });
-    if (own[i] >= options.min_share * best) return;
-    stands_out[i] =
-        FullestFlank(grid, points, places[i], directions[i], options) <= kMaxFlank * own[i];
+  ParallelFor(0, static_cast<int64_t>(places.size()), kGrain, [&](int64_t i) {
+    if (contrast.Own(i) >= options.min_share * contrast.Best(i)) return;
+    stands_out[i] = contrast.Flank(i, RidgeSides::kSeen) <= kMaxFlank * contrast.Own(i);
   });
   return stands_out;
 }

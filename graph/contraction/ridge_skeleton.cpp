@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "graph/connected_parts.h"
+#include "graph/contraction/noise_edges.h"
 #include "graph/intersections.h"
 #include "graph/merge.h"
 #include "graph/parallel_edges.h"
@@ -100,12 +101,14 @@ SkeletonGraph ExtractRidgeSkeleton(const ObservedPoints& observed, const RidgePo
                                    const RidgeOptions& options) {
   const ObservedPoints points = FinitePoints(observed);
   SkeletonGraph graph = ConnectRidgePoints(ridge, options.network);
+  DropNoiseEdges(graph, points, options.projection.contrast);
   DropSmallComponents(graph, options.fragment_length);
   SmoothEdges(graph, options.smoothing_length, options.step);
   StraightenTips(graph, options.free_ends);
   // Ends that miss a junction in its blurred place may meet it in its right one.
   for (int round = 0; round < 2; ++round) {
     CloseFreeEnds(graph, options.free_ends, points);
+    DropNoiseEdges(graph, points, options.projection.contrast);
     RefineJunctions(graph, options.junctions);
     MergeParallelEdges(graph, options.junctions.min_distance);
     DropShortLoops(graph, options.network.min_loop);

@@ -1,0 +1,138 @@
+#include "fusion/best/curves_in_depth.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "capture/frame_stream.h"
+#include "kernel/polyline.h"
+
+namespace curvefusion {
+
+namespace {
+
+constexpr double kStep = 0.003;  // metres, between the places that depth is asked about
+// Depth shows wires in wrong places, but in the right pixels. Chosen on four scans of wires, of
+// whose curves from colour .84 and more lie where depth shows something thin, and five rooms
+// without any, where .42 at most do (docs/lab_notebook.md).
+constexpr double kMinThinInDepth = 0.6;
+// Or depth does not show them at all, but what is behind: .96 and .98 of the places of a white grid
+// by an SR300 and of springs, .97 and .98 by a phone; .39 to .88 of what three rooms without wires
+// give. All are training scans. Of 24 rooms one has 1.0, but nothing that is proven.
+constexpr double kMinFreeInDepth = 0.9;
+// Or depth has holes there, as of a thin wire by an SR300: .02 to .05 of the places measured, .62
+// to .68 of all with depth that lies behind on both sides (a cage, a cube frame and a dome,
+// training scans). Rooms without wires have .49 and more of the places measured.
+constexpr double kMaxMeasuredInHoles = 0.1;
+constexpr double kMinOpenInHoles = 0.55;
+constexpr double kReach = 0.05;   // chosen: of the width of images, from a place to depth beside it
+constexpr int kThinImages = 20;   // chosen: enough for a share
+constexpr double kBehind = 0.03;  // metres; likewise what hides it: that of StripViews
+constexpr double kThinCellPx = 8;  // chosen: of images 640 pixels wide
+
+double Share(size_t part, size_t of) {
+  return of > 0 ? static_cast<double>(part) / static_cast<double>(of) : 0;
+}
+
+// Where images have pixels in which something lies, as cells with their neighbours.
+MaskImage CellsAround(const std::vector<Vec3>& points, const PinholeCamera& cells,
+                      const RigidTransform& T_camera_world) {
+  MaskImage around(cells.width, cells.height, 0);
+  for (const Vec3& point : points) {
+    const Vec3 p = T_camera_world * point;
+    if (p.z() <= 0) continue;
+    const Vec2 pixel = cells.Project(p);
+    if (!cells.Contains(pixel)) continue;
+    const Eigen::Vector2i at = PinholeCamera::Rounded(pixel);
+    for (int v = std::max(0, at.y() - 1); v <= std::min(cells.height - 1, at.y() + 1); ++v)
+      for (int u = std::max(0, at.x() - 1); u <= std::min(cells.width - 1, at.x() + 1); ++u)
+        around(u, v) = 1;
+  }
+  return around;
+}
+
+// Whether depth lies behind a place on both sides of the curve that it lies on: what is there is a
+// wire, or nothing.
+bool IsOpenOnBothSides(const DepthImage& depth, const Vec2& pixel, const Vec2& along,
+                       double range) {
+  const Vec2 across = Vec2(-along.y(), along.x()).normalized();
+  const auto is_open_at = [&](double distance) {
+    const Eigen::Vector2i at = PinholeCamera::Rounded(pixel + distance * across);
+    return depth.Contains(at.x(), at.y()) && depth(at.x(), at.y()) > range + kBehind;
+  };
+  const int reach = static_cast<int>(std::lround(kReach * depth.width()));
+  bool is_left = false, is_right = false;
+  for (int distance = 1; distance <= reach; ++distance) {
+    is_left = is_left || is_open_at(-distance);
+    is_right = is_right || is_open_at(distance);
+  }
+  return is_left && is_right;
+}
+
+}  // namespace
+
+bool PlacesInDepth::HaveHoles() const { return Share(measured, looked) < kMaxMeasuredInHoles; }
+
+double PlacesInDepth::ShareOpen() const {
+  return HaveHoles() ? Share(open, looked) : Share(free, measured);
+}
+
+bool PlacesInDepth::AreOpen() const {
+  return ShareOpen() >= (HaveHoles() ? kMinOpenInHoles : kMinFreeInDepth);
+}
+
+PlacesInDepth LookUpDepth(const Sequence& sequence, const SkeletonGraph& skeleton,
+                          const std::vector<int>& frames) {
+  const PinholeCamera& camera = sequence.depth_camera;
+  PlacesInDepth places;
+  for (const int frame : EvenlyThinned(frames, kThinImages)) {
+    const DepthImage depth = LoadDepth(sequence, frame);
+    const RigidTransform T_camera_world = sequence.frames[frame].T_world_camera.inverse();
+    for (const EdgeId id : skeleton.Edges()) {
+      const Polyline points = Resample(skeleton.edge(id).points, kStep);
+      for (size_t i = 0; i + 1 < points.size(); ++i) {
+        const Vec3 p = T_camera_world * points[i];
+        const Vec3 next = T_camera_world * points[i + 1];
+        if (p.z() <= 0 || next.z() <= 0 || !camera.Contains(camera.Project(p))) continue;
+        const Vec2 pixel = camera.Project(p);
+        const Eigen::Vector2i at = PinholeCamera::Rounded(pixel);
+        const double there = depth(at.x(), at.y());
+        if (there > 0 && there < p.z() - kBehind) continue;  // hidden
+        const bool is_free = there > p.z() + kBehind;
+        ++places.looked;
+        places.measured += there > 0;
+        places.free += is_free;
+        places.open +=
+            is_free || IsOpenOnBothSides(depth, pixel, camera.Project(next) - pixel, p.z());
+      }
+    }
+  }
+  return places;
+}
+
+double ShareThinInDepth(const Reconstruction& depth, const Reconstruction& colour,
+                        const std::vector<int>& frames) {
+  const PinholeCamera& camera = depth.sequence.color_camera;
+  const PinholeCamera cells = camera.Scaled(640 / (kThinCellPx * camera.width));
+  size_t looked = 0, thin = 0;
+  for (const int frame : EvenlyThinned(frames, kThinImages)) {
+    const MaskImage around = CellsAround(
+        depth.points.positions, cells,
+        depth.sequence.T_color_depth * depth.sequence.frames[frame].T_world_camera.inverse());
+    const RigidTransform T_color_world =
+        colour.sequence.T_color_depth * colour.sequence.frames[frame].T_world_camera.inverse();
+    for (const EdgeId id : colour.skeleton.Edges()) {
+      for (const Vec3& point : Resample(colour.skeleton.edge(id).points, kStep)) {
+        const Vec3 p = T_color_world * point;
+        if (p.z() <= 0 || !cells.Contains(cells.Project(p))) continue;
+        const Eigen::Vector2i at = PinholeCamera::Rounded(cells.Project(p));
+        ++looked;
+        thin += around(at.x(), at.y());
+      }
+    }
+  }
+  return Share(thin, looked);
+}
+
+bool IsThinInDepth(double share) { return share >= kMinThinInDepth; }
+
+}  // namespace curvefusion
