@@ -29,33 +29,48 @@ std::vector<std::string> FiguresOf(const std::vector<BarPanel>& panels) {
 
 // Names that would leave the picture at 35 degrees, characters; measured on the font of DrawPlot.
 constexpr size_t kLongName = 12;
+constexpr double kCharacter = 0.067;  // inches, of that font
 
-bool HasLongNames(const std::vector<StudyRun>& runs) {
-  return std::any_of(runs.begin(), runs.end(), [](const StudyRun& run) {
-    return LabelOf(run.labels, "row").size() > kLongName;
-  });
+// Names of bars stand aslant under each panel, or, where they are long, upright under the last row.
+struct NameLayout {
+  bool is_upright = false;
+  double height = 4.2;  // of the picture, inches
+  double bottom = 0.155, top = 0.89, gap = 0.25;
+};
+
+NameLayout LayoutFor(const std::vector<StudyRun>& runs, size_t panel_rows) {
+  size_t longest = 0;
+  for (const StudyRun& run : runs) longest = std::max(longest, LabelOf(run.labels, "row").size());
+  if (longest <= kLongName) return {};
+  const double names = kCharacter * static_cast<double>(longest) + 0.1;
+  const double height = 1.6 * static_cast<double>(panel_rows) + names + 0.46;
+  return {true, height, names / height, 1 - 0.46 / height, 0.36 / height};
 }
 
 std::string PlotCommands(const std::vector<StudyRun>& runs, const std::vector<RunGroup>& profiles,
-                         size_t row_count, const std::vector<BarPanel>& panels) {
-  const bool is_long = HasLongNames(runs);
+                         size_t row_count, const std::vector<BarPanel>& panels,
+                         const NameLayout& layout) {
   std::string commands =
       fmt::format("set xrange [-0.6:{:.1f}]\n", static_cast<double>(row_count) - 0.4) +
       fmt::format("set datafile missing '?'\nset xtics noenhanced rotate by {} right scale 0\n",
-                  is_long ? 60 : 35) +
+                  layout.is_upright ? 90 : 35) +
       "unset grid\n"
       "set grid ytics linecolor rgb '#DDDDDD' linewidth 0.6 dashtype 1\n"
       "set errorbars small linecolor rgb '#222222' linewidth 0.9\nset style fill solid 0.85 "
       "noborder\n" +
-      fmt::format("set multiplot layout {},2 margins 0.055,0.99,{},0.89 spacing 0.065,{}\n",
-                  (panels.size() + 1) / 2, is_long ? 0.21 : 0.155, is_long ? 0.28 : 0.25);
+      fmt::format(
+          "set multiplot layout {},2 margins 0.055,0.99,{:.3f},{:.3f} spacing 0.065,{:.3f}\n",
+          (panels.size() + 1) / 2, layout.bottom, layout.top, layout.gap);
   int column = 2;
   for (const BarPanel& panel : panels) {
     commands += fmt::format(
         "set title '{}' offset 0,-0.6\nset yrange [0:{}]\n{}\n", panel.title,
         GreatestOf(runs, panel.figure, panel.least_top),
         column == 2 ? "set key at screen 0.5,0.985 center top horizontal maxrows 1" : "unset key");
-    std::vector<std::string> parts = {"data index 0 using 0:(0):xtic(1) with points pointsize 0"};
+    const bool has_names =
+        !layout.is_upright || static_cast<size_t>(column / 3) + 2 >= panels.size();
+    std::vector<std::string> parts = {fmt::format(
+        "data index 0 using 0:(0):xtic({}) with points pointsize 0", has_names ? "1" : "''")};
     for (size_t i = 0; i < profiles.size(); ++i) {
       const double shift = (static_cast<double>(i) - (profiles.size() - 1) / 2.) * 0.38;
       parts.push_back(fmt::format(
@@ -75,10 +90,11 @@ void DrawBarPanels(const StudyResults& results, const std::vector<std::string>& 
   const std::vector<StudyRun> runs = WithRows(results.runs, rows);
   const std::vector<RunGroup> groups = GroupRuns(runs, {"row", "profile"});
   const std::vector<RunGroup> profiles = GroupRuns(runs, {"profile"});
+  const NameLayout layout = LayoutFor(runs, (panels.size() + 1) / 2);
   DrawPlot(results.folder, results.stem,
            {SpreadBlocks(groups, "profile", "row", FiguresOf(panels)),
-            PlotCommands(runs, profiles, groups.size() / profiles.size(), panels), 6.5,
-            HasLongNames(runs) ? 5.4 : 4.2});
+            PlotCommands(runs, profiles, groups.size() / profiles.size(), panels, layout), 6.5,
+            layout.height});
 }
 
 }  // namespace curvefusion
