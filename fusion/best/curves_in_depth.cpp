@@ -15,18 +15,21 @@ constexpr double kStep = 0.003;  // metres, between the places that depth is ask
 // whose curves from colour .84 and more lie where depth shows something thin, and five rooms
 // without any, where .42 at most do (docs/lab_notebook.md).
 constexpr double kMinThinInDepth = 0.6;
-// Or depth does not show them at all, but what is behind: .96 and .98 of the places of a white grid
-// by an SR300 and of springs, .97 and .98 by a phone; .39 to .88 of what three rooms without wires
-// give. All are training scans. Of 24 rooms one has 1.0, but nothing that is proven.
+// Or depth does not show them at all, but what is behind: .95 to 1.00 of the places of a rack and a
+// wheel by a phone (training scans), .07 to .43 of what five rooms without wires give.
 constexpr double kMinFreeInDepth = 0.9;
-// Or depth has holes there, as of a thin wire by an SR300: .02 to .05 of the places measured, .62
-// to .68 of all with depth that lies behind on both sides (a cage, a cube frame and a dome,
+// Or depth has holes there, as of a thin wire by an SR300: .01 to .03 of the places measured, .63
+// to .69 of all with depth that lies behind on both sides (a cage, a cube frame and a dome,
 // training scans). Rooms without wires have .49 and more of the places measured.
 constexpr double kMaxMeasuredInHoles = 0.1;
 constexpr double kMinOpenInHoles = 0.55;
 constexpr double kReach = 0.05;   // chosen: of the width of images, from a place to depth beside it
 constexpr int kThinImages = 20;   // chosen: enough for a share
 constexpr double kBehind = 0.03;  // metres; likewise what hides it: that of StripViews
+// Images tell no size: of that which depth will tell in the end, of the distance
+// (HoldToScaleOfDepth tries as much). Without it the frame of a monitor, too near by 43 mm, lay
+// before its own depth.
+constexpr double kScaleError = 0.06;
 constexpr double kThinCellPx = 8;  // chosen: of images 640 pixels wide
 
 double Share(size_t part, size_t of) {
@@ -53,11 +56,11 @@ MaskImage CellsAround(const std::vector<Vec3>& points, const PinholeCamera& cell
 // Whether depth lies behind a place on both sides of the curve that it lies on: what is there is a
 // wire, or nothing.
 bool IsOpenOnBothSides(const DepthImage& depth, const Vec2& pixel, const Vec2& along,
-                       double range) {
+                       double behind) {
   const Vec2 across = Vec2(-along.y(), along.x()).normalized();
   const auto is_open_at = [&](double distance) {
     const Eigen::Vector2i at = PinholeCamera::Rounded(pixel + distance * across);
-    return depth.Contains(at.x(), at.y()) && depth(at.x(), at.y()) > range + kBehind;
+    return depth.Contains(at.x(), at.y()) && depth(at.x(), at.y()) > behind;
   };
   const int reach = static_cast<int>(std::lround(kReach * depth.width()));
   bool is_left = false, is_right = false;
@@ -96,13 +99,14 @@ PlacesInDepth LookUpDepth(const Sequence& sequence, const SkeletonGraph& skeleto
         const Vec2 pixel = camera.Project(p);
         const Eigen::Vector2i at = PinholeCamera::Rounded(pixel);
         const double there = depth(at.x(), at.y());
-        if (there > 0 && there < p.z() - kBehind) continue;  // hidden
-        const bool is_free = there > p.z() + kBehind;
+        const double margin = kBehind + kScaleError * p.z();
+        if (there > 0 && there < p.z() - margin) continue;  // hidden
+        const bool is_free = there > p.z() + margin;
         ++places.looked;
         places.measured += there > 0;
         places.free += is_free;
-        places.open +=
-            is_free || IsOpenOnBothSides(depth, pixel, camera.Project(next) - pixel, p.z());
+        places.open += is_free || IsOpenOnBothSides(depth, pixel, camera.Project(next) - pixel,
+                                                    p.z() + margin);
       }
     }
   }
