@@ -29,6 +29,7 @@ class CurvesInDepth : public testing::Test {
     sequence.depth_camera = camera;
     sequence.depth_scale = kScale;
     sequence.frames.resize(1);
+    sequence.frames[0].T_world_camera = RigidTransform::Identity();
     sequence.frames[0].depth_path = folder_.path() / "depth.png";
     SkeletonGraph wire;
     wire.AddPolyline(TestLine({0, -0.1, kRange}, {0, 0.1, kRange}));
