@@ -61,24 +61,23 @@ std::string PlotCommands(const std::vector<StudyRun>& runs, const std::vector<Ru
       fmt::format(
           "set multiplot layout {},2 margins 0.055,0.99,{:.3f},{:.3f} spacing 0.065,{:.3f}\n",
           (panels.size() + 1) / 2, layout.bottom, layout.top, layout.gap);
-  int column = 2;
-  for (const BarPanel& panel : panels) {
+  for (size_t i = 0; i < panels.size(); ++i) {
+    const BarPanel& panel = panels[i];
+    const size_t column = 2 + 3 * i;  // of the data
     commands += fmt::format(
         "set title '{}' offset 0,-0.6\nset yrange [0:{}]\n{}\n", panel.title,
         GreatestOf(runs, panel.figure, panel.least_top),
-        column == 2 ? "set key at screen 0.5,0.985 center top horizontal maxrows 1" : "unset key");
-    const bool has_names =
-        !layout.is_upright || static_cast<size_t>(column / 3) + 2 >= panels.size();
+        i == 0 ? "set key at screen 0.5,0.985 center top horizontal maxrows 1" : "unset key");
+    const bool has_names = !layout.is_upright || i + 2 >= panels.size();
     std::vector<std::string> parts = {fmt::format(
         "data index 0 using 0:(0):xtic({}) with points pointsize 0", has_names ? "1" : "''")};
-    for (size_t i = 0; i < profiles.size(); ++i) {
-      const double shift = (static_cast<double>(i) - (profiles.size() - 1) / 2.) * 0.38;
+    for (size_t p = 0; p < profiles.size(); ++p) {
+      const double shift = (static_cast<double>(p) - (profiles.size() - 1) / 2.) * 0.38;
       parts.push_back(fmt::format(
           "data index {0} using ($0{1:+}):{2}:{3}:{4}:(0.36) with boxerrorbars lt {5} title '{6}'",
-          i, shift, column, column + 1, column + 2, i + 1, profiles[i].labels.front().second));
+          p, shift, column, column + 1, column + 2, p + 1, profiles[p].labels.front().second));
     }
     commands += fmt::format("plot {}\n", fmt::join(parts, ", "));
-    column += 3;
   }
   return commands + "unset multiplot";
 }

@@ -49,10 +49,11 @@ EdgePlaces PlacesAlong(const SkeletonGraph& graph, const std::vector<EdgeId>& ed
 // The noise of a graph with its share of what was seen nearby, the weakest first.
 std::vector<std::pair<double, EdgeId>> FindNoise(const SkeletonGraph& graph,
                                                  const ObservedPoints& points,
+                                                 const PointGrid& grid,
                                                  const RidgeContrastOptions& options) {
   const std::vector<EdgeId> edges = graph.Edges();
   const EdgePlaces along = PlacesAlong(graph, edges, options.ball_radius);
-  const RidgeContrast contrast(points, along.places, along.directions, options);
+  const RidgeContrast contrast(points, grid, along.places, along.directions, options);
   std::vector<std::pair<double, EdgeId>> noise;
   for (size_t e = 0; e < edges.size(); ++e) {
     double own = 0, best = 0, flank = 0;
@@ -87,8 +88,9 @@ void RemoveOneAtANode(SkeletonGraph& graph, const std::vector<std::pair<double, 
 void DropNoiseEdges(SkeletonGraph& graph, const ObservedPoints& points,
                     const RidgeContrastOptions& options) {
   if (points.empty()) return;
-  for (auto noise = FindNoise(graph, points, options); !noise.empty();
-       noise = FindNoise(graph, points, options)) {
+  const PointGrid grid(points.positions, options.ball_radius);
+  for (auto noise = FindNoise(graph, points, grid, options); !noise.empty();
+       noise = FindNoise(graph, points, grid, options)) {
     RemoveOneAtANode(graph, noise);
   }
 }

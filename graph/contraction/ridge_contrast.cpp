@@ -48,14 +48,14 @@ void VisitOptions(RidgeContrastOptions& options, OptionVisitor& visitor) {
                 options.min_share);
 }
 
-RidgeContrast::RidgeContrast(const ObservedPoints& points, const std::vector<Vec3>& places,
-                             const std::vector<Vec3>& directions,
+RidgeContrast::RidgeContrast(const ObservedPoints& points, const PointGrid& grid,
+                             const std::vector<Vec3>& places, const std::vector<Vec3>& directions,
                              const RidgeContrastOptions& options)
     : points_(points),
       places_(places),
       directions_(directions),
       options_(options),
-      grid_(points.positions, options.ball_radius),
+      grid_(grid),
       own_(places.size()),
       best_(places.size()) {
   assert(directions.size() == places.size());
@@ -75,8 +75,9 @@ double RidgeContrast::Flank(size_t place, RidgeSides sides) const {
   const Vec3& at = places_[place];
   const Vec3& direction = directions_[place];
   const double radius = options_.ball_radius;
-  const Vec3 beside = direction.cross(MeanRay(grid_, points_, at, radius));
-  const bool is_seen = sides == RidgeSides::kSeen && beside.norm() > kLeastRay;
+  Vec3 beside = Vec3::Zero();
+  if (sides == RidgeSides::kSeen) beside = direction.cross(MeanRay(grid_, points_, at, radius));
+  const bool is_seen = beside.norm() > kLeastRay;
   const Vec3 first = is_seen ? beside.normalized() : direction.unitOrthogonal();
   const Vec3 second = direction.cross(first);
   double fullest = 0;
@@ -95,7 +96,8 @@ double RidgeContrast::Flank(size_t place, RidgeSides sides) const {
 std::vector<char> StandsOut(const ObservedPoints& points, const std::vector<Vec3>& places,
                             const std::vector<Vec3>& directions,
                             const RidgeContrastOptions& options) {
-  const RidgeContrast contrast(points, places, directions, options);
+  const PointGrid grid(points.positions, options.ball_radius);
+  const RidgeContrast contrast(points, grid, places, directions, options);
   std::vector<char> stands_out(places.size(), 1);
   ParallelFor(0, static_cast<int64_t>(places.size()), kGrain, [&](int64_t i) {
     if (contrast.Own(i) >= options.min_share * contrast.Best(i)) return;

@@ -24,13 +24,14 @@ enum class RidgeSides {
   kAround  ///< whichever way across: also along the rays, where the noise of depth lies
 };
 
-/// What was seen at places on ridges, each of unit direction: counts of points within a ball. The
-/// points, places and directions must outlive it; places.size() must be directions.size(). Costs
-/// O(n k) for k points in a ball.
+/// What was seen at places on ridges, each of unit direction: counts of points within a ball, found
+/// by a grid of the points. All but the options must outlive it; places.size() must be
+/// directions.size(). Costs O(n k) for k points in a ball.
 class RidgeContrast {
  public:
-  RidgeContrast(const ObservedPoints& points, const std::vector<Vec3>& places,
-                const std::vector<Vec3>& directions, const RidgeContrastOptions& options);
+  RidgeContrast(const ObservedPoints& points, const PointGrid& grid,
+                const std::vector<Vec3>& places, const std::vector<Vec3>& directions,
+                const RidgeContrastOptions& options);
 
   double Own(size_t place) const { return own_[place]; }
   /// At the best place in the neighbourhood.
@@ -43,7 +44,7 @@ class RidgeContrast {
   const std::vector<Vec3>& places_;
   const std::vector<Vec3>& directions_;
   RidgeContrastOptions options_;
-  PointGrid grid_;
+  const PointGrid& grid_;
   std::vector<double> own_;
   std::vector<double> best_;
 };
