@@ -17,6 +17,7 @@ constexpr size_t kPlaceStride = 2;
 // Chosen: metres beyond the curve's radius, out of its blur and mostly before the next wire.
 constexpr double kDistance[] = {0.004, 0.007, 0.010};
 constexpr double kBlurPx = 1.5;  // around a curve its own colour shows
+constexpr double kBlur = 0.002;  // metres, likewise: at .7 m
 constexpr size_t kMinLooks = 6;  // chosen: images of a point, for a median and how far from it
 // Chosen, for the wall behind the real cable: grey levels between points, for noise and shading,
 constexpr double kEven = 4;
@@ -135,6 +136,33 @@ ColourBeside::ColourBeside(const std::vector<CurvePlace>& places) {
   }
 }
 
+void ColourBeside::LeaveOutCurves(const std::vector<CurvePlace>& curves,
+                                  const PointGrid& positions) {
+  double reach = 0;
+  for (const CurvePlace& place : curves) reach = std::max(reach, place.radius + kBlur);
+  for (Place& place : places_) {
+    for (auto& points : place.beside) {
+      for (Point& point : points) {
+        positions.ForEachWithin(point.position, reach, [&](int i, const Vec3& on_curve) {
+          const double distance = (on_curve - point.position).norm();
+          point.is_on_curve |= distance < curves[static_cast<size_t>(i)].radius + kBlur;
+        });
+      }
+    }
+  }
+}
+
+// Whether most of a direction is left out.
+bool ColourBeside::HasCurvesBeside() const {
+  for (size_t k = 0; k < kDirections; ++k) {
+    size_t left_out = 0;
+    for (const Place& place : places_)
+      for (const Point& point : place.beside[k]) left_out += point.is_on_curve;
+    if (2 * left_out > kDistances * places_.size()) return true;
+  }
+  return false;
+}
+
 void ColourBeside::Look(const ColorImage& smoothed, const PinholeCamera& camera,
                         const RigidTransform& T_camera_world) {
   for (Place& place : places_) {
@@ -146,6 +174,7 @@ void ColourBeside::Look(const ColorImage& smoothed, const PinholeCamera& camera,
     }
     for (auto& points : place.beside) {
       for (Point& point : points) {
+        if (point.is_on_curve) continue;
         const Vec2 pixel = camera.Project(Vec3(T_camera_world * point.position));
         if (!camera.Contains(pixel) || line->DistanceTo(pixel) < line->own_px) continue;
         const Eigen::Vector2i at = PinholeCamera::Rounded(pixel);
@@ -160,15 +189,17 @@ void ColourBeside::Look(const ColorImage& smoothed, const PinholeCamera& camera,
 std::optional<double> ColourBeside::ChangeIn(size_t direction, const Colour& own) const {
   std::vector<Colour> medians;
   double sum = 0;
+  size_t count = 0;
   for (const Place& place : places_) {
     for (const Point& point : place.beside[direction]) {
+      count += !point.is_on_curve;
       if (point.colours.size() < kMinLooks) continue;
       const SeenColour seen = Summary(point.colours);
       medians.push_back(seen.median);
       sum += seen.change;
     }
   }
-  if (2 * medians.size() < kDistances * places_.size()) return std::nullopt;
+  if (2 * medians.size() < count) return std::nullopt;
   const SeenColour all = Summary(medians);
   if (all.change < kEven && (all.median - own).abs().mean() > kAnotherColour) return std::nullopt;
   return sum / static_cast<double>(medians.size());
@@ -179,7 +210,7 @@ ColourChange ColourBeside::Change() const {
   for (const Place& place : places_) {
     if (place.own.size() >= kMinLooks) on_curve.push_back(Summary(place.own).median);
   }
-  if (on_curve.empty()) return {};
+  if (on_curve.empty() || HasCurvesBeside()) return {};
   const Colour own = Summary(on_curve).median;
   std::vector<double> changes;
   for (size_t k = 0; k < kDirections; ++k) {

@@ -10,6 +10,7 @@
 #include "kernel/camera.h"
 #include "kernel/geometry.h"
 #include "kernel/image.h"
+#include "kernel/point_grid.h"
 
 namespace curvefusion {
 
@@ -28,6 +29,10 @@ class ColourBeside {
   /// `places` of the curve (world frame), of which every second one is looked at.
   explicit ColourBeside(const std::vector<CurvePlace>& places);
 
+  /// Leaves out what lies beside this curve on another one, whose colour stays as a surface's does.
+  /// `curves` are all that there are, `positions` those of their places.
+  void LeaveOutCurves(const std::vector<CurvePlace>& curves, const PointGrid& positions);
+
   /// Adds an image that has at each pixel the mean of those around it.
   void Look(const ColorImage& smoothed, const PinholeCamera& camera,
             const RigidTransform& T_camera_world);
@@ -40,6 +45,7 @@ class ColourBeside {
 
   struct Point {
     Vec3 position;
+    bool is_on_curve = false;  // another one
     std::vector<Rgb> colours;  // of the images that show it
   };
   struct Place {
@@ -48,6 +54,7 @@ class ColourBeside {
     std::array<std::array<Point, kDistances>, kDirections> beside;
   };
 
+  bool HasCurvesBeside() const;
   std::optional<double> ChangeIn(size_t direction, const Eigen::Array3d& own) const;
 
   std::vector<Place> places_;

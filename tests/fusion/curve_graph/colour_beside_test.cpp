@@ -7,7 +7,7 @@
 namespace curvefusion {
 namespace {
 
-const PinholeCamera kCamera = {160, 120, 150, 150, 80, 60};
+const PinholeCamera kCamera = {320, 240, 400, 400, 160, 120};
 constexpr double kDistance = 0.5;  // metres, of the curve
 
 // A plane across the view that has patches of some millimetres.
@@ -31,14 +31,26 @@ std::vector<CurvePlace> Line() {
   return places;
 }
 
-// Cameras on an arc of 24 cm around a line, before a plane.
-ColourChange Change(double plane_z, double contrast, int cameras = 12) {
+// What a line is told of by cameras on an arc of 24 cm around it, before a plane; with other curves
+// to leave out, and others that the images show.
+ColourChange Change(double plane_z, double contrast, int cameras = 12,
+                    const std::vector<CurvePlace>& left_out = {},
+                    const std::vector<CurvePlace>& drawn = {}) {
   ColourBeside beside(Line());
+  std::vector<Vec3> positions;
+  for (const CurvePlace& place : left_out) positions.push_back(place.position);
+  beside.LeaveOutCurves(left_out, PointGrid(positions, 0.005));
   for (int i = 0; i < cameras; ++i) {
     const Vec3 center(0.02 * (i - 5.5), 0.01 * (i % 3), 0);
     RigidTransform T_camera_world = RigidTransform::Identity();
     T_camera_world.translation() = -center;
-    beside.Look(ImageOfPlane(center, plane_z, contrast), kCamera, T_camera_world);
+    ColorImage image = ImageOfPlane(center, plane_z, contrast);
+    for (const CurvePlace& place : drawn) {
+      const Eigen::Vector2i at =
+          PinholeCamera::Rounded(kCamera.Project(Vec3(T_camera_world * place.position)));
+      for (int v = -3; v <= 3; ++v) image(at.x(), at.y() + v) = {40, 40, 40};
+    }
+    beside.Look(image, kCamera, T_camera_world);
   }
   return beside.Change();
 }
@@ -65,7 +77,7 @@ TEST(ColourBeside, WhatIsEvenAndOfAnotherColourIsLeftOut) {
       const auto wall = static_cast<uint8_t>(200 + 4 * (i % 3));
       ColorImage image(kCamera.width, kCamera.height, Rgb{wall, wall, wall});
       for (int v = 0; v < image.height(); ++v)
-        for (int u = 82; u <= 84; ++u) image(u, v) = {wire, wire, wire};
+        for (int u = 164; u <= 172; ++u) image(u, v) = {wire, wire, wire};
       beside.Look(image, kCamera, RigidTransform::Identity());
     }
     return beside.Change();
@@ -77,6 +89,22 @@ TEST(ColourBeside, WhatIsEvenAndOfAnotherColourIsLeftOut) {
 TEST(ColourBeside, IsNotKnownFromFewImages) {
   EXPECT_EQ(Change(kDistance + 0.2, 60, 5).most, 0);
   EXPECT_EQ(ColourBeside(Line()).Change().most, 0);
+}
+
+TEST(ColourBeside, AnotherCurveBesideItLeavesItUnknown) {
+  std::vector<CurvePlace> next = Line();
+  for (CurvePlace& place : next) place.position.x() += 0.01;
+  EXPECT_EQ(Change(kDistance + 0.2, 60, 12, next).most, 0);
+}
+
+// Beside the line, where they cross it, their colour stays the same in all images.
+TEST(ColourBeside, CurvesThatCrossAreNoSurface) {
+  std::vector<CurvePlace> crossing;
+  for (const double y : {-0.008, 0.008})
+    for (int i = -30; i <= 30; ++i)
+      crossing.push_back({1, 0, 0.003, {0.01 + 0.001 * i, y, kDistance}, Vec3::UnitX()});
+  const ColourChange taken_for_surface = Change(kDistance + 0.2, 60, 12, {}, crossing);
+  EXPECT_GT(Change(kDistance + 0.2, 60, 12, crossing, crossing).most, 1.3 * taken_for_surface.most);
 }
 
 TEST(Smoothed, IsTheMeanOfThePixelsAround) {
