@@ -222,7 +222,7 @@ Source ParseAssignment(const std::string& assignment) {
   } catch (const toml::parse_error&) {
     if (const auto table = TextAssigned(assignment)) return {*table, name, false};
     ThrowUsage(
-        fmt::format("{}: write section.key=value, for example volume.voxel_size=0.005", name));
+        fmt::format("{}: write section.key=value, for example volume.voxel_size=0.008", name));
   }
 }
 
@@ -308,6 +308,21 @@ class TomlWriter : public OptionVisitor {
   std::string text_;
 };
 
+// Options that must fit each other, so that a run does not end after minutes.
+void CheckTogether(const Config& config) {
+  const auto* const best = std::get_if<BestOptions>(&config.pipeline);
+  if (best == nullptr) return;
+  const double truncation = best->volume.voxel_size * best->volume.truncation_voxels;
+  const double solid_depth = best->segmentation.opening.solid_depth;
+  if (solid_depth < truncation) return;
+  ThrowUsage(
+      fmt::format("segmentation.solid_depth = {:g} m must be less than volume.voxel_size * "
+                  "volume.truncation_voxels = {:g} * {} = {:g} m; set volume.truncation_voxels to "
+                  "{} or more",
+                  solid_depth, best->volume.voxel_size, best->volume.truncation_voxels, truncation,
+                  static_cast<int>(solid_depth / best->volume.voxel_size) + 1));
+}
+
 }  // namespace
 
 void VisitOptions(Config& config, OptionVisitor& visitor) {
@@ -349,6 +364,7 @@ Config ReadConfig(const ConfigSources& sources) {
     if (source.table.contains("profile")) ThrowUsage(source.name + ": use --profile instead");
     Apply(source, config);
   }
+  CheckTogether(config);
   return config;
 }
 

@@ -48,7 +48,7 @@ struct ConfigSources {
 
 /// Reads the effective config. Throws Error(kUsage) that names the file and line or the assignment,
 /// and the nearest name for an unknown one, the type for a wrong one, range and unit for a value
-/// out of range.
+/// out of range or two that do not fit each other.
 Config ReadConfig(const ConfigSources& sources);
 
 /// The config as TOML, each option with what it is, its unit and its range; ReadConfig reads the

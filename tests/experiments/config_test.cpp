@@ -107,6 +107,18 @@ TEST(Config, AValueOutOfRangeIsAnsweredWithTheRangeAndItsUnit) {
   EXPECT_THAT(MessageOfSet("volume.truncation_voxels=9223372036854775807"), HasSubstr("range"));
 }
 
+TEST(Config, ValuesThatDoNotFitEachOtherAreRefused) {
+  EXPECT_THAT(MessageOfSet("volume.voxel_size=0.004"),
+              AllOf(HasSubstr("segmentation.solid_depth = 0.03 m"),
+                    HasSubstr("set volume.truncation_voxels to 8 or more")));
+  const auto read = [](Profile profile, std::vector<std::string> assignments) {
+    return ReadConfig({.profile = profile, .file = {}, .assignments = std::move(assignments)});
+  };
+  EXPECT_NO_THROW(read(Profile::kBest, {"volume.voxel_size=0.004", "volume.truncation_voxels=8"}));
+  EXPECT_NO_THROW(read(Profile::kBest, {"volume.voxel_size=0.004", "segmentation.solid_depth=0"}));
+  EXPECT_NO_THROW(read(Profile::kPaper, {"volume.voxel_size=0.004"}));
+}
+
 TEST(Config, AnOptionWithoutItsSectionIsAnsweredWithIt) {
   EXPECT_THAT(MessageOfSet("min_frames=3"), HasSubstr("did you mean bundle.min_frames?"));
   EXPECT_THAT(MessageOfSet("voxel_size=4mm"), HasSubstr("volume.voxel_size"));
