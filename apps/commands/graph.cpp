@@ -29,7 +29,7 @@ struct GraphArguments {
   bool info = false;
   bool validate = false;
   double proximity_mm = kProximity / kMillimetre;
-  std::vector<int> removed;  // numbers of curves as the report page counts them, from 1
+  std::vector<int> removed;  // numbers of curves, as on the report page
   double resolve_mm = 0;     // 0 = do not
   double smooth = 0;         // lambda; 0 = do not
   std::filesystem::path output;
@@ -106,11 +106,11 @@ void RemoveCurves(const GraphArguments& arguments, SkeletonGraph& graph) {
   if (arguments.removed.empty()) return;
   const std::vector<EdgeId> edges = graph.Edges();
   for (const int number : std::set<int>(arguments.removed.begin(), arguments.removed.end())) {
-    if (number < 1 || number > static_cast<int>(edges.size())) {
-      throw Error(ErrorKind::kUsage, fmt::format("--remove {}: {} has curves 1 to {}", number,
-                                                 arguments.graph.string(), edges.size()));
+    if (number < 0 || number >= static_cast<int>(edges.size())) {
+      throw Error(ErrorKind::kUsage, fmt::format("--remove {}: {} has {} curves, counted from 0",
+                                                 number, arguments.graph.string(), edges.size()));
     }
-    graph.RemoveEdge(edges[static_cast<size_t>(number) - 1]);
+    graph.RemoveEdge(edges[static_cast<size_t>(number)]);
   }
   graph.RemoveIsolatedNodes();
   graph.DissolveDegree2Nodes();
@@ -189,7 +189,7 @@ void AddGraphCommand(CLI::App& app, int& exit_code) {
       ->needs(validate);  // by its name CLI11 cannot look it up without memory
   command
       ->add_option("--remove", arguments->removed,
-                   "Take these curves out, numbered from 1 as on the report page: 3,17")
+                   "Take these curves out, by their numbers on the report page and in --info: 3,17")
       ->delimiter(',');
   command
       ->add_option("--resolve", arguments->resolve_mm,

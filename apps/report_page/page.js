@@ -334,7 +334,7 @@ const ReportPage = (() => {
         ["What it is", "may be thin, but is no proven wire: it is in none of the figures and not in the mesh"],
       ]);
       byId("selection").replaceChildren(
-        element("h3", {}, `Uncertain curve ${index - proven + 1}`), list, steps);
+        element("h3", {}, `Uncertain curve ${index - proven}`), list, steps);
       return;
     }
     const edge = data.report.skeleton.per_edge[index];
@@ -348,7 +348,7 @@ const ReportPage = (() => {
         : edge.diameter_mm ? "nowhere on this curve; the diameter is an assumption" : "nowhere"],
       ["Ends", endsText(index)],
     ]);
-    byId("selection").replaceChildren(element("h3", {}, `Curve ${index + 1}`), list, steps);
+    byId("selection").replaceChildren(element("h3", {}, `Curve ${index}`), list, steps);
   }
 
   function endsText(index) {
@@ -388,7 +388,7 @@ const ReportPage = (() => {
   }
 
   const CURVE_COLUMNS = [
-    ["Curve", (edge, i) => i, (edge, i) => String(i + 1)],
+    ["Curve", (edge, i) => i, (edge, i) => String(i)],
     ["Length, mm", (edge) => edge.length, (edge) => grouped(1000 * edge.length)],
     ["Diameter, mm", (edge) => edge.diameter_mm, (edge) => number(edge.diameter_mm, 2)],
     ["± mm", (edge) => edge.diameter_error_mm,
@@ -401,7 +401,7 @@ const ReportPage = (() => {
     return element("tr", {}, ...CURVE_COLUMNS.map(([, , text], column) => {
       if (column > 0) return element("td", { class: "number" }, text(edge, index));
       return element("td", {}, element("button", {
-        type: "button", "aria-label": `Choose curve ${index + 1}`, onclick: () => select(index),
+        type: "button", "aria-label": `Choose curve ${index}`, onclick: () => select(index),
       }, text(edge, index)));
     }));
   }

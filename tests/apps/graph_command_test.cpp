@@ -50,7 +50,7 @@ TEST_F(GraphCommand, ValidationNamesEveryPlaceAndIsThree) {
 }
 
 // Three wires that meet in a star and one more; without an arm the other two are one curve.
-TEST_F(GraphCommand, CurvesAreRemovedByTheirNumbersOnTheReportPage) {
+TEST_F(GraphCommand, CurvesAreRemovedByTheirNumbers) {
   SkeletonGraph star;
   const NodeId middle = star.AddNode({0, 0, 0});
   for (const Vec3& tip : {Vec3(0.1, 0, 0), Vec3(-0.1, 0, 0), Vec3(0, 0.03, 0)}) {
@@ -58,15 +58,15 @@ TEST_F(GraphCommand, CurvesAreRemovedByTheirNumbersOnTheReportPage) {
   }
   star.AddPolyline({{0, 0, 0.5}, {0, 0.2, 0.5}});
   WriteSkeleton(folder_ / "star.json", star);
-  const Outcome removed = Run("graph star.json --remove 4,3 -o edited.json");
+  const Outcome removed = Run("graph star.json --remove 3,2 -o edited.json");
   EXPECT_EQ(removed.exit_code, 0) << removed.output;
   const SkeletonGraph edited = ReadSkeleton(folder_ / "edited.json");
   EXPECT_EQ(edited.edge_count(), 1);
   EXPECT_EQ(edited.node_count(), 2);
   EXPECT_NEAR(edited.TotalLength(), 0.2, 1e-12);
-  const Outcome missing = Run("graph star.json --remove 5 -o edited.json");
+  const Outcome missing = Run("graph star.json --remove 4 -o edited.json");
   EXPECT_EQ(missing.exit_code, 2);
-  EXPECT_THAT(missing.output, HasSubstr("has curves 1 to 4"));
+  EXPECT_THAT(missing.output, HasSubstr("has 4 curves, counted from 0"));
   EXPECT_EQ(Run("graph star.json --remove 3").exit_code, 2);
 }
 
