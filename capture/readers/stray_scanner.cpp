@@ -32,7 +32,7 @@ NumberedImages UnpackedImages(const fs::path& folder) {
   const std::string name = folder.string();
   Fail(fmt::format(
       "{0}/rgb.mp4: colour images are read one by one, not from a video; unpack it once: "
-      "mkdir '{0}/rgb' && ffmpeg -i '{0}/rgb.mp4' -vsync 0 -start_number 0 -q:v 2 "
+      "mkdir '{0}/rgb' && ffmpeg -i '{0}/rgb.mp4' -fps_mode passthrough -start_number 0 -q:v 2 "
       "'{0}/rgb/%06d.jpg'",
       name));
 }

@@ -11,7 +11,8 @@ std::vector<std::string> ObjectNames() {
   return {"dish",       "cage",      "cat",       "deco",           "hanger",      "rack",
           "chair",      "wine",      "triangles", "parallel_wires", "breadholder", "valence6",
           "mesh_panel", "cubeframe", "empty",     "stool",          "basket",      "shelf",
-          "ladder",     "dome",      "spring",    "knot",           "coat_stand"};
+          "ladder",     "dome",      "spring",    "knot",           "coat_stand",  "seat",
+          "pot_plant",  "mug"};
 }
 
 WireObject MakeObject(const std::string& name, const ObjectOptions& options) {
