@@ -38,11 +38,16 @@ constexpr const char* kNothingWithoutDepthHints =
     "  Without depth, wires show that stand out from all that is around them, in 40 sharp images\n"
     "  or more from 40 degrees around, with poses in metres that are exact to some pixels.\n"
     "  --save-stages keeps what every step found.\n";
+constexpr const char* kKeepUncertainHint =
+    "  Curves that may be wires are grey in the picture and the page: if they are wires, keep "
+    "them\n"
+    "  with --set evidence.min_probability=0.\n";
 
 std::string NothingThinText(const Reconstruction& reconstruction) {
   return fmt::format(
-      "Found nothing thin: {}.\n{}", WhyNothing(reconstruction),
-      reconstruction.sequence.has_depth ? kNothingThinHints : kNothingWithoutDepthHints);
+      "Found nothing thin: {}.\n{}{}", WhyNothing(reconstruction),
+      reconstruction.sequence.has_depth ? kNothingThinHints : kNothingWithoutDepthHints,
+      reconstruction.uncertain.graph.empty() ? "" : kKeepUncertainHint);
 }
 
 }  // namespace

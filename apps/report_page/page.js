@@ -94,7 +94,7 @@ const ReportPage = (() => {
     if (!data.nothing_found) return;
     const left = data.uncertain.edges.length
       ? `What may be thin but could not be proven is drawn in grey below (${
-        counted(data.uncertain.edges.length, "uncertain curve")}, in uncertain.json).`
+        counted(data.uncertain.edges.length, "uncertain curve")}, in uncertain.json). If these are wires, “--set evidence.min_probability=0” keeps them.`
       : null;
     box.replaceChildren(
       element("h2", {}, "Nothing thin was found"),
