@@ -12,20 +12,16 @@
 #include "kernel/error.h"
 #include "kernel/text_input.h"
 #include "tests/capture/sequence_fixture.h"
+#include "tests/error_message.h"
 
 namespace curvefusion {
 namespace {
 
 using testing::HasSubstr;
 
-std::string MessageOf(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::kBadInput);
-    return error.what();
-  }
-  return "no error";
+template <class Act>
+std::string Rejection(const Act& act) {
+  return MessageOf(ErrorKind::kBadInput, act);
 }
 
 cv::Mat Noise(int type) {
@@ -104,7 +100,7 @@ TEST_F(ImageFileTest, ABrokenPngIsFoundWhenDecoded) {
   stream << "garbage in the compressed pixels";
   stream.close();
   EXPECT_EQ(ReadImageHeader(Path("d.png")).defect, "");
-  EXPECT_THAT(MessageOf([&] { DecodeDepthImage(Path("d.png")); }),
+  EXPECT_THAT(Rejection([&] { DecodeDepthImage(Path("d.png")); }),
               HasSubstr("d.png: is damaged (wrong checksum in its part IDAT)"));
 }
 
@@ -187,7 +183,7 @@ TEST_F(ImageFileTest, DamagedJpegDataAreNamedWithTheirFile) {
   damaged.replace(bytes.size() / 2, 2, "\xff\xd9");  // an end in the middle of the pixels
   WriteText(Path("c.jpg"), damaged);
   testing::internal::CaptureStderr();
-  const std::string message = MessageOf([&] { DecodeColorImage(Path("c.jpg")); });
+  const std::string message = Rejection([&] { DecodeColorImage(Path("c.jpg")); });
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");  // libjpeg has no word of its own
   EXPECT_THAT(message, HasSubstr("c.jpg: is damaged (Corrupt JPEG data"));
   EXPECT_THAT(message, HasSubstr("copy it again or remove the frame"));
@@ -211,15 +207,15 @@ TEST_F(ImageFileTest, APipeIsNoImageAndIsNotWaitedFor) {
 
 TEST_F(ImageFileTest, EightBitDepthIsRefused) {
   WriteGreyPng(Path("d.png"), 8, 8);
-  EXPECT_THAT(MessageOf([&] { DecodeDepthImage(Path("d.png")); }),
+  EXPECT_THAT(Rejection([&] { DecodeDepthImage(Path("d.png")); }),
               HasSubstr("has 8 bits and 1 channels, depth needs 16 bits"));
 }
 
 TEST_F(ImageFileTest, MissingAndForeignFilesAreNamed) {
-  EXPECT_THAT(MessageOf([&] { DecodeColorImage(Path("none.jpg")); }),
+  EXPECT_THAT(Rejection([&] { DecodeColorImage(Path("none.jpg")); }),
               HasSubstr("none.jpg: is not there"));
   WriteText(Path("text.png"), "this is no picture");
-  EXPECT_THAT(MessageOf([&] { DecodeColorImage(Path("text.png")); }),
+  EXPECT_THAT(Rejection([&] { DecodeColorImage(Path("text.png")); }),
               HasSubstr("neither a PNG nor a JPEG"));
 }
 

@@ -9,6 +9,7 @@
 
 #include "kernel/error.h"
 #include "tests/capture/sequence_fixture.h"
+#include "tests/error_message.h"
 #include "tests/test_data.h"
 
 namespace curvefusion {
@@ -18,13 +19,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 
 std::string OpenError(const std::filesystem::path& folder) {
-  try {
-    OpenSequence(folder);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::kBadInput);
-    return error.what();
-  }
-  return "no error";
+  return MessageOf(ErrorKind::kBadInput, [&] { OpenSequence(folder); });
 }
 
 class SequenceTest : public testing::Test {

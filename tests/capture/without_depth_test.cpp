@@ -8,6 +8,7 @@
 #include "capture/sequence.h"
 #include "kernel/error.h"
 #include "tests/capture/sequence_fixture.h"
+#include "tests/error_message.h"
 
 namespace curvefusion {
 namespace {
@@ -17,13 +18,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 
 std::string OpenError(const fs::path& folder, PoseUse poses, DepthUse depth) {
-  try {
-    OpenSequence(folder, poses, depth);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::kBadInput);
-    return error.what();
-  }
-  return "no error";
+  return MessageOf(ErrorKind::kBadInput, [&] { OpenSequence(folder, poses, depth); });
 }
 
 class WithoutDepthTest : public testing::Test {

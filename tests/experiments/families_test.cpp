@@ -1,5 +1,6 @@
 #include "experiments/simulation/families/families.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,6 +10,7 @@
 #include "graph/validate.h"
 #include "kernel/error.h"
 #include "kernel/spatial_search.h"
+#include "tests/error_message.h"
 
 namespace curvefusion {
 namespace {
@@ -126,13 +128,8 @@ TEST(ShapeFamily, HaveWhatTheirNamesSay) {
 }
 
 TEST(ShapeFamily, UnknownNameIsRefusedWithTheNearest) {
-  try {
-    MakeFamilyObject("umbrela", 1);
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::kUsage);
-    EXPECT_NE(std::string(error.what()).find("umbrella?"), std::string::npos);
-  }
+  EXPECT_THAT(MessageOf(ErrorKind::kUsage, [] { MakeFamilyObject("umbrela", 1); }),
+              testing::HasSubstr("umbrella?"));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "experiments/metrics/truth.h"
 #include "experiments/simulation/object_truth.h"
 #include "kernel/error.h"
+#include "tests/error_message.h"
 #include "tests/temporary_path.h"
 
 namespace curvefusion {
@@ -121,13 +122,8 @@ TEST(StudyObjects, EveryNameMakesAnObject) {
 }
 
 TEST(StudyObjects, UnknownNameIsRefusedWithTheNearest) {
-  try {
-    MakeObject("cagee");
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::kUsage);
-    EXPECT_THAT(error.what(), testing::HasSubstr("'cage'"));
-  }
+  EXPECT_THAT(MessageOf(ErrorKind::kUsage, [] { MakeObject("cagee"); }),
+              testing::HasSubstr("'cage'"));
 }
 
 TEST(TruthSkeleton, WiresThatShareAPointAreWeldedAndOthersPass) {

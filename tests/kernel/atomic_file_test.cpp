@@ -8,6 +8,7 @@
 #include <string>
 
 #include "kernel/error.h"
+#include "tests/error_message.h"
 #include "tests/temporary_path.h"
 
 namespace curvefusion {
@@ -55,14 +56,10 @@ TEST_F(AtomicFile, AFileThatReachesItsLimitIsToldWithTheReason) {
   std::signal(SIGXFSZ, SIG_IGN);
   const rlimit limit{1000, before.rlim_max};
   ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &limit), 0);
-  std::string message;
-  try {
+  const std::string message = MessageOf(ErrorKind::kResource, [&] {
     WriteStreamAtomically(folder_ / "a.txt",
                           [](std::ostream& stream) { stream << std::string(100000, 'a'); });
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::kResource);
-    message = error.what();
-  }
+  });
   ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
   EXPECT_EQ(message, (folder_ / "a.txt").string() + ": cannot be written (File too large)");
   EXPECT_TRUE(fs::is_empty(folder_));
@@ -70,14 +67,10 @@ TEST_F(AtomicFile, AFileThatReachesItsLimitIsToldWithTheReason) {
 
 TEST_F(AtomicFile, ErrorsNameTheFileAndNotItsTemporary) {
   const fs::path path = folder_ / "a.txt";
-  try {
-    WriteFileAtomically(path, [](const fs::path& temporary) {
-      throw Error(ErrorKind::kBadInput, temporary.string() + ": bad");
-    });
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.what(), path.string() + ": bad");
-  }
+  const auto write = [](const fs::path& temporary) {
+    throw Error(ErrorKind::kBadInput, temporary.string() + ": bad");
+  };
+  EXPECT_EQ(MessageOf([&] { WriteFileAtomically(path, write); }), path.string() + ": bad");
 }
 
 TEST_F(AtomicFile, NeitherAFolderNorADeviceIsReplaced) {

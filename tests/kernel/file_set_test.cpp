@@ -11,6 +11,7 @@
 
 #include "kernel/error.h"
 #include "kernel/partial_name.h"
+#include "tests/error_message.h"
 #include "tests/temporary_path.h"
 
 namespace curvefusion {
@@ -70,15 +71,12 @@ TEST_F(FileSet, ReplacesAllOfTheNamesAndNothingElse) {
 }
 
 TEST_F(FileSet, AFailingWriterKeepsTheOldAndNamesTheFinalPlace) {
-  try {
-    WriteFilesTogether(folder_, kNames, [&](const fs::path& temporary) {
-      WriteNew(temporary);
-      throw Error(ErrorKind::kResource, (temporary / "c").string() + ": full");
-    });
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.what(), (folder_ / "c").string() + ": full");
-  }
+  const auto write = [&](const fs::path& temporary) {
+    WriteNew(temporary);
+    throw Error(ErrorKind::kResource, (temporary / "c").string() + ": full");
+  };
+  EXPECT_EQ(MessageOf([&] { WriteFilesTogether(folder_, kNames, write); }),
+            (folder_ / "c").string() + ": full");
   EXPECT_EQ(FilesIn(folder_), old_);
 }
 

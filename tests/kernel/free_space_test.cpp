@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "kernel/error.h"
+#include "tests/error_message.h"
 
 namespace curvefusion {
 namespace {
@@ -11,15 +12,10 @@ namespace {
 TEST(FreeSpace, IsComparedWithTheNeedAlsoOfWhatIsNotThereYet) {
   const std::filesystem::path place = std::filesystem::temp_directory_path() / "no" / "folder";
   EXPECT_NO_THROW(RequireFreeSpace(place, 0));
-  try {
-    RequireFreeSpace(place, std::uintmax_t{1} << 62);
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::kResource);
-    EXPECT_THAT(error.what(),
-                testing::MatchesRegex(".*/no/folder: up to 4.61e.09 GB may be needed there and "
-                                      ".* [GM]B are free.*"));
-  }
+  const auto require = [&] { RequireFreeSpace(place, std::uintmax_t{1} << 62); };
+  EXPECT_THAT(MessageOf(ErrorKind::kResource, require),
+              testing::MatchesRegex(".*/no/folder: up to 4.61e.09 GB may be needed there and "
+                                    ".* [GM]B are free.*"));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 
 #include "kernel/error.h"
 #include "kernel/process_mark.h"
+#include "tests/error_message.h"
 #include "tests/temporary_path.h"
 
 namespace curvefusion {
@@ -80,12 +81,7 @@ TEST_F(RunLockFile, GarbageInTheFileIsNobody) {
 }
 
 TEST_F(RunLockFile, AFolderThatIsMissingIsNoResource) {
-  try {
-    const RunLock lock(folder_ / "no" / "lock", "out");
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::kResource);
-  }
+  MessageOf(ErrorKind::kResource, [&] { const RunLock lock(folder_ / "no" / "lock", "out"); });
 }
 
 }  // namespace

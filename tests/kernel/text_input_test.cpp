@@ -11,6 +11,7 @@
 
 #include "kernel/error.h"
 #include "kernel/json_input.h"
+#include "tests/error_message.h"
 #include "tests/temporary_path.h"
 
 namespace curvefusion {
@@ -21,13 +22,7 @@ using testing::HasSubstr;
 // The message of the Error(kBadInput) that `call` throws.
 template <class Call>
 std::string Rejection(const Call& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::kBadInput);
-    return error.what();
-  }
-  return "accepted";
+  return MessageOf(ErrorKind::kBadInput, call);
 }
 
 TEST(ReadFile, GivesEveryByteUpToTheLimit) {

@@ -13,6 +13,7 @@
 #include "kernel/progress.h"
 #include "tests/capture/content/room_scan.h"
 #include "tests/capture/sequence_fixture.h"
+#include "tests/error_message.h"
 
 // No real recording of these layouts is part of the project: the samples are written here from the
 // documents of each format.
@@ -40,13 +41,7 @@ RoomScan InMillimetres(RoomScan scan) {
 }
 
 std::string OpenError(const fs::path& folder) {
-  try {
-    OpenSequence(folder);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::kBadInput);
-    return error.what();
-  }
-  return "no error";
+  return MessageOf(ErrorKind::kBadInput, [&] { OpenSequence(folder); });
 }
 
 bool HasCause(const CheckReport& report, const std::string& cause) {

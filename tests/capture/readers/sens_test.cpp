@@ -12,6 +12,7 @@
 #include "tests/capture/content/room_scan.h"
 #include "tests/capture/readers/sens_sample.h"
 #include "tests/capture/sequence_fixture.h"
+#include "tests/error_message.h"
 
 namespace curvefusion {
 namespace {
@@ -39,13 +40,7 @@ class Sens : public testing::Test {
   }
 
   std::string OpenError() const {
-    try {
-      OpenSequence(path());
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::kBadInput);
-      return error.what();
-    }
-    return "no error";
+    return MessageOf(ErrorKind::kBadInput, [&] { OpenSequence(path()); });
   }
 
   std::string ErrorOfSample() const {
@@ -208,13 +203,9 @@ TEST_F(Sens, NamesTheFrameThatIsDamaged) {
   sample.frames[17].depth = Deflated(std::string(80 * 60 * 2 - 2, 'x'));
   Write();
   const Sequence sequence = OpenSequence(path());
-  try {
-    LoadDepth(sequence, 17);
-    FAIL() << "a row too few is accepted";
-  } catch (const Error& error) {
-    EXPECT_THAT(error.what(), AllOf(HasSubstr("room.sens: depth image of frame 17"),
-                                    HasSubstr("2 bytes of pixels too few")));
-  }
+  EXPECT_THAT(MessageOf([&] { LoadDepth(sequence, 17); }),
+              AllOf(HasSubstr("room.sens: depth image of frame 17"),
+                    HasSubstr("2 bytes of pixels too few")));
   sample.frames[17].depth = Deflated(std::string(80 * 60 * 2 + 2, 'x'));
   Write();
   EXPECT_THROW(LoadDepth(OpenSequence(path()), 17), Error);
@@ -247,12 +238,8 @@ TEST_F(Sens, NamesTheFrameInWhichItEnds) {
 
 TEST_F(Sens, AFolderThatHoldsOneNamesIt) {
   Write();
-  try {
-    OpenSequence(folder());
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_THAT(error.what(), AllOf(HasSubstr("did you mean"), HasSubstr("room.sens")));
-  }
+  EXPECT_THAT(MessageOf([&] { OpenSequence(folder()); }),
+              AllOf(HasSubstr("did you mean"), HasSubstr("room.sens")));
 }
 
 TEST_F(Sens, RepairWritesAFolder) {

@@ -15,6 +15,7 @@
 #include "experiments/simulation/object_truth.h"
 #include "experiments/simulation/objects.h"
 #include "kernel/error.h"
+#include "tests/error_message.h"
 
 namespace curvefusion {
 namespace {
@@ -177,13 +178,8 @@ TEST(ThreeViewWires, OfNothingAreNone) {
 TEST(ThreeViewWires, NeedThreeViews) {
   std::vector<SilhouetteMap> views = ViewsOf(StraightWire());
   views.pop_back();
-  try {
-    WiresOfThreeViews(views, SupportRule::kOfProgram, NoProgress);
-    FAIL() << "no error";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::kBadInput);
-    EXPECT_THAT(error.what(), testing::HasSubstr("2 are given"));
-  }
+  const auto act = [&] { WiresOfThreeViews(views, SupportRule::kOfProgram, NoProgress); };
+  EXPECT_THAT(MessageOf(ErrorKind::kBadInput, act), testing::HasSubstr("2 are given"));
 }
 
 TEST(ThreeViewWires, CanBeInterrupted) {

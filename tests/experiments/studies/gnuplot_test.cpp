@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "kernel/error.h"
+#include "tests/error_message.h"
 #include "tests/experiments/studies/gnuplot_fixture.h"
 #include "tests/temporary_path.h"
 
@@ -42,26 +43,17 @@ TEST_F(Gnuplot, DrawsBothFormatsAndKeepsWhatTheyAreMadeOf) {
 }
 
 TEST_F(Gnuplot, TellsWhatGnuplotSays) {
-  try {
-    DrawPlot(folder_, "bad", {"", "plot nonsense(", 3, 2});
-    FAIL() << "no error";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::kResource);
-    EXPECT_THAT(error.what(), testing::HasSubstr("bad.gp"));
-    EXPECT_THAT(error.what(), testing::HasSubstr("invalid expression"));
-  }
+  const auto draw = [&] { DrawPlot(folder_, "bad", {"", "plot nonsense(", 3, 2}); };
+  EXPECT_THAT(
+      MessageOf(ErrorKind::kResource, draw),
+      testing::AllOf(testing::HasSubstr("bad.gp"), testing::HasSubstr("invalid expression")));
 }
 
 TEST(GnuplotMissing, IsSaidWithItsRemedy) {
   const std::string path = std::getenv("PATH");
   setenv("PATH", "/nonexistent", 1);
-  try {
-    RequireGnuplot();
-    ADD_FAILURE() << "no error";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::kResource);
-    EXPECT_THAT(error.what(), testing::HasSubstr("apt-get install gnuplot-nox"));
-  }
+  EXPECT_THAT(MessageOf(ErrorKind::kResource, RequireGnuplot),
+              testing::HasSubstr("apt-get install gnuplot-nox"));
   setenv("PATH", path.c_str(), 1);
 }
 

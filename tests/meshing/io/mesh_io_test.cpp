@@ -14,6 +14,7 @@
 #include "meshing/surface_mesh.h"
 #include "meshing/tubes.h"
 #include "meshing/watertight.h"
+#include "tests/error_message.h"
 #include "tests/meshing/tube_graphs.h"
 
 namespace curvefusion {
@@ -247,13 +248,8 @@ TEST_F(MeshIo, DamagedFilesAreErrors) {
 TEST_F(MeshIo, DamagedFilesAreToldInPlainWords) {
   const auto message = [&](const char* name, const std::string& bytes) {
     std::ofstream(folder_ / name, std::ios::binary) << bytes;
-    try {
-      ReadMesh(folder_ / name);
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::kBadInput);
-      return std::string(error.what()).substr((folder_ / name).string().size());
-    }
-    return std::string("accepted");
+    return MessageOf(ErrorKind::kBadInput, [&] { ReadMesh(folder_ / name); })
+        .substr((folder_ / name).string().size());
   };
   const std::string json = "{\"asset\": x}    ";
   const auto header = [&](char version, char length) {
