@@ -7,8 +7,7 @@
 #include "apps/frame_overlay.h"
 #include "experiments/pictures/picture_style.h"
 #include "experiments/pictures/png.h"
-#include "experiments/simulation/simulate.h"
-#include "tests/temporary_path.h"
+#include "tests/apps/result_fixtures.h"
 
 namespace curvefusion {
 namespace {
@@ -26,23 +25,7 @@ int CountOf(const ColorImage& image, const Rgb& color) {
   return static_cast<int>(std::count(image.data(), image.data() + image.size(), color));
 }
 
-// Five views of the simulator's cube, made once.
-class Preview : public testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    SimulationOptions options;
-    options.sensor = "ideal";
-    options.pose_source = "true";
-    options.frames = 5;
-    SimulateScan(options, Folder(), NoProgress);
-  }
-  static void TearDownTestSuite() { fs::remove_all(Folder()); }
-  static fs::path Folder() { return TemporaryPath("preview_test"); }
-
-  void SetUp() override { sequence_ = OpenSequence(Folder()); }
-
-  Sequence sequence_;
-};
+class Preview : public FiveViews {};
 
 TEST_F(Preview, ShowsTheCurveInItsColour) {
   const ColorImage preview = DrawPreview(Upright(), {}, {}, sequence_, "one curve");

@@ -8,30 +8,16 @@
 
 #include "apps/page_curves.h"
 #include "apps/page_parts.h"
-#include "experiments/simulation/simulate.h"
-#include "tests/temporary_path.h"
+#include "tests/apps/result_fixtures.h"
 
 namespace curvefusion {
 namespace {
 
-namespace fs = std::filesystem;
 using nlohmann::json;
 using testing::HasSubstr;
 using testing::Not;
 
 constexpr const char* kDataElement = R"(<script type="application/json" id="data">)";
-
-// Three 100 mm arms from the origin, 4, 5 and 6 mm thick.
-SkeletonGraph Y() {
-  SkeletonGraph graph;
-  const NodeId centre = graph.AddNode(Vec3::Zero());
-  for (int axis = 0; axis < 3; ++axis) {
-    const Vec3 tip = 0.1 * Vec3::Unit(axis);
-    const double radius = (4 + axis) * kMillimetre / 2;
-    graph.AddEdge({{centre, graph.AddNode(tip)}, {Vec3::Zero(), tip}, {radius, radius}, {}});
-  }
-  return graph;
-}
 
 // A helix of 50 mm radius around z, beginning at a place of its own, with a point a millimetre, as
 // the pipeline makes them, and thickness from 2 to 6 mm.
@@ -192,21 +178,7 @@ TEST(PageCurves, TheToleranceGrowsWithTheNumberOfPoints) {
   EXPECT_TRUE(DrawnCurves({}, 0.001)["edges"].empty());
 }
 
-// Five views of the simulator's cube, made once.
-class PageFrames : public testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    SimulationOptions options;
-    options.sensor = "ideal";
-    options.pose_source = "true";
-    options.frames = 5;
-    SimulateScan(options, Folder(), NoProgress);
-  }
-  static void TearDownTestSuite() { fs::remove_all(Folder()); }
-  static fs::path Folder() { return TemporaryPath("report_page_test"); }
-
-  const Sequence sequence_ = OpenSequence(Folder());
-};
+class PageFrames : public FiveViews {};
 
 TEST_F(PageFrames, EveryStretchGivesTheFrameThatSeesMost) {
   SkeletonGraph graph;

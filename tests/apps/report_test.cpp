@@ -5,23 +5,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tests/apps/result_fixtures.h"
+
 namespace curvefusion {
 namespace {
 
 using testing::HasSubstr;
 using testing::Not;
-
-// A Y of three 100 mm arms, 4, 5 and 6 mm thick.
-SkeletonGraph Y() {
-  SkeletonGraph graph;
-  const NodeId centre = graph.AddNode(Vec3::Zero());
-  for (int axis = 0; axis < 3; ++axis) {
-    const Vec3 tip = 0.1 * Vec3::Unit(axis);
-    const double radius = (4 + axis) * kMillimetre / 2;
-    graph.AddEdge({{centre, graph.AddNode(tip)}, {Vec3::Zero(), tip}, {radius, radius}, {}});
-  }
-  return graph;
-}
 
 struct YRun {
   Sequence sequence;

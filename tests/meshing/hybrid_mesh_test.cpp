@@ -6,24 +6,13 @@
 #include <numbers>
 
 #include "meshing/tubes.h"
+#include "tests/meshing/box_mesh.h"
 #include "tests/meshing/tube_graphs.h"
 
 namespace curvefusion {
 namespace {
 
 constexpr double kRadius = 0.003;
-
-// Outward normals; not on round numbers, as no scan is.
-TriangleMesh Cuboid(const Vec3& center, const Vec3& half) {
-  TriangleMesh mesh;
-  for (int i = 0; i < 8; ++i) {
-    const Vec3 sign(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
-    mesh.vertices.push_back((center + sign.cwiseProduct(half)).cast<float>());
-  }
-  mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
-                    {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-  return mesh;
-}
 
 TriangleMesh TubesOf(const SkeletonGraph& graph) {
   return ToTriangleMesh(BuildTubes(graph, {}).surface);
@@ -35,12 +24,15 @@ TriangleMesh StraightTube(const Vec3& from, const Vec3& to) {
   return TubesOf(graph);
 }
 
+// A board that is not on round numbers, as no scan is.
 const Vec3 kCenter(0.00113, -0.00071, 0.00037);
 const Vec3 kHalf(0.0401, 0.0303, 0.0102);
+const TriangleMesh kBoard =
+    BoxMesh((kCenter - kHalf).cast<float>(), (kCenter + kHalf).cast<float>());
 
 TEST(HybridMesh, AWireThroughABoardHasTheVolumeOfBoth) {
   const TriangleMesh tube = StraightTube({0, 0, -0.1}, {0, 0, 0.1});
-  const HybridMesh hybrid = UniteTubesAndSolids(tube, {Cuboid(kCenter, kHalf)}, kRadius);
+  const HybridMesh hybrid = UniteTubesAndSolids(tube, {kBoard}, kRadius);
   EXPECT_TRUE(hybrid.report.IsWatertight());
   EXPECT_EQ(hybrid.report.components, 1);
   EXPECT_EQ(hybrid.report.genus, 0);
@@ -53,7 +45,7 @@ TEST(HybridMesh, AWireThroughABoardHasTheVolumeOfBoth) {
 
 TEST(HybridMesh, TubesKeepTheirDiameter) {
   const TriangleMesh tube = StraightTube({0, 0, -0.1}, {0, 0, 0.1});
-  const HybridMesh hybrid = UniteTubesAndSolids(tube, {Cuboid(kCenter, kHalf)}, kRadius);
+  const HybridMesh hybrid = UniteTubesAndSolids(tube, {kBoard}, kRadius);
   const auto widest = [](const TriangleMesh& mesh) {
     double width = 0;
     for (const Vec3f& v : mesh.vertices) {
@@ -70,7 +62,7 @@ TEST(HybridMesh, AMugWithAHandleHasAHole) {
            Arc({kHalf.x(), 0, 0}, Vec3::UnitX(), Vec3::UnitY(), 0.02, -std::numbers::pi / 2 - 0.4,
                std::numbers::pi / 2 + 0.4, 40),
            kRadius);
-  const HybridMesh hybrid = UniteTubesAndSolids(TubesOf(handle), {Cuboid(kCenter, kHalf)}, kRadius);
+  const HybridMesh hybrid = UniteTubesAndSolids(TubesOf(handle), {kBoard}, kRadius);
   EXPECT_TRUE(hybrid.report.IsWatertight());
   EXPECT_EQ(hybrid.report.components, 1);
   EXPECT_EQ(hybrid.report.genus, 1);
@@ -78,7 +70,7 @@ TEST(HybridMesh, AMugWithAHandleHasAHole) {
 
 TEST(HybridMesh, WhatDoesNotTouchStaysInPieces) {
   const TriangleMesh tube = StraightTube({0, 0, 0.05}, {0, 0, 0.1});
-  const HybridMesh hybrid = UniteTubesAndSolids(tube, {Cuboid(kCenter, kHalf)}, kRadius);
+  const HybridMesh hybrid = UniteTubesAndSolids(tube, {kBoard}, kRadius);
   EXPECT_TRUE(hybrid.report.IsWatertight());
   EXPECT_EQ(hybrid.report.components, 2);
 }

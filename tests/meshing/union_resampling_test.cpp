@@ -9,21 +9,10 @@
 #include "meshing/stubs.h"
 #include "meshing/sweep.h"
 #include "meshing/watertight.h"
+#include "tests/meshing/box_mesh.h"
 
 namespace curvefusion {
 namespace {
-
-// A box with outward normals.
-TriangleMesh Box(const Vec3f& min, const Vec3f& max) {
-  TriangleMesh box;
-  for (int corner = 0; corner < 8; ++corner) {
-    box.vertices.emplace_back(corner & 1 ? max.x() : min.x(), corner & 2 ? max.y() : min.y(),
-                              corner & 4 ? max.z() : min.z());
-  }
-  box.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
-                   {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-  return box;
-}
 
 TriangleMesh Tube(const Vec3& from, const Vec3& to, double radius) {
   TubePath path;
@@ -35,8 +24,8 @@ TriangleMesh Tube(const Vec3& from, const Vec3& to, double radius) {
 }
 
 TEST(Dexels, SpansOfOverlappingSolidsAreOne) {
-  const std::vector<TriangleMesh> boxes = {Box({0, 0, 0}, {2, 2, 2}), Box({1, 0, 0}, {4, 2, 2}),
-                                           Box({6, 0, 0}, {7, 2, 2})};
+  const std::vector<TriangleMesh> boxes = {
+      BoxMesh({0, 0, 0}, {2, 2, 2}), BoxMesh({1, 0, 0}, {4, 2, 2}), BoxMesh({6, 0, 0}, {7, 2, 2})};
   const CubicGrid grid{Vec3(-0.5, -0.25, -0.25), 0.5};
   const Dexels dexels(boxes, grid, 0, 0);
   // y and z at -.25 + .5 k: within 0 to 2 for k = 1 to 4.
@@ -53,7 +42,8 @@ TEST(Dexels, SpansOfOverlappingSolidsAreOne) {
 }
 
 TEST(Dexels, ShortGapsAreClosed) {
-  const std::vector<TriangleMesh> boxes = {Box({0, 0, 0}, {2, 2, 2}), Box({3, 0, 0}, {5, 2, 2})};
+  const std::vector<TriangleMesh> boxes = {BoxMesh({0, 0, 0}, {2, 2, 2}),
+                                           BoxMesh({3, 0, 0}, {5, 2, 2})};
   const CubicGrid grid{Vec3(-0.25, -0.25, -0.25), 0.5};
   EXPECT_EQ(Dexels(boxes, grid, 0, 2.1).lines().front().spans.size(), 1u);
   EXPECT_EQ(Dexels(boxes, grid, 0, 1.9).lines().front().spans.size(), 2u);
@@ -63,7 +53,7 @@ TEST(Dexels, ShortGapsAreClosed) {
 TEST(Dexels, LinesThroughCornersAndEdgesAreWhole) {
   const CubicGrid grid{Vec3::Zero(), 1};
   for (int axis = 0; axis < 3; ++axis) {
-    const Dexels dexels({Box({1, 1, 1}, {4, 4, 4})}, grid, axis, 0);
+    const Dexels dexels({BoxMesh({1, 1, 1}, {4, 4, 4})}, grid, axis, 0);
     ASSERT_EQ(dexels.lines().size(), 9u);  // 1 to 3, half-open
     for (const Dexels::Line& line : dexels.lines()) {
       ASSERT_EQ(line.spans.size(), 1u);

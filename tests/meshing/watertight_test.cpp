@@ -9,19 +9,13 @@
 #include "kernel/error.h"
 #include "meshing/self_intersections.h"
 #include "meshing/surface_mesh.h"
+#include "tests/meshing/box_mesh.h"
 
 namespace curvefusion {
 namespace {
 
 TriangleMesh Cube(const Vec3f& low, float size, bool inside_out = false) {
-  TriangleMesh mesh;
-  for (int i = 0; i < 8; ++i) {
-    mesh.vertices.push_back(low + size * Vec3f(static_cast<float>(i & 1),
-                                               static_cast<float>((i >> 1) & 1),
-                                               static_cast<float>(i >> 2)));
-  }
-  mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
-                    {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  TriangleMesh mesh = BoxMesh(low, low + Vec3f::Constant(size));
   if (inside_out) {
     for (auto& triangle : mesh.triangles) std::swap(triangle[0], triangle[1]);
   }

@@ -11,6 +11,7 @@
 #include "kernel/error.h"
 #include "kernel/parallel.h"
 #include "tests/error_message.h"
+#include "tests/graph/noisy_wires.h"
 #include "tests/graph/tube_points.h"
 #include "tests/test_data.h"
 
@@ -35,15 +36,6 @@ std::vector<NodeId> NodesOfDegree(const SkeletonGraph& graph, int degree) {
   return nodes;
 }
 
-double GreatestDistanceTo(const Polyline& truth, const SkeletonGraph& graph) {
-  double greatest = 0;
-  for (const EdgeId edge : graph.Edges()) {
-    for (const Vec3& p : graph.edge(edge).points)
-      greatest = std::max(greatest, Project(truth, p).distance);
-  }
-  return greatest;
-}
-
 double DistanceToNearestNode(const SkeletonGraph& graph, const std::vector<NodeId>& nodes,
                              const Vec3& p) {
   double nearest = std::numeric_limits<double>::infinity();
@@ -51,20 +43,12 @@ double DistanceToNearestNode(const SkeletonGraph& graph, const std::vector<NodeI
   return nearest;
 }
 
-bool SameBits(const SkeletonGraph& a, const SkeletonGraph& b) {
-  if (a.Nodes() != b.Nodes() || a.Edges() != b.Edges()) return false;
-  const std::vector<EdgeId> edges = a.Edges();
-  return std::all_of(edges.begin(), edges.end(), [&](EdgeId edge) {
-    return a.edge(edge).points == b.edge(edge).points && a.edge(edge).nodes == b.edge(edge).nodes;
-  });
-}
-
 TEST(ExtractL1Skeleton, HelixIsOneOpenCurve) {
   const SkeletonGraph graph = ExtractL1Skeleton(HelixTube(), {});
   ASSERT_EQ(graph.edge_count(), 1);
   EXPECT_EQ(graph.CycleRank(), 0);
   // A median over 150 points of 2.5 mm scatter errs by .2 mm per axis; four times that.
-  EXPECT_LT(GreatestDistanceTo(TestHelix(), graph), 0.8e-3);
+  EXPECT_LT(GreatestDistance(graph, {TestHelix()}), 0.8e-3);
   // Medians stop short of a free end, by two spacings of 3 mm at the very most.
   const Polyline& points = graph.edge(graph.Edges()[0]).points;
   EXPECT_NEAR(Length(points), Length(TestHelix()), 2 * 6e-3);
@@ -112,7 +96,7 @@ TEST(ExtractL1Skeleton, RingIsOneClosedEdge) {
   EXPECT_EQ(graph.CycleRank(), 1);
   // Medians of a bent wire lie inside of it by h^2 / (16 * 60 mm) or so, .6 mm at 25 mm, plus
   // noise.
-  EXPECT_LT(GreatestDistanceTo(ring, graph), 1.5e-3);
+  EXPECT_LT(GreatestDistance(graph, {ring}), 1.5e-3);
 }
 
 TEST(ExtractL1Skeleton, LatticeHasItsCrossingsAndMeshes) {
