@@ -5,7 +5,7 @@ using namespace curvefusion;
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   static const InputFolder folder;
-  const auto path = folder.Write("graph.swc", Text(data, size));
+  const auto path = folder.Write(CURVEFUSION_FUZZ_FILE, Text(data, size));
   AcceptErrors([&] {
     const SkeletonGraph graph = ReadSkeleton(path);
     // What is read can be written again.
