@@ -8,7 +8,7 @@ namespace curvefusion {
 
 Outcome CommandLine::RunShell(const std::string& command) const {
   const std::string prelude =
-      "CURVEFUSION='" CURVEFUSION_PROGRAM "'; cd '" + folder_.string() + "' || exit; ";
+      "CURVEFUSION='" CURVEFUSION_PROGRAM "'; cd '" + folder_.path().string() + "' || exit; ";
   const int status = std::system((prelude + command).c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, Text("output.txt")};
 }

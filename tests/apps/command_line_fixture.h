@@ -1,12 +1,12 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <string>
+
+#include "tests/file_contents.h"
+#include "tests/temporary_path.h"
 
 namespace curvefusion {
 
@@ -19,9 +19,6 @@ struct Outcome {
 /// Runs the program in a folder of its own.
 class CommandLine : public testing::Test {
  protected:
-  void SetUp() override { std::filesystem::create_directories(folder_); }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   // Runs `curvefusion ARGUMENTS` inside folder_.
   Outcome Run(const std::string& arguments) const {
     return RunShell("\"$CURVEFUSION\" " + arguments + " >output.txt 2>&1");
@@ -44,11 +41,7 @@ class CommandLine : public testing::Test {
                ("--frames " + std::to_string(frames)));
   }
 
-  std::string Text(const std::string& name) const {
-    std::stringstream text;
-    text << std::ifstream(folder_ / name).rdbuf();
-    return text.str();
-  }
+  std::string Text(const std::string& name) const { return FileText(folder_ / name); }
 
   // Files below a folder whose name ends so.
   int CountFiles(const std::string& folder, const std::string& name_part) const {
@@ -60,11 +53,7 @@ class CommandLine : public testing::Test {
     return count;
   }
 
-  const std::filesystem::path folder_ =
-      std::filesystem::temp_directory_path() /
-      (std::string("curvefusion_command_line_") +
-       testing::UnitTest::GetInstance()->current_test_info()->name() + "_" +
-       std::to_string(getpid()));
+  const TemporaryFolder folder_{"command_line"};
 };
 
 }  // namespace curvefusion

@@ -4,21 +4,9 @@
 #include <string>
 
 #include "capture/finding.h"
+#include "tests/temporary_path.h"
 
 namespace curvefusion {
-
-/// A folder that is empty at first and gone with the object.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 /// Writes text to a file, making its folders.
 void WriteText(const std::filesystem::path& path, const std::string& text);

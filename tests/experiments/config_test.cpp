@@ -2,7 +2,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -11,6 +10,7 @@
 
 #include "kernel/error.h"
 #include "tests/error_message.h"
+#include "tests/temporary_path.h"
 
 namespace curvefusion {
 namespace {
@@ -30,16 +30,12 @@ std::string MessageOfSet(const std::string& assignment) {
 
 class ConfigFile : public testing::Test {
  protected:
-  void SetUp() override { fs::create_directories(folder_); }
-  void TearDown() override { fs::remove_all(folder_); }
-
   ConfigSources Write(const std::string& text) {
     std::ofstream(folder_ / "a.toml") << text;
     return {.profile = {}, .file = folder_ / "a.toml", .assignments = {}};
   }
 
-  const fs::path folder_ =
-      fs::temp_directory_path() / ("curvefusion_config_test_" + std::to_string(getpid()));
+  const TemporaryFolder folder_{"config"};
 };
 
 TEST_F(ConfigFile, WhatIsWrittenIsReadBack) {
@@ -79,7 +75,7 @@ TEST_F(ConfigFile, ErrorsNameFileAndLine) {
 }
 
 TEST_F(ConfigFile, AFileThatCannotBeReadIsBadInput) {
-  for (const fs::path& file : {folder_ / "none.toml", folder_, fs::path("/dev/zero")}) {
+  for (const fs::path& file : {folder_ / "none.toml", folder_.path(), fs::path("/dev/zero")}) {
     const auto read = [&] { ReadConfig({.profile = {}, .file = file, .assignments = {}}); };
     EXPECT_THAT(MessageOf(ErrorKind::kBadInput, read), HasSubstr(file.string()));
   }

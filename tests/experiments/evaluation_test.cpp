@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
 #include "experiments/metrics/evaluation_files.h"
 #include "experiments/metrics/truth.h"
@@ -15,6 +14,7 @@
 #include "kernel/parallel.h"
 #include "meshing/surface_mesh.h"
 #include "meshing/tubes.h"
+#include "tests/file_contents.h"
 #include "tests/temporary_path.h"
 
 namespace curvefusion {
@@ -24,17 +24,9 @@ namespace fs = std::filesystem;
 
 class EvaluationFiles : public testing::Test {
  protected:
-  void SetUp() override { fs::create_directories(folder_); }
-  void TearDown() override { fs::remove_all(folder_); }
+  std::string Text(const std::string& name) const { return FileText(folder_ / name); }
 
-  std::string Text(const std::string& name) const {
-    std::stringstream text;
-    text << std::ifstream(folder_ / name).rdbuf();
-    return text.str();
-  }
-
-  const fs::path folder_ = TemporaryPath(
-      std::string("evaluation_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+  const TemporaryFolder folder_{"evaluation"};
 };
 
 TEST(Evaluate, IdentityIsPerfect) {

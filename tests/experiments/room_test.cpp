@@ -18,7 +18,7 @@ namespace {
 // A training scan. Of its curves .18 m have probabilities above evidence.min_probability, of .47 on
 // average.
 TEST(RoomWithoutWires, GivesWhatIsRatherNoWireAsUncertain) {
-  const std::filesystem::path folder = TemporaryPath("room");
+  const TemporaryFolder folder("room");
   SimulationOptions scan = DrawScan("room", 3);
   scan.frames = 40;
   SimulateScan(scan, folder, NoProgress);
@@ -29,7 +29,6 @@ TEST(RoomWithoutWires, GivesWhatIsRatherNoWireAsUncertain) {
   EXPECT_EQ(result.skeleton.TotalLength(), 0);
   EXPECT_GT(result.uncertain.graph.TotalLength(), 0.1);
   EXPECT_EQ(follower.unplanned, std::vector<std::string>());
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@
 #include "experiments/simulation/scan_settings.h"
 #include "kernel/error.h"
 #include "tests/error_message.h"
-#include "tests/experiments/file_contents.h"
+#include "tests/file_contents.h"
 #include "tests/temporary_path.h"
 
 namespace curvefusion {
@@ -117,8 +117,7 @@ TEST(DrawScan, UnknownFamilyIsRefusedWithTheNearest) {
 }
 
 TEST(ScanSettings, SimulateTheSameScanAgain) {
-  const fs::path folder = TemporaryPath("scan_settings");
-  fs::create_directories(folder);
+  const TemporaryFolder folder("scan_settings");
   SimulationOptions scan = DrawScan("vine", 3);
   scan.sensor = "ideal";
   scan.frames = 2;
@@ -126,18 +125,15 @@ TEST(ScanSettings, SimulateTheSameScanAgain) {
   SimulateScan(ReadScanSettings(folder / "first" / "truth" / "settings.json"), folder / "second",
                NoProgress);
   EXPECT_TRUE(FileContents(folder / "first") == FileContents(folder / "second"));
-  fs::remove_all(folder);
 }
 
 TEST(ScanSettings, RoomHasATruthWithoutCurves) {
-  const fs::path folder = TemporaryPath("scan_settings_room");
-  fs::create_directories(folder);
+  const TemporaryFolder folder("scan_settings_room");
   SimulationOptions scan = DrawScan("room", 3);
   scan.sensor = "ideal";
   scan.frames = 1;
   SimulateScan(scan, folder / "scan", NoProgress);
   EXPECT_TRUE(ReadTruth(folder / "scan" / "truth").empty());
-  fs::remove_all(folder);
 }
 
 TEST(ScanSettings, RegistrationAndLightReadBack) {

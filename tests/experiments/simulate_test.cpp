@@ -10,28 +10,16 @@
 #include "graph/io/graph_io.h"
 #include "kernel/error.h"
 #include "kernel/parallel.h"
-#include "tests/experiments/file_contents.h"
+#include "tests/file_contents.h"
+#include "tests/temporary_path.h"
 
 namespace curvefusion {
 namespace {
 
 namespace fs = std::filesystem;
 
-class TemporaryFolder {
- public:
-  explicit TemporaryFolder(const std::string& name) : path_(fs::temp_directory_path() / name) {
-    fs::remove_all(path_);
-  }
-  ~TemporaryFolder() { fs::remove_all(path_); }
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
-
-std::map<std::string, std::string> Simulated(const SimulationOptions& options, int threads,
-                                             const std::string& name) {
-  const TemporaryFolder folder("curvefusion_simulate_test_" + name);
+std::map<std::string, std::string> Simulated(const SimulationOptions& options, int threads) {
+  const TemporaryFolder folder;
   const ThreadLimit limit(threads);
   SimulateScan(options, folder.path(), NoProgress);
   return FileContents(folder.path());
@@ -50,8 +38,8 @@ double DistanceToWires(const SkeletonGraph& graph, const Vec3& p) {
 TEST(SimulateScan, SameBytesForAnyNumberOfThreads) {
   SimulationOptions options;
   options.frames = 3;
-  const auto one = Simulated(options, 1, "one");
-  const auto four = Simulated(options, 4, "four");
+  const auto one = Simulated(options, 1);
+  const auto four = Simulated(options, 4);
   EXPECT_EQ(one.size(), 3u * 2 + 5 + 5);
   EXPECT_TRUE(one == four);
 }
@@ -60,20 +48,20 @@ TEST(SimulateScan, SeedsDifferAndSensorsShareTheSceneAndMotion) {
   SimulationOptions options;
   options.frames = 1;
   options.sensor = "ideal";
-  const auto first = Simulated(options, 0, "first");
+  const auto first = Simulated(options, 0);
   options.seed = 2;
-  const auto second = Simulated(options, 0, "second");
+  const auto second = Simulated(options, 0);
   EXPECT_NE(first.at("truth/trajectory.txt"), second.at("truth/trajectory.txt"));
   EXPECT_NE(first.at("depth/1000.000000.png"), second.at("depth/1000.000000.png"));
   options.pose_source = "ptam";
   options.frames = 2;
-  const auto other_poses = Simulated(options, 0, "other");
+  const auto other_poses = Simulated(options, 0);
   EXPECT_EQ(other_poses.at("depth/1000.000000.png"), second.at("depth/1000.000000.png"));
   EXPECT_NE(other_poses.at("trajectory.txt"), other_poses.at("truth/trajectory.txt"));
 }
 
 TEST(SimulateScan, WritesTruthThatReadsBack) {
-  const TemporaryFolder folder("curvefusion_simulate_test_truth");
+  const TemporaryFolder folder;
   SimulationOptions options;
   options.object = "cage";
   options.sensor = "ideal";
@@ -85,7 +73,7 @@ TEST(SimulateScan, WritesTruthThatReadsBack) {
 }
 
 TEST(SimulateScan, IsASequenceTheReaderTakes) {
-  const TemporaryFolder folder("curvefusion_simulate_test_sequence");
+  const TemporaryFolder folder;
   SimulationOptions options;
   options.sensor = "ideal";
   options.pose_source = "true";
@@ -119,7 +107,7 @@ TEST(SimulateScan, AColorCameraOfItsOwnIsToldUnlessRaw) {
   options.sensor = "ideal";
   options.frames = 1;
   for (const Registration registration : {Registration::kExact, Registration::kRaw}) {
-    const TemporaryFolder folder("curvefusion_simulate_test_color");
+    const TemporaryFolder folder;
     options.color.registration = registration;
     SimulateScan(options, folder.path(), NoProgress);
     const Sequence sequence = OpenSequence(folder.path());
@@ -130,7 +118,7 @@ TEST(SimulateScan, AColorCameraOfItsOwnIsToldUnlessRaw) {
 }
 
 TEST(SimulateScan, InterruptedScanLeavesNothing) {
-  const TemporaryFolder folder("curvefusion_simulate_test_interrupted");
+  const TemporaryFolder folder;
   SimulationOptions options;
   options.sensor = "ideal";
   options.frames = 3;
@@ -142,8 +130,7 @@ TEST(SimulateScan, InterruptedScanLeavesNothing) {
 }
 
 TEST(SimulateScan, AnEarlierScanIsLeftAlone) {
-  const TemporaryFolder folder("curvefusion_simulate_test_earlier");
-  fs::create_directories(folder.path());
+  const TemporaryFolder folder;
   std::ofstream(folder.path() / "associations.txt") << "of an earlier scan";
   SimulationOptions options;
   options.sensor = "ideal";

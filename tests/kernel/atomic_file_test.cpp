@@ -18,9 +18,7 @@ namespace fs = std::filesystem;
 
 class AtomicFile : public testing::Test {
  protected:
-  void SetUp() override { fs::create_directories(folder_); }
-  void TearDown() override { fs::remove_all(folder_); }
-  const fs::path folder_ = TemporaryPath("atomic_file");
+  const TemporaryFolder folder_{"atomic_file"};
 };
 
 TEST_F(AtomicFile, AppearsOnlyWhenComplete) {

@@ -7,11 +7,11 @@
 
 #include <fstream>
 #include <map>
-#include <sstream>
 
 #include "kernel/error.h"
 #include "kernel/partial_name.h"
 #include "tests/error_message.h"
+#include "tests/file_contents.h"
 #include "tests/temporary_path.h"
 
 namespace curvefusion {
@@ -25,17 +25,12 @@ const std::vector<std::string> kNames = {"a", "b", "c", "report"};
 class FileSet : public testing::Test {
  protected:
   void SetUp() override {
-    fs::create_directories(folder_);
     for (const auto& [name, text] : old_) std::ofstream(folder_ / name) << text;
   }
-  void TearDown() override { fs::remove_all(folder_); }
-
   static Files FilesIn(const fs::path& folder) {
     Files files;
     for (const auto& entry : fs::directory_iterator(folder)) {
-      std::stringstream text;
-      text << std::ifstream(entry.path()).rdbuf();
-      files[entry.path().filename()] = text.str();
+      files[entry.path().filename()] = FileText(entry.path());
     }
     return files;
   }
@@ -59,7 +54,7 @@ class FileSet : public testing::Test {
 
   const Files old_ = {{"a", "old"}, {"b", "old"}, {"report", "old"}, {"notes", "mine"}};
   const Files new_ = {{"a", "new"}, {"c", "new"}, {"report", "new"}, {"notes", "mine"}};
-  const fs::path folder_ = TemporaryPath("file_set");
+  const TemporaryFolder folder_{"file_set"};
 };
 
 TEST_F(FileSet, ReplacesAllOfTheNamesAndNothingElse) {

@@ -17,9 +17,6 @@ namespace fs = std::filesystem;
 
 class PartialName : public testing::Test {
  protected:
-  void SetUp() override { fs::create_directories(folder_); }
-  void TearDown() override { fs::remove_all(folder_); }
-
   // Runs `work` in a process that ends at once afterwards, as when killed.
   template <class Work>
   static void Killed(const Work& work) {
@@ -36,7 +33,7 @@ class PartialName : public testing::Test {
         std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
   }
 
-  const fs::path folder_ = TemporaryPath("partial_name");
+  const TemporaryFolder folder_{"partial_name"};
 };
 
 TEST_F(PartialName, OnlyWhatAGoneProcessHasLeftOfThatNameIsRemoved) {

@@ -23,9 +23,6 @@ using testing::HasSubstr;
 
 class RunLockFile : public testing::Test {
  protected:
-  void SetUp() override { fs::create_directories(folder_); }
-  void TearDown() override { fs::remove_all(folder_); }
-
   // The message of the refusal; empty where the lock was given.
   std::string Refusal() const {
     try {
@@ -37,7 +34,7 @@ class RunLockFile : public testing::Test {
     return "";
   }
 
-  const fs::path folder_ = TemporaryPath("run_lock");
+  const TemporaryFolder folder_{"run_lock"};
   const fs::path file_ = folder_ / "curvefusion.lock";
 };
 

@@ -14,12 +14,9 @@ namespace {
 namespace fs = std::filesystem;
 
 struct UnfinishedPathTest : testing::Test {
-  void SetUp() override { fs::create_directories(folder); }
-  void TearDown() override { fs::remove_all(folder); }
-
   bool IsEmpty() const { return fs::is_empty(folder); }
 
-  const fs::path folder = TemporaryPath("unfinished_path_test");
+  const TemporaryFolder folder{"unfinished_path_test"};
 };
 
 TEST_F(UnfinishedPathTest, AFileBeingWrittenIsRemoved) {

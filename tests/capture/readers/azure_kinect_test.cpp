@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
@@ -15,6 +14,7 @@
 #include "kernel/error.h"
 #include "kernel/progress.h"
 #include "tests/capture/sequence_fixture.h"
+#include "tests/file_contents.h"
 #include "tests/source_folder.h"
 
 // No real recording is part of the project. The container is tried on a file that FFmpeg wrote,
@@ -276,8 +276,7 @@ TEST(Matroska, ReadsWhatFfmpegWrites) {
   ASSERT_EQ(file.tracks[1].frames.size(), 3u);
   EXPECT_NEAR(file.tracks[1].frames[2].time, 0.067, 1e-9);  // milliseconds
   EXPECT_EQ(file.attachments.count("calibration.json"), 1u);
-  std::ifstream stream(path, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  const std::string bytes = FileText(path);
   const MatroskaFrame& frame = file.tracks[1].frames[1];
   ASSERT_EQ(frame.bytes, 16u * 12 * 2);
   EXPECT_EQ(static_cast<uint8_t>(bytes[frame.offset]) * 256 +

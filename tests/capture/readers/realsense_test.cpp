@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <iterator>
 
 #include "capture/check.h"
 #include "capture/content/repair.h"
@@ -12,6 +11,7 @@
 #include "kernel/progress.h"
 #include "tests/capture/sequence_fixture.h"
 #include "tests/error_message.h"
+#include "tests/file_contents.h"
 #include "tests/source_folder.h"
 
 // The bags are written by ROS itself: write_realsense_bag.py, beside this file, has their values.
@@ -30,15 +30,10 @@ fs::path BagPath(const std::string& name) {
   return SourceFolder() / "tests/fuzz/corpus/bag" / (name + ".bag");
 }
 
-std::string BytesOf(const fs::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 // The bag without compression, to be spoiled.
 class SpoiledBag : public testing::Test {
  protected:
-  SpoiledBag() : bytes(BytesOf(BagPath("none"))) {}
+  SpoiledBag() : bytes(FileText(BagPath("none"))) {}
 
   // Replaces all occurrences; both texts must have one length, so that all sizes stay right.
   void Replace(const std::string& text, const std::string& other) {
@@ -199,7 +194,7 @@ TEST_F(SpoiledBag, IsNoBag) {
 TEST(RealSense, PackedDamageNamesTheChunk) {
   TemporaryFolder folder;
   for (const char* name : {"lz4", "bz2"}) {
-    std::string bytes = BytesOf(BagPath(name));
+    std::string bytes = FileText(BagPath(name));
     const size_t chunk = bytes.find("op=\x05");
     std::fill_n(bytes.begin() + static_cast<std::ptrdiff_t>(chunk) + 120, 40, '\x55');
     std::ofstream(folder.path() / "scan.bag", std::ios::binary) << bytes;

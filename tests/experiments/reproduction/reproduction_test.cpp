@@ -6,13 +6,13 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
 
 #include "experiments/reproduction/reproduction_page.h"
 #include "experiments/studies/case_settings.h"
 #include "experiments/studies/run_files.h"
 #include "experiments/studies/studies.h"
 #include "experiments/studies/study_runner.h"
+#include "tests/file_contents.h"
 #include "tests/temporary_path.h"
 
 namespace curvefusion {
@@ -22,16 +22,8 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::Not;
 
-std::string Contents(const fs::path& path) {
-  std::stringstream text;
-  text << std::ifstream(path).rdbuf();
-  return text.str();
-}
-
 class ReproductionOf : public testing::Test {
  protected:
-  void TearDown() override { fs::remove_all(folder_); }
-
   // Every case of a study as finished, with these figures.
   void Finish(const std::string& name, const Figures& figures) {
     const Study study = StudyNamed(name);
@@ -46,10 +38,10 @@ class ReproductionOf : public testing::Test {
 
   std::string Page() {
     WriteReproduction(request_, folder_);
-    return Contents(folder_ / "reproduction.md");
+    return FileText(folder_ / "reproduction.md");
   }
 
-  const fs::path folder_ = TemporaryPath("reproduction");
+  const TemporaryFolder folder_{"reproduction"};
   StudyRequest request_{.quick = true};
 };
 
@@ -124,7 +116,7 @@ TEST_F(ReproductionOf, FinishedRunsGiveFigureVerdictPictureAndCommand) {
   EXPECT_THAT(page, HasSubstr("`curvefusion experiment table1 -o DIR --quick`: 2 of 2 runs"));
   EXPECT_THAT(page, HasSubstr("(images/reproduction/table1_train_quick.png)"));
   EXPECT_THAT(page, Not(HasSubstr("table1_train.png")));
-  EXPECT_EQ(Contents(folder_ / "images/reproduction/table1_train_quick.png"), "picture");
+  EXPECT_EQ(FileText(folder_ / "images/reproduction/table1_train_quick.png"), "picture");
 }
 
 TEST_F(ReproductionOf, VerdictsOfAnUnfinishedStudySaySo) {
@@ -154,7 +146,7 @@ TEST_F(ReproductionOf, RunsWithOtherSettingsDoNotCount) {
 TEST_F(ReproductionOf, DataHoldTheSameVerdicts) {
   Finish("poses", {{"aligned.curves.2mm.f", 1}, {"aligned.curves.5mm.f", 1}});
   Page();
-  const auto json = nlohmann::json::parse(Contents(folder_ / "reproduction_claims.json"));
+  const auto json = nlohmann::json::parse(FileText(folder_ / "reproduction_claims.json"));
   ASSERT_EQ(json.at("claims").size(), Claims().size());
   int measured = 0;
   for (const auto& claim : json.at("claims")) {
@@ -163,8 +155,8 @@ TEST_F(ReproductionOf, DataHoldTheSameVerdicts) {
     }
   }
   EXPECT_EQ(measured, 8);  // three claims on poses, one on raw colour, two profiles
-  EXPECT_THAT(Contents(folder_ / "reproduction_claims.csv"), HasSubstr("PTAM"));
-  EXPECT_THAT(Contents(folder_ / "reproduction_claims.tex"), HasSubstr("\\toprule"));
+  EXPECT_THAT(FileText(folder_ / "reproduction_claims.csv"), HasSubstr("PTAM"));
+  EXPECT_THAT(FileText(folder_ / "reproduction_claims.tex"), HasSubstr("\\toprule"));
 }
 
 }  // namespace

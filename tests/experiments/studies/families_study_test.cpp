@@ -42,7 +42,7 @@ TEST(FamiliesStudy, HasEveryFamilyInEverySplitOnOtherSeeds) {
 }
 
 TEST(FamiliesStudy, TakesRecordingsAlong) {
-  const std::filesystem::path data = TemporaryPath("families_study");
+  const TemporaryFolder data("families_study");
   std::filesystem::create_directories(data / "sim" / "basket");
   std::filesystem::create_directories(data / "sim" / "basket.truth");
   std::filesystem::create_directories(data / "real" / "kitchen");
@@ -52,7 +52,6 @@ TEST(FamiliesStudy, TakesRecordingsAlong) {
   EXPECT_EQ(cases[1].recording, data / "real" / "kitchen");
   EXPECT_EQ(LabelOf(cases[2].labels, "family"), "recording basket");
   EXPECT_FALSE(cases[2].scan);
-  std::filesystem::remove_all(data);
 }
 
 }  // namespace

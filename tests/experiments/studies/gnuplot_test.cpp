@@ -18,12 +18,6 @@ namespace fs = std::filesystem;
 
 class Gnuplot : public WithGnuplot {
  protected:
-  void SetUp() override {
-    WithGnuplot::SetUp();
-    if (!IsSkipped()) fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   std::string Head(const std::string& file) const {
     std::ifstream stream(folder_ / file, std::ios::binary);
     std::string head(4, '\0');
@@ -31,7 +25,7 @@ class Gnuplot : public WithGnuplot {
     return head;
   }
 
-  const fs::path folder_ = TemporaryPath("gnuplot's");  // a name that a shell would stumble over
+  const TemporaryFolder folder_{"gnuplot's"};  // a name that a shell would stumble over
 };
 
 TEST_F(Gnuplot, DrawsBothFormatsAndKeepsWhatTheyAreMadeOf) {

@@ -21,7 +21,6 @@ const PinholeCamera kCamera{320, 240, 290, 290, 159.5, 119.5};
 class Recording {
  public:
   explicit Recording(const DepthImage& depth) {
-    fs::remove_all(folder_);
     for (const char* part : {"depth", "rgb"}) fs::create_directories(folder_ / part);
     std::vector<std::string> names;
     for (int i = 0; i < kFrames; ++i) {
@@ -38,12 +37,11 @@ class Recording {
       sequence.frames.push_back(frame);
     }
   }
-  ~Recording() { fs::remove_all(folder_); }
 
   Sequence sequence;
 
  private:
-  fs::path folder_ = TemporaryPath("recording_figures");
+  TemporaryFolder folder_{"recording_figures"};
 };
 
 void Fill(DepthImage& image, int u, int v, int width, int height, float value) {

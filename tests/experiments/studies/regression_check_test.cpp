@@ -12,11 +12,10 @@
 namespace curvefusion {
 namespace {
 
-namespace fs = std::filesystem;
 using testing::ElementsAre;
 
 TEST(Baseline, HoldsTheSameRunsOnTheSameScans) {
-  const fs::path folder = TemporaryPath("baseline");
+  const TemporaryFolder folder("baseline");
   StudyRequest request{.profiles = {Profile::kBest}, .seeds = 1, .objects = {"valence6"}};
   const StudyResults results = RunStudy(TinyObjects(), request, folder, {}, NoProgress);
   ASSERT_EQ(results.runs.size(), 1u);
@@ -27,7 +26,6 @@ TEST(Baseline, HoldsTheSameRunsOnTheSameScans) {
   EXPECT_THROW(ReadBaseline(TinyObjects(), request, folder), Error);
   request.seeds = 1;  // but not on the scan of the whole study
   EXPECT_THROW(ReadBaseline(ObjectsStudy(), request, folder), Error);
-  fs::remove_all(folder);
 }
 
 StudyRun RunWith(const Figures& figures) {

@@ -19,12 +19,6 @@ namespace fs = std::filesystem;
 
 class Reports : public WithGnuplot {
  protected:
-  void SetUp() override {
-    WithGnuplot::SetUp();
-    if (!IsSkipped()) fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   // All cases of a study, measured so.
   StudyResults Results(const Study& study, const std::string& outcome, const Figures& figures) {
     StudyResults results{folder_, study.name, {}};
@@ -43,7 +37,7 @@ class Reports : public WithGnuplot {
     return names;
   }
 
-  const fs::path folder_ = TemporaryPath("reports");
+  const TemporaryFolder folder_{"reports"};
 };
 
 // Figures of a perfect result of one straight curve, and what studies add.

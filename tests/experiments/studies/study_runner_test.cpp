@@ -6,10 +6,10 @@
 #include <atomic>
 #include <fstream>
 #include <limits>
-#include <sstream>
 
 #include "experiments/studies/studies.h"
 #include "kernel/error.h"
+#include "tests/file_contents.h"
 #include "tests/temporary_path.h"
 
 namespace curvefusion {
@@ -18,17 +18,9 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-std::string TextOf(const fs::path& path) {
-  std::stringstream text;
-  text << std::ifstream(path).rdbuf();
-  return text.str();
-}
-
 // Studies without scans, whose runs cost nothing and count themselves.
 class StudyRunner : public testing::Test {
  protected:
-  void TearDown() override { fs::remove_all(folder_); }
-
   // Cases a, b and c; the figure is the seed.
   Study Counting() {
     Study study;
@@ -56,7 +48,7 @@ class StudyRunner : public testing::Test {
     return RunStudy(study, request, folder_, options, NoProgress);
   }
 
-  const fs::path folder_ = TemporaryPath("study_runner");
+  const TemporaryFolder folder_{"study_runner"};
   std::atomic<int> calls_ = 0;
 };
 
@@ -100,7 +92,7 @@ TEST_F(StudyRunner, FailedRunIsRecordedAndTriedAgain) {
   EXPECT_EQ(results.runs[1].outcome, "failed");
   EXPECT_EQ(results.runs[1].message, "b, is broken");
   EXPECT_EQ(results.runs[2].outcome, "done");
-  EXPECT_THAT(TextOf(folder_ / "counting_train.csv"), HasSubstr("b,1,failed,\"b, is broken\","));
+  EXPECT_THAT(FileText(folder_ / "counting_train.csv"), HasSubstr("b,1,failed,\"b, is broken\","));
   broken = false;
   EXPECT_EQ(Run(study, {.seeds = 1}).runs[1].outcome, "done");
   EXPECT_EQ(calls_, 4);  // only the failed one once more
@@ -144,7 +136,7 @@ TEST_F(StudyRunner, InterruptedRunLeavesNothingAndTheRestStays) {
 TEST_F(StudyRunner, RemeasuresWhatAnotherRevisionMeasured) {
   Run(Counting(), {.seeds = 1});
   const fs::path file = folder_ / "runs/counting_train/a_s1/run.json";
-  std::string text = TextOf(file);
+  std::string text = FileText(file);
   const size_t place = text.find("\"revision\": \"") + 13;
   text.insert(place, "older-");
   std::ofstream(file) << text;
@@ -158,10 +150,10 @@ TEST_F(StudyRunner, RemeasuresWhatAnotherRevisionMeasured) {
 
 TEST_F(StudyRunner, SameRunsForAnyNumberOfJobs) {
   Run(Counting());
-  const std::string one_job = TextOf(folder_ / "counting_train.csv");
+  const std::string one_job = FileText(folder_ / "counting_train.csv");
   fs::remove_all(folder_);
   Run(Counting(), {}, {.jobs = 3});
-  EXPECT_EQ(TextOf(folder_ / "counting_train.csv"), one_job);
+  EXPECT_EQ(FileText(folder_ / "counting_train.csv"), one_job);
   EXPECT_EQ(calls_, 18);
 }
 
@@ -223,7 +215,7 @@ TEST_F(StudyRunner, ReconstructsAndEvaluatesSimulatedScans) {
       EXPECT_TRUE(fs::exists(run.folder / file)) << file;
     }
   }
-  EXPECT_THAT(TextOf(results.runs[0].folder / "run.json"), HasSubstr("\"processor\""));
+  EXPECT_THAT(FileText(results.runs[0].folder / "run.json"), HasSubstr("\"processor\""));
 }
 
 }  // namespace

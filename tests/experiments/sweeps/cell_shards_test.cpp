@@ -4,11 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <sstream>
 
 #include "experiments/studies/run_files.h"
 #include "experiments/sweeps/cell_measurement.h"
 #include "experiments/sweeps/sweep_plan.h"
+#include "tests/file_contents.h"
 #include "tests/temporary_path.h"
 
 namespace curvefusion {
@@ -25,14 +25,11 @@ constexpr const char* kStudy =
 class CellInShards : public testing::Test {
  protected:
   void SetUp() override {
-    fs::create_directories(folder_);
     plan_ = Plan("sweep", "shards = 2\n");
     cell_ = plan_.cells.at(1);  // the first is the default
     scan_ = folder_ / "sweep" / "scans" / cell_.scan;
     MakeSweepScan(scan_.string() + ".json", scan_, NoProgress);
   }
-  void TearDown() override { fs::remove_all(folder_); }
-
   SweepPlan Plan(const std::string& name, const std::string& more) const {
     std::ofstream(folder_ / "study.toml") << more << kStudy;
     return WriteSweepPlan(folder_ / "study.toml", folder_ / name, {}, "curvefusion");
@@ -47,13 +44,7 @@ class CellInShards : public testing::Test {
     return MeasureCellShard(cell_, scan_, result, shard, NoProgress);
   }
 
-  static std::string Text(const fs::path& file) {
-    std::stringstream text;
-    text << std::ifstream(file).rdbuf();
-    return text.str();
-  }
-
-  const fs::path folder_ = TemporaryPath("cell_shards");
+  const TemporaryFolder folder_{"cell_shards"};
   SweepPlan plan_;
   SweepCell cell_;
   fs::path scan_;
@@ -79,7 +70,7 @@ TEST_F(CellInShards, HasTheResultOfAWholeOne) {
   EXPECT_EQ(MeasureCell(cell_, scan_, result, NoProgress, 2).outcome, "done");
   EXPECT_FALSE(fs::exists(CellShards(result)));
   for (const char* name : {"skeleton.json", "evaluation.json", "config.toml"}) {
-    EXPECT_EQ(Text(result / name), Text(Result("whole") / name)) << name;
+    EXPECT_EQ(FileText(result / name), FileText(Result("whole") / name)) << name;
   }
   EXPECT_EQ(Shard(result, {1, 2}), "");
   EXPECT_FALSE(fs::exists(CellShards(result))) << "a shard of a finished cell is made";

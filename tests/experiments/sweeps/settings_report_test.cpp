@@ -2,10 +2,8 @@
 
 #include <gmock/gmock.h>
 
-#include <fstream>
-#include <sstream>
-
 #include "tests/experiments/studies/gnuplot_fixture.h"
+#include "tests/file_contents.h"
 #include "tests/temporary_path.h"
 
 namespace curvefusion {
@@ -26,25 +24,18 @@ StudyRun RunWith(const std::string& setting, double f2) {
 
 class SettingsReport : public WithGnuplot {
  protected:
-  void SetUp() override {
-    WithGnuplot::SetUp();
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   bool Exists(const std::string& name) const { return fs::exists(folder_ / name); }
 
-  const fs::path folder_ = TemporaryPath("settings_report");
+  const TemporaryFolder folder_{"settings_report"};
 };
 
 TEST_F(SettingsReport, TellsFiguresAndTheirRatioToTheDefault) {
   const StudyResults results{
       folder_, "all", {RunWith("default", 0.8), RunWith("a.b=1", 0.4), RunWith("a.b=2", 0.88)}};
   ReportSettings(results, true);
-  std::stringstream table;
-  table << std::ifstream(folder_ / "all.md").rdbuf();
-  EXPECT_THAT(table.str(), HasSubstr("0.800 (1.00)"));
-  EXPECT_THAT(table.str(), HasSubstr("0.400 (0.50)"));
+  const std::string table = FileText(folder_ / "all.md");
+  EXPECT_THAT(table, HasSubstr("0.800 (1.00)"));
+  EXPECT_THAT(table, HasSubstr("0.400 (0.50)"));
   for (const char* name : {"all.tex", "all.png", "all.pdf", "all_curves.png"}) {
     EXPECT_TRUE(Exists(name)) << name;
   }

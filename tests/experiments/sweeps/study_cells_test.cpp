@@ -23,8 +23,6 @@ class StudyCells : public testing::Test {
         << "objects = [\"valence6\"]\nsensors = [\"ideal\"]\nposes = [\"true\"]\n"
            "frames = 6\nseeds = 1\n";
   }
-  void TearDown() override { fs::remove_all(folder_); }
-
   SweepPlan Plan(const char* name) {
     return WriteSweepPlan(folder_ / "study.toml", folder_ / name, {folder_ / "shared"}, "none");
   }
@@ -37,7 +35,7 @@ class StudyCells : public testing::Test {
     return RunStudy(TinyObjects(), request, folder_ / name, options, NoProgress).runs.at(0);
   }
 
-  const fs::path folder_ = TemporaryPath("study_cells");
+  const TemporaryFolder folder_{"study_cells"};
 };
 
 TEST_F(StudyCells, AreMeasuredOnceBySweepsAndStudies) {

@@ -24,9 +24,6 @@ constexpr const char* kTiny =
 
 class SweepPlanTest : public testing::Test {
  protected:
-  void SetUp() override { fs::create_directories(folder_); }
-  void TearDown() override { fs::remove_all(folder_); }
-
   fs::path Study(const std::string& text) const {
     std::ofstream(folder_ / "study.toml") << text;
     return folder_ / "study.toml";
@@ -50,7 +47,7 @@ class SweepPlanTest : public testing::Test {
     return MeasureCell(cell, scan, ResultFolder(StoreOf(plan), cell), NoProgress);
   }
 
-  const fs::path folder_ = TemporaryPath("sweep_plan");
+  const TemporaryFolder folder_{"sweep_plan"};
 };
 
 TEST_F(SweepPlanTest, MeetsEveryPointOnEveryScanOnce) {

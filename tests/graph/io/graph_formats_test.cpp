@@ -11,7 +11,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
-#include <iterator>
 #include <limits>
 #include <set>
 #include <sstream>
@@ -22,6 +21,7 @@
 #include "graph/io/graph_io.h"
 #include "kernel/error.h"
 #include "tests/error_message.h"
+#include "tests/file_contents.h"
 #include "tests/graph/graph_fixtures.h"
 #include "tests/graph/random_graph.h"
 #include "tests/temporary_path.h"
@@ -35,9 +35,6 @@ using testing::IsEmpty;
 
 class GraphFormats : public testing::Test {
  protected:
-  void SetUp() override { std::filesystem::create_directories(folder_); }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   SkeletonGraph RoundTrip(const SkeletonGraph& graph, const std::string& name) {
     losses_ = ExportSkeleton(folder_ / name, graph);
     return ReadSkeleton(folder_ / name);
@@ -48,11 +45,7 @@ class GraphFormats : public testing::Test {
     return ReadSkeleton(folder_ / name);
   }
 
-  std::string Text(const std::string& name) const {
-    std::stringstream text;
-    text << std::ifstream(folder_ / name).rdbuf();
-    return text.str();
-  }
+  std::string Text(const std::string& name) const { return FileText(folder_ / name); }
 
   // Expects an Error(kBadInput) that names the file and the reason, for each text.
   void ExpectRejected(const std::string& name,
@@ -64,7 +57,7 @@ class GraphFormats : public testing::Test {
     }
   }
 
-  const std::filesystem::path folder_ = TemporaryPath("graph_formats");
+  const TemporaryFolder folder_{"graph_formats"};
   std::vector<std::string> losses_;
 };
 

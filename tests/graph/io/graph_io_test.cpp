@@ -147,9 +147,7 @@ TEST(GraphIo, DeepNestingIsAnErrorAndNotTheEndOfTheStack) {
 
 class GraphIoFiles : public testing::Test {
  protected:
-  void SetUp() override { std::filesystem::create_directories(folder_); }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-  const std::filesystem::path folder_ = TemporaryPath("graph_io");
+  const TemporaryFolder folder_{"graph_io"};
 };
 
 TEST_F(GraphIoFiles, AFileComesBackAndAMissingOneIsNamed) {

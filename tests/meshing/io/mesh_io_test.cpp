@@ -7,7 +7,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
 #include "kernel/error.h"
 #include "meshing/corner_normals.h"
@@ -15,7 +14,9 @@
 #include "meshing/tubes.h"
 #include "meshing/watertight.h"
 #include "tests/error_message.h"
+#include "tests/file_contents.h"
 #include "tests/meshing/tube_graphs.h"
+#include "tests/temporary_path.h"
 
 namespace curvefusion {
 namespace {
@@ -24,20 +25,11 @@ namespace fs = std::filesystem;
 
 class MeshIo : public testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) /
-              ("curvefusion_mesh_io_" +
-               std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   void WriteText(const fs::path& path, const std::string& text) const {
     std::ofstream(path, std::ios::binary) << text;
   }
 
-  fs::path folder_;
+  const TemporaryFolder folder_{"mesh_io"};
 };
 
 TriangleMesh LatticeMesh() {
@@ -157,14 +149,13 @@ TEST_F(MeshIo, AdmeshFindsNothingToRepair) {
   const std::string command =
       "admesh '" + (folder_ / "a.stl").string() + "' > '" + log.string() + "'";
   ASSERT_EQ(std::system(command.c_str()), 0);
-  std::stringstream text;
-  text << std::ifstream(log).rdbuf();
+  const std::string text = FileText(log);
   for (const char* repair : {"Edges fixed", "Facets removed", "Facets added", "Facets reversed",
                              "Backwards edges", "Normals fixed", "Degenerate facets"}) {
-    const size_t at = text.str().find(repair);
+    const size_t at = text.find(repair);
     ASSERT_NE(at, std::string::npos) << repair;
-    const size_t colon = text.str().find(':', at);
-    EXPECT_EQ(std::atoi(text.str().c_str() + colon + 1), 0) << repair << "\n" << text.str();
+    const size_t colon = text.find(':', at);
+    EXPECT_EQ(std::atoi(text.c_str() + colon + 1), 0) << repair << "\n" << text;
   }
 }
 
