@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "experiments/options_json.h"
 #include "kernel/error.h"
 #include "kernel/json_input.h"
 #include "kernel/text_input.h"
@@ -13,21 +14,6 @@ namespace curvefusion {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-class SettingsWriter : public OptionVisitor {
- public:
-  void BeginSection(const char* name) override { section_ = std::string(name) + "."; }
-  void Visit(const OptionInfo& info, double& value) override {
-    json_[section_ + info.name] = value;
-  }
-  void Visit(const OptionInfo& info, int& value) override { json_[section_ + info.name] = value; }
-  void Visit(const OptionInfo& info, bool& value) override { json_[section_ + info.name] = value; }
-  const Json& json() const { return json_; }
-
- private:
-  std::string section_;
-  Json json_;
-};
 
 class SettingsReader : public OptionVisitor {
  public:
@@ -62,12 +48,6 @@ Json CurvesJson(const std::vector<WireCurve>& curves) {
     if (!curve.diameters.empty()) json.back()["diameters"] = curve.diameters;
   }
   return json;
-}
-
-Json OptionsJson(SimulationOptions scan) {
-  SettingsWriter writer;
-  VisitOptions(scan, writer);
-  return writer.json();
 }
 
 Json ShapeSeedJson(const SimulationOptions& scan) {

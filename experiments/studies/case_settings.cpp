@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "experiments/options_json.h"
 #include "experiments/simulation/scan_settings.h"
 #include "kernel/fnv_hash.h"
 
@@ -12,32 +13,6 @@ namespace curvefusion {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-// Options as JSON, with their sections.
-class JsonVisitor : public OptionVisitor {
- public:
-  void BeginSection(const char* name) override { section_ = std::string(name) + "."; }
-  void Visit(const OptionInfo& info, double& value) override { Add(info, value); }
-  void Visit(const OptionInfo& info, int& value) override { Add(info, value); }
-  void Visit(const OptionInfo& info, bool& value) override { Add(info, value); }
-  const Json& json() const { return json_; }
-
- private:
-  template <class Value>
-  void Add(const OptionInfo& info, Value value) {
-    json_[section_ + info.name] = value;
-  }
-
-  std::string section_;
-  Json json_;
-};
-
-template <class Options>
-Json OptionsJson(Options options) {
-  JsonVisitor visitor;
-  VisitOptions(options, visitor);
-  return visitor.json();
-}
 
 }  // namespace
 
