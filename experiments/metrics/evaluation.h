@@ -7,7 +7,6 @@
 #include "experiments/metrics/diameter_metrics.h"
 #include "experiments/metrics/junction_metrics.h"
 #include "experiments/metrics/mesh_metrics.h"
-#include "experiments/metrics/tip_metrics.h"
 #include "experiments/metrics/topology_metrics.h"
 #include "meshing/tube_volume.h"
 

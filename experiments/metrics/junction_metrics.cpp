@@ -7,35 +7,26 @@
 namespace curvefusion {
 namespace {
 
-std::vector<NodeId> Junctions(const SkeletonGraph& graph) {
-  std::vector<NodeId> junctions;
-  for (const NodeId node : graph.Nodes()) {
-    if (graph.Degree(node) >= 3) junctions.push_back(node);
-  }
-  return junctions;
-}
-
 std::vector<Vec3> Positions(const SkeletonGraph& graph, const std::vector<NodeId>& nodes) {
   std::vector<Vec3> positions;
   for (const NodeId node : nodes) positions.push_back(graph.position(node));
   return positions;
 }
 
-}  // namespace
-
-PrecisionRecall JunctionScores::Score() const {
-  return {ShareOfCount(matched, found), ShareOfCount(matched, truth)};
-}
-
-std::optional<double> JunctionScores::ValenceShare() const {
-  return ShareOfCount(valence_right, truth);
-}
-
-JunctionScores MatchJunctions(const SkeletonGraph& result, const SkeletonGraph& truth,
-                              double max_distance) {
-  const std::vector<NodeId> found = Junctions(result);
-  const std::vector<NodeId> expected = Junctions(truth);
-  JunctionScores scores{static_cast<int>(expected.size()), static_cast<int>(found.size()), 0, 0};
+// Pairs nodes of those degrees one to one.
+template <class OfDegree>
+JunctionScores MatchNodes(const SkeletonGraph& result, const SkeletonGraph& truth,
+                          double max_distance, const OfDegree& is_wanted) {
+  const auto wanted = [&](const SkeletonGraph& graph) {
+    std::vector<NodeId> nodes = graph.Nodes();
+    std::erase_if(nodes, [&](NodeId node) { return !is_wanted(graph.Degree(node)); });
+    return nodes;
+  };
+  const std::vector<NodeId> found = wanted(result);
+  const std::vector<NodeId> expected = wanted(truth);
+  JunctionScores scores;
+  scores.truth = static_cast<int>(expected.size());
+  scores.found = static_cast<int>(found.size());
   const std::vector<int> partner =
       MatchPoints(Positions(truth, expected), Positions(result, found), max_distance);
   for (size_t i = 0; i < expected.size(); ++i) {
@@ -44,6 +35,27 @@ JunctionScores MatchJunctions(const SkeletonGraph& result, const SkeletonGraph& 
     if (truth.Degree(expected[i]) == result.Degree(found[partner[i]])) ++scores.valence_right;
   }
   return scores;
+}
+
+}  // namespace
+
+PrecisionRecall TipScores::Score() const {
+  return {ShareOfCount(matched, found), ShareOfCount(matched, truth)};
+}
+
+TipScores MatchTips(const SkeletonGraph& result, const SkeletonGraph& truth, double max_distance) {
+  const JunctionScores scores =
+      MatchNodes(result, truth, max_distance, [](int degree) { return degree == 1; });
+  return {scores.truth, scores.found, scores.matched};
+}
+
+std::optional<double> JunctionScores::ValenceShare() const {
+  return ShareOfCount(valence_right, truth);
+}
+
+JunctionScores MatchJunctions(const SkeletonGraph& result, const SkeletonGraph& truth,
+                              double max_distance) {
+  return MatchNodes(result, truth, max_distance, [](int degree) { return degree >= 3; });
 }
 
 }  // namespace curvefusion

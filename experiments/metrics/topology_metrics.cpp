@@ -14,7 +14,9 @@
 namespace curvefusion {
 namespace {
 
-constexpr double kMaxControlPoints = 4000;  // those of 200 m at 50 mm; takes some 3 s
+constexpr double kControlSpacing = 50 * kMillimetre;  // on a curve, at most
+constexpr double kSnapDistance = 10 * kMillimetre;    // how far the other graph may be from one
+constexpr double kMaxControlPoints = 4000;            // those of 200 m at 50 mm; takes some 3 s
 constexpr double kNoPath = std::numeric_limits<double>::infinity();
 
 // A place on a curve.
@@ -85,10 +87,10 @@ class PathLengths {
   std::vector<std::vector<std::pair<int, double>>> neighbours_;
 };
 
-// All nodes with edges, each once, and places `least_spacing` apart between them
+// All nodes with edges, each once, and places kControlSpacing apart between them
 // at most; farther on long curves, as the time grows with the square of their number.
-std::vector<Place> ControlPlaces(const SkeletonGraph& graph, double least_spacing) {
-  const double spacing = std::max(least_spacing, graph.TotalLength() / kMaxControlPoints);
+std::vector<Place> ControlPlaces(const SkeletonGraph& graph) {
+  const double spacing = std::max(kControlSpacing, graph.TotalLength() / kMaxControlPoints);
   std::vector<Place> places;
   for (const NodeId node : graph.Nodes()) {
     if (graph.Degree(node) == 0) continue;
@@ -111,7 +113,7 @@ struct SnappedPlaces {
 };
 
 SnappedPlaces Snap(const SkeletonGraph& from, const std::vector<Place>& places,
-                   const SkeletonGraph& to, double snap_distance) {
+                   const SkeletonGraph& to) {
   const SkeletonSamples samples = SampleSkeleton(to);
   const PointIndex index(samples.positions);
   SnappedPlaces snapped;
@@ -121,7 +123,7 @@ SnappedPlaces Snap(const SkeletonGraph& from, const std::vector<Place>& places,
     const EdgeId nearest = samples.edges[index.Nearest(p)];
     const PolylineProjection projection = Project(to.edge(nearest).points, p);
     snapped.places.push_back({nearest, projection.arc_length});
-    snapped.is_near.push_back(projection.distance <= snap_distance);
+    snapped.is_near.push_back(projection.distance <= kSnapDistance);
   }
   return snapped;
 }
@@ -152,12 +154,11 @@ TopologyScores CompareTopology(const SkeletonGraph& result, const SkeletonGraph&
   return {result.ComponentCount(), truth.ComponentCount(), result.CycleRank(), truth.CycleRank()};
 }
 
-std::optional<double> PathSimilarity(const SkeletonGraph& from, const SkeletonGraph& to,
-                                     const PathOptions& options) {
+std::optional<double> PathSimilarity(const SkeletonGraph& from, const SkeletonGraph& to) {
   if (from.empty()) return std::nullopt;
   if (to.empty()) return 0;
-  const std::vector<Place> places = ControlPlaces(from, options.control_spacing);
-  const SnappedPlaces snapped = Snap(from, places, to, options.snap_distance);
+  const std::vector<Place> places = ControlPlaces(from);
+  const SnappedPlaces snapped = Snap(from, places, to);
   const PathLengths from_paths(from, places);
   const PathLengths to_paths(to, snapped.places);
   std::vector<PathCost> costs(places.size());

@@ -10,7 +10,6 @@
 #include "experiments/metrics/junction_metrics.h"
 #include "experiments/metrics/main_piece.h"
 #include "experiments/metrics/point_matching.h"
-#include "experiments/metrics/tip_metrics.h"
 #include "tests/graph/graph_fixtures.h"
 
 namespace curvefusion {
