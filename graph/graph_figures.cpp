@@ -1,7 +1,5 @@
 #include "graph/graph_figures.h"
 
-#include <utility>
-
 #include "kernel/quantile.h"
 
 namespace curvefusion {
@@ -30,15 +28,6 @@ GraphFigures MeasureGraph(const SkeletonGraph& graph) {
     figures.edge_radius.push_back(MedianOrZero(graph.edge(edge).radii));
   }
   return figures;
-}
-
-double TypicalRadius(const GraphFigures& figures) {
-  std::vector<std::pair<double, double>> radius_length;
-  for (size_t i = 0; i < figures.edge_radius.size(); ++i) {
-    if (figures.edge_radius[i] <= 0) continue;
-    radius_length.emplace_back(figures.edge_radius[i], figures.edge_length[i]);
-  }
-  return radius_length.empty() ? 0 : WeightedMedian(std::move(radius_length));
 }
 
 }  // namespace curvefusion

@@ -20,7 +20,4 @@ struct GraphFigures {
 };
 GraphFigures MeasureGraph(const SkeletonGraph& graph);
 
-/// The radius of the whole graph: the median over edges weighted by length; 0 where none is known.
-double TypicalRadius(const GraphFigures& figures);
-
 }  // namespace curvefusion

@@ -10,6 +10,7 @@
 #include "graph/edge_curve.h"
 #include "graph/graph_smoother.h"
 #include "graph/validate.h"
+#include "kernel/angle.h"
 
 namespace curvefusion {
 
@@ -29,9 +30,7 @@ struct SampledEdge {
 };
 
 double TurnAngle(const Vec3& before, const Vec3& here, const Vec3& behind) {
-  const Vec3 in = here - before;
-  const Vec3 out = behind - here;
-  return std::atan2(in.cross(out).norm(), in.dot(out));
+  return AngleBetween(here - before, behind - here);
 }
 
 // Arc lengths of the corners of a curve: where it turns by more than `angle` within a window, and

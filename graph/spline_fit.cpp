@@ -14,7 +14,7 @@ namespace {
 
 using Vec4 = Eigen::Vector4d;  // position and radius
 
-constexpr int kDegree = 3;
+constexpr int kSplineDegree = 3;
 constexpr double kMaxSamples = 20000;  // chosen: 10 m at .5 mm, a second of fitting
 constexpr size_t kMinSpanSamples = 4;  // of a span that is halved: each half keeps two
 
@@ -54,14 +54,16 @@ Samples SampleEdge(const SkeletonEdge& edge, double tolerance) {
 
 // The last knot not behind a parameter that has another one behind it.
 size_t SpanOf(const std::vector<double>& knots, double s) {
-  const auto after = std::upper_bound(knots.begin() + kDegree + 1, knots.end() - kDegree - 1, s);
+  const auto after =
+      std::upper_bound(knots.begin() + kSplineDegree + 1, knots.end() - kSplineDegree - 1, s);
   return static_cast<size_t>(after - knots.begin()) - 1;
 }
 
 // The four basis functions that are not zero in a span (Cox and de Boor).
-std::array<double, kDegree + 1> Basis(const std::vector<double>& knots, size_t span, double s) {
-  std::array<double, kDegree + 1> basis = {1, 0, 0, 0};
-  for (int degree = 1; degree <= kDegree; ++degree) {
+std::array<double, kSplineDegree + 1> Basis(const std::vector<double>& knots, size_t span,
+                                            double s) {
+  std::array<double, kSplineDegree + 1> basis = {1, 0, 0, 0};
+  for (int degree = 1; degree <= kSplineDegree; ++degree) {
     double carried = 0;
     for (int k = 0; k < degree; ++k) {
       const double right = knots[span + 1 + static_cast<size_t>(k)];
@@ -79,14 +81,14 @@ Vec4 Evaluate(const std::vector<double>& knots, const std::vector<Vec4>& control
   const size_t span = SpanOf(knots, s);
   const auto basis = Basis(knots, span, s);
   Vec4 sum = Vec4::Zero();
-  for (size_t k = 0; k <= kDegree; ++k) sum += basis[k] * control[span - kDegree + k];
+  for (size_t k = 0; k <= kSplineDegree; ++k) sum += basis[k] * control[span - kSplineDegree + k];
   return sum;
 }
 
 // Least squares over all samples, the first and last control point given. False where they do not
 // determine the others.
 bool SolveControl(const Samples& samples, Fit& fit) {
-  const int count = static_cast<int>(fit.knots.size()) - kDegree - 1;
+  const int count = static_cast<int>(fit.knots.size()) - kSplineDegree - 1;
   const int unknowns = count - 2;
   fit.control.assign(static_cast<size_t>(count), Vec4::Zero());
   fit.control.front() = samples.values.front();
@@ -97,20 +99,20 @@ bool SolveControl(const Samples& samples, Fit& fit) {
   for (size_t i = 1; i + 1 < samples.s.size(); ++i) {
     const size_t span = SpanOf(fit.knots, samples.s[i]);
     const auto basis = Basis(fit.knots, span, samples.s[i]);
-    const int first = static_cast<int>(span) - kDegree - 1;  // unknown of basis[0]
+    const int first = static_cast<int>(span) - kSplineDegree - 1;  // unknown of basis[0]
     Vec4 rest = samples.values[i];
-    for (int k = 0; k <= kDegree; ++k) {
+    for (int k = 0; k <= kSplineDegree; ++k) {
       const int row = first + k;
       if (row == -1 || row == unknowns) {
         rest -=
             basis[static_cast<size_t>(k)] * (row == -1 ? fit.control.front() : fit.control.back());
       }
     }
-    for (int k = 0; k <= kDegree; ++k) {
+    for (int k = 0; k <= kSplineDegree; ++k) {
       const int row = first + k;
       if (row < 0 || row >= unknowns) continue;
       right.row(row) += basis[static_cast<size_t>(k)] * rest.transpose();
-      for (int j = 0; j <= kDegree; ++j) {
+      for (int j = 0; j <= kSplineDegree; ++j) {
         const int column = first + j;
         if (column < 0 || column >= unknowns) continue;
         entries.emplace_back(row, column,
@@ -175,7 +177,7 @@ std::vector<double> Refined(const Fit& fit, const Samples& samples, double toler
 
 // Takes out every inner knot without which the fit still is good enough.
 Fit Reduced(Fit fit, const Samples& samples, double tolerance) {
-  for (size_t i = fit.knots.size() - kDegree - 2; i > kDegree; --i) {
+  for (size_t i = fit.knots.size() - kSplineDegree - 2; i > kSplineDegree; --i) {
     std::vector<double> fewer = fit.knots;
     fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(i));
     auto smaller = FitKnots(samples, std::move(fewer), tolerance);
@@ -195,7 +197,7 @@ Fit PolylineSpline(const SkeletonEdge& edge) {
   fit.knots.push_back(0);
   fit.control.push_back(value(0));
   for (size_t i = 0; i < edge.points.size(); ++i) {
-    fit.knots.insert(fit.knots.end(), kDegree, length[i]);
+    fit.knots.insert(fit.knots.end(), kSplineDegree, length[i]);
     if (i == 0) continue;
     fit.control.push_back((2 * value(i - 1) + value(i)) / 3);
     fit.control.push_back((value(i - 1) + 2 * value(i)) / 3);
@@ -208,8 +210,8 @@ Fit PolylineSpline(const SkeletonEdge& edge) {
 Fit FitWithin(const SkeletonEdge& edge, double tolerance) {
   const Samples samples = SampleEdge(edge, tolerance);
   const double length = samples.s.back();
-  std::vector<double> knots(kDegree + 1, 0);
-  knots.insert(knots.end(), kDegree + 1, length);
+  std::vector<double> knots(kSplineDegree + 1, 0);
+  knots.insert(knots.end(), kSplineDegree + 1, length);
   // Four samples determine the two inner control points of one span.
   if (samples.s.size() < kMinSpanSamples) return PolylineSpline(edge);
   while (true) {
@@ -224,18 +226,18 @@ Fit FitWithin(const SkeletonEdge& edge, double tolerance) {
 
 // The polar form of the span's cubic: its Bezier points are those of the span's ends.
 Vec4 Blossom(const std::vector<double>& knots, const std::vector<Vec4>& control, size_t span,
-             const std::array<double, kDegree>& at) {
-  std::array<Vec4, kDegree + 1> points;
-  for (size_t k = 0; k <= kDegree; ++k) points[k] = control[span - kDegree + k];
-  for (size_t round = 1; round <= kDegree; ++round) {
-    for (size_t k = kDegree; k >= round; --k) {
-      const double left = knots[span - kDegree + k];
+             const std::array<double, kSplineDegree>& at) {
+  std::array<Vec4, kSplineDegree + 1> points;
+  for (size_t k = 0; k <= kSplineDegree; ++k) points[k] = control[span - kSplineDegree + k];
+  for (size_t round = 1; round <= kSplineDegree; ++round) {
+    for (size_t k = kSplineDegree; k >= round; --k) {
+      const double left = knots[span - kSplineDegree + k];
       const double right = knots[span + 1 + k - round];
       const double share = (at[round - 1] - left) / (right - left);
       points[k] = (1 - share) * points[k - 1] + share * points[k];
     }
   }
-  return points[kDegree];
+  return points[kSplineDegree];
 }
 
 std::vector<Vec4> WithRadii(const CubicSpline& spline) {
@@ -271,7 +273,7 @@ CubicSpline FitSpline(const SkeletonEdge& edge, double tolerance) {
 std::vector<Eigen::Vector4d> BezierPoints(const CubicSpline& spline) {
   const std::vector<Vec4> control = WithRadii(spline);
   std::vector<Vec4> bezier = {control.front()};
-  for (size_t i = kDegree; i + kDegree + 1 < spline.knots.size(); ++i) {
+  for (size_t i = kSplineDegree; i + kSplineDegree + 1 < spline.knots.size(); ++i) {
     const double a = spline.knots[i];
     const double b = spline.knots[i + 1];
     if (!(a < b)) continue;

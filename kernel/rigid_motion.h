@@ -14,4 +14,11 @@ RigidTransform RigidMotion(const Vec3& rotation_vector, const Vec3& translation)
 RigidTransform RigidMotionAbout(const Vec3& center, const Vec3& rotation_vector,
                                 const Vec3& translation);
 
+/// The matrix that gives the cross product of a vector with what it is multiplied by.
+inline Mat3 CrossMatrix(const Vec3& v) {
+  Mat3 matrix;
+  matrix << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return matrix;
+}
+
 }  // namespace curvefusion

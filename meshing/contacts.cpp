@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "kernel/angle.h"
 #include "kernel/box_pairs.h"
 #include "kernel/disjoint_sets.h"
 #include "kernel/exact.h"
@@ -80,8 +81,8 @@ std::vector<std::vector<double>> TurnSums(const std::vector<TubePath>& paths) {
     const size_t n = points.size();
     std::vector<double> sum = {0.0};
     for (int i = 1; i < path.segment_count() + (path.closed ? 1 : 0); ++i) {
-      sum.push_back(sum.back() +
-                    TurnAngle(points[i % n] - points[i - 1], points[(i + 1) % n] - points[i % n]));
+      sum.push_back(sum.back() + AngleBetween(points[i % n] - points[i - 1],
+                                              points[(i + 1) % n] - points[i % n]));
     }
     sums.push_back(std::move(sum));
   }

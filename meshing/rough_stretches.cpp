@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "kernel/angle.h"
 #include "kernel/exact.h"
 #include "kernel/parallel.h"
 #include "meshing/contacts.h"
@@ -92,7 +93,7 @@ TubeAxis BallsAlong(const Stretch& segment, const TubeAxis& part) {
 bool BendsTightly(const Polyline& row) {
   if (row.size() < 3) return false;
   const Vec3& middle = row[row.size() / 2];
-  return TurnAngle(middle - row.front(), row.back() - middle) > kTightBend;
+  return AngleBetween(middle - row.front(), row.back() - middle) > kTightBend;
 }
 
 TubeAxis BallsBeside(const Stretch& segment, const std::vector<int>& own,

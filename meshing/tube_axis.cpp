@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "kernel/angle.h"
 #include "kernel/douglas_peucker.h"
 #include "meshing/tube_envelope.h"
 
@@ -49,8 +50,8 @@ std::vector<size_t> ThinOut(const TubeAxis& axis, const std::vector<size_t>& kep
 // The turn of the axis at the k-th kept point.
 double TurnAt(const TubeAxis& axis, const std::vector<size_t>& kept, size_t k) {
   if (k == 0 || k + 1 >= kept.size()) return 0;
-  return TurnAngle(axis.points[kept[k]] - axis.points[kept[k - 1]],
-                   axis.points[kept[k + 1]] - axis.points[kept[k]]);
+  return AngleBetween(axis.points[kept[k]] - axis.points[kept[k - 1]],
+                      axis.points[kept[k + 1]] - axis.points[kept[k]]);
 }
 
 // Whether a tube would have to be cut at one of the ends of the segment after the k-th kept point.
@@ -215,12 +216,8 @@ TubeAxis SimplifyAxis(const TubeAxis& axis, const AxisOptions& options) {
   return FittedAxis(axis, kept);
 }
 
-double TurnAngle(const Vec3& before, const Vec3& after) {
-  return std::atan2(before.cross(after).norm(), before.dot(after));
-}
-
 double TurnAngleAt(const Polyline& points, size_t i) {
-  return TurnAngle(points[i] - points[i - 1], points[i + 1] - points[i]);
+  return AngleBetween(points[i] - points[i - 1], points[i + 1] - points[i]);
 }
 
 bool StripFolds(double length, double radius, double first_turn, double last_turn) {

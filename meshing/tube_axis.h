@@ -42,10 +42,7 @@ TubeAxis SmoothAxis(const TubeAxis& axis);
 /// equal.
 TubeAxis SimplifyAxis(const TubeAxis& axis, const AxisOptions& options);
 
-/// The angle in radians by which a curve turns between two directions (any length > 0).
-double TurnAngle(const Vec3& before, const Vec3& after);
-
-/// The same at an inner point of a polyline.
+/// The angle by which a polyline turns at an inner point.
 double TurnAngleAt(const Polyline& points, size_t i);
 
 /// Whether the strip of a tube between two mitred rings would fold over: the rings lie `length`

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "kernel/angle.h"
 #include "meshing/ball_rings.h"
 
 namespace curvefusion {
@@ -74,7 +75,7 @@ Station ExamineStation(const BallRow& row, size_t i) {
   const Vec3 middle = row.MeanOf(row.At(place - core), row.At(place + core));
   const Vec3 before = middle - row.MeanOf(first, row.At(place - back / 2));
   const Vec3 after = row.MeanOf(row.At(place + ahead / 2), last) - middle;
-  if (TurnAngle(before, after) > kGreatestBend) return {};
+  if (AngleBetween(before, after) > kGreatestBend) return {};
   return {true, (before + after).normalized()};
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "kernel/angle.h"
 #include "kernel/parallel.h"
 #include "meshing/hashed_number.h"
 #include "meshing/rough_stretches.h"
@@ -58,7 +59,7 @@ std::optional<int> CutAgainstSelfIntersection(const TubePath& path, const TubeRi
   double sharpest = -1;
   for (int i = from; i <= to; ++i) {
     const Polyline& p = path.axis.points;
-    const double turn = TurnAngle(p[i] - p[(i + n - 1) % n], p[(i + 1) % n] - p[i]);
+    const double turn = AngleBetween(p[i] - p[(i + n - 1) % n], p[(i + 1) % n] - p[i]);
     if (turn > sharpest) {
       sharpest = turn;
       best = i;
@@ -73,11 +74,11 @@ std::optional<int> CutAgainstSelfIntersection(const TubePath& path, const TubeRi
 bool IsGentle(const TubePath& path) {
   const Polyline& p = path.axis.points;
   const size_t n = p.size();
-  double turn_before = path.closed ? TurnAngle(p[0] - p[n - 1], p[1] - p[0]) : 0;
+  double turn_before = path.closed ? AngleBetween(p[0] - p[n - 1], p[1] - p[0]) : 0;
   for (size_t i = 0; i < static_cast<size_t>(path.segment_count()); ++i) {
     const size_t next = (i + 1) % n;
     const bool turns = path.closed || next + 1 < n;
-    const double turn = turns ? TurnAngle(p[next] - p[i], p[(next + 1) % n] - p[next]) : 0;
+    const double turn = turns ? AngleBetween(p[next] - p[i], p[(next + 1) % n] - p[next]) : 0;
     const double radius = std::max(path.axis.radii[i], path.axis.radii[next]);
     if (StripFolds((p[next] - p[i]).norm() / kGentle, radius, std::max(turn_before, turn), turn)) {
       return false;

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <utility>
+
+#include "kernel/angle.h"
 
 namespace curvefusion {
 
@@ -64,7 +65,7 @@ std::vector<ThroughCandidate> CandidatesAtNode(const TubeNetwork& network,
       const TubeAxis& a = network.branches[ends[i].branch].axis;
       const TubeAxis& b = network.branches[ends[j].branch].axis;
       const double turn =
-          TurnAngle(-InwardDirection(a, ends[i].side), InwardDirection(b, ends[j].side));
+          AngleBetween(-InwardDirection(a, ends[i].side), InwardDirection(b, ends[j].side));
       const auto [thin, thick] =
           std::minmax({EndRadius(a, ends[i].side), EndRadius(b, ends[j].side)});
       if (turn <= max_turn && thin >= kSameRadius * thick) {

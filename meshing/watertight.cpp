@@ -4,12 +4,12 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <numeric>
 #include <tuple>
 #include <vector>
 
+#include "kernel/angle.h"
 #include "kernel/disjoint_sets.h"
 #include "kernel/error.h"
 #include "kernel/solid_angle.h"
@@ -91,10 +91,8 @@ int64_t ExamineEdges(const TriangleMesh& mesh, WatertightReport& report,
 }
 
 double SmallestAngle(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const auto angle = [](const Vec3& u, const Vec3& v) {
-    return std::atan2(u.cross(v).norm(), u.dot(v));
-  };
-  return std::min({angle(b - a, c - a), angle(a - b, c - b), angle(a - c, b - c)});
+  return std::min(
+      {AngleBetween(b - a, c - a), AngleBetween(a - b, c - b), AngleBetween(a - c, b - c)});
 }
 
 // A component of the surface and what it encloses.

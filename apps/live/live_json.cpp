@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <string>
 #include <vector>
 
 #include "apps/page_curves.h"
 #include "apps/page_frames.h"
 #include "apps/preview.h"
+#include "kernel/angle.h"
 #include "kernel/polyline.h"
 
 namespace curvefusion {
@@ -18,7 +18,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kDegree = std::numbers::pi / 180;
 // Of the curves: what a browser draws anew every second.
 constexpr size_t kMaxPoints = 40'000;
 // Hints are shown for so many curves, those of which most is unknown; more would cover them.

@@ -4,15 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <vector>
+
+#include "kernel/angle.h"
 
 namespace curvefusion {
 
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 // Reports under the name of the folder.
 class Reporter {

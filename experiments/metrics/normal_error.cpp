@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "experiments/metrics/curve_metrics.h"
+#include "kernel/angle.h"
 #include "kernel/spatial_search.h"
 
 namespace curvefusion {
@@ -14,10 +15,6 @@ namespace {
 constexpr double kReach = 5 * kMillimetre;
 // Of a wire of 3 mm, so that the axis sampled at such steps tilts normals by less than 2 degrees.
 constexpr double kAxisStep = 0.1 * kMillimetre;
-
-double AngleBetween(const Vec3& a, const Vec3& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
 
 }  // namespace
 

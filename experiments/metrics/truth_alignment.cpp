@@ -10,6 +10,7 @@
 #include "experiments/metrics/curve_metrics.h"
 #include "experiments/metrics/explained_share.h"
 #include "kernel/parallel.h"
+#include "kernel/rigid_motion.h"
 
 namespace curvefusion {
 namespace {
@@ -19,12 +20,6 @@ constexpr int64_t kGrain = 256;  // points per chunk of a parallel loop
 using Vec6 = Eigen::Matrix<double, 6, 1>;
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 using Mat36 = Eigen::Matrix<double, 3, 6>;
-
-Mat3 CrossMatrix(const Vec3& v) {
-  Mat3 cross;
-  cross << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return cross;
-}
 
 // A motion and how much of the truth it explains.
 struct Candidate {

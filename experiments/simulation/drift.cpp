@@ -1,9 +1,9 @@
 #include "experiments/simulation/drift.h"
 
 #include <map>
-#include <numbers>
 
 #include "experiments/simulation/noise_process.h"
+#include "kernel/angle.h"
 #include "kernel/error.h"
 #include "kernel/options.h"
 #include "kernel/rigid_motion.h"
@@ -14,7 +14,6 @@ namespace {
 // As tables of trackers have them: millimetres and degrees.
 PoseErrorModel Model(double drift_memory, double drift_mm, double drift_deg, double walk_mm,
                      double walk_deg, double jitter_memory, double jitter_mm, double jitter_deg) {
-  constexpr double kDegree = std::numbers::pi / 180;
   return {
       drift_memory,       drift_mm * kMillimetre, drift_deg * kDegree,     walk_mm * kMillimetre,
       walk_deg * kDegree, jitter_memory,          jitter_mm * kMillimetre, jitter_deg * kDegree};

@@ -5,13 +5,13 @@
 #include <numbers>
 
 #include "experiments/simulation/noise_process.h"
+#include "kernel/angle.h"
 #include "kernel/rigid_motion.h"
 
 namespace curvefusion {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kDegree = kPi / 180;
 
 // The smooth path without the hand, by a parameter that is about the metres travelled sideways.
 struct ArcPath {

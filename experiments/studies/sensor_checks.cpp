@@ -4,12 +4,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "experiments/metrics/trajectory_metrics.h"
 #include "experiments/simulation/drift.h"
 #include "experiments/simulation/motion.h"
 #include "experiments/simulation/sensor_measurements.h"
+#include "kernel/angle.h"
 
 namespace curvefusion {
 
@@ -64,7 +64,6 @@ Figures MeasureWires(const SensorMeasurement& measurement, uint64_t seed) {
 Figures MeasurePoses(const SensorMeasurement& measurement, uint64_t seed) {
   constexpr int kTrajectories = 20;
   constexpr int kSecond = 30;
-  constexpr double kDegree = std::numbers::pi / 180;
   ScanTask task;
   task.object_bounds.extend(Vec3::Constant(-0.1)).extend(Vec3::Constant(0.1));
   const PoseErrorModel model = PoseErrorOf(measurement.subject);

@@ -11,7 +11,9 @@
 
 #include "fusion/registration/pose_correction.h"
 #include "fusion/strips/strip_samples.h"
+#include "kernel/angle.h"
 #include "kernel/parallel.h"
+#include "kernel/rigid_motion.h"
 
 namespace curvefusion {
 
@@ -20,7 +22,6 @@ namespace {
 using Row6 = Eigen::Matrix<double, 1, 6>;
 using Row3 = Eigen::RowVector3d;
 
-constexpr double kDegree = M_PI / 180;
 constexpr double kStripSigmaPx = 0.5;
 constexpr double kEdgeSigmaPx = 1.5;
 // chosen (chair 3, legs 1, cage 2, cubeframe; 2 and 5 draw what colour tells aside): so little does
@@ -54,12 +55,6 @@ constexpr PoseSigma kPoseSigma = {5 * kMillimetre, 0.3 * kDegree};
 constexpr PoseSigma kJitterSigma = {0.8 * kMillimetre, 0.3 * kDegree};
 constexpr PoseSigma kLinkSigma = {0.8 * kMillimetre, 0.04 * kDegree};
 constexpr PoseSigma kFirstSigma = {0.2 * kMillimetre, 0.01 * kDegree};
-
-Mat3 CrossMatrix(const Vec3& v) {
-  Mat3 matrix;
-  matrix << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return matrix;
-}
 
 // The normal equations of all terms: blocks of single vertices, what couples rows of vertices,
 // poses, and what couples vertices with poses.

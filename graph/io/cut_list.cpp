@@ -2,18 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <string>
 
 #include "graph/bends.h"
 #include "graph/graph_figures.h"
+#include "kernel/angle.h"
 #include "kernel/atomic_file.h"
 
 namespace curvefusion {
 
 namespace {
-
-constexpr double kDegree = M_PI / 180;
 
 std::string Rows(const SkeletonGraph& graph, EdgeId id, double length, double radius,
                  double tolerance) {

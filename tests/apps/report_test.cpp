@@ -153,15 +153,5 @@ TEST(Summary, OfNothingNamesNoFilesThatAreNotThere) {
   EXPECT_THAT(summary, Not(HasSubstr("mesh.ply")));
 }
 
-TEST(GraphFigures, TheTypicalRadiusIsTheMedianByLength) {
-  SkeletonGraph graph = Y();
-  EXPECT_NEAR(TypicalRadius(MeasureGraph(graph)), 2.5 * kMillimetre, 1e-15);
-  // A long thick curve outweighs the three thin ones.
-  const EdgeId edge = graph.AddPolyline({{1, 0, 0}, {2, 0, 0}});
-  graph.SetCurve(edge, graph.edge(edge).points, {0.004, 0.004});
-  EXPECT_EQ(TypicalRadius(MeasureGraph(graph)), 0.004);
-  EXPECT_EQ(TypicalRadius(MeasureGraph(SkeletonGraph())), 0);
-}
-
 }  // namespace
 }  // namespace curvefusion

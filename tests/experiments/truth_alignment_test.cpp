@@ -8,12 +8,11 @@
 #include "experiments/metrics/curve_metrics.h"
 #include "experiments/metrics/explained_share.h"
 #include "experiments/simulation/object_truth.h"
+#include "kernel/angle.h"
 #include "tests/graph/graph_fixtures.h"
 
 namespace curvefusion {
 namespace {
-
-constexpr double kDegree = M_PI / 180;
 
 SkeletonGraph Object(const std::string& name) { return TruthSkeleton(MakeObject(name)); }
 

@@ -4,11 +4,12 @@
 
 #include <cmath>
 
+#include "kernel/angle.h"
+
 namespace curvefusion {
 namespace {
 
 constexpr double kTolerance = 0.5 * kMillimetre;
-constexpr double kDegree = M_PI / 180;
 
 // Draws a wire as a bender would make it, at 1 mm steps: feed, turn, bend.
 class Wire {

@@ -2,17 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "experiments/simulation/families/families.h"
 #include "experiments/simulation/random.h"
+#include "kernel/angle.h"
 #include "kernel/error.h"
 #include "kernel/options.h"
 
 namespace curvefusion {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr const char* kFurnished = "furnished";
 constexpr const char* kRoom = "room";
 constexpr uint64_t kMostFamilies = 64;
