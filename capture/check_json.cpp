@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "capture/camera_json.h"
+
 namespace curvefusion {
 
 namespace {
@@ -47,22 +49,10 @@ Json AmountJson(const std::optional<MistakeAmount>& amount) {
 // In the words of intrinsics.json.
 Json ColourFitJson(const ColourCameraFit& fit) {
   if (!fit.measured) return nullptr;
-  const PinholeCamera& camera = fit.color_camera;
-  const Eigen::Matrix4d matrix = fit.T_color_depth.matrix();
-  Json rows = Json::array();
-  for (int row = 0; row < 4; ++row) {
-    rows.push_back({matrix(row, 0), matrix(row, 1), matrix(row, 2), matrix(row, 3)});
-  }
   return {{"is_misregistered", fit.IsMisregistered()},
           {"displacement_px", fit.displacement_px},
-          {"color_camera",
-           {{"width", camera.width},
-            {"height", camera.height},
-            {"fx", camera.fx},
-            {"fy", camera.fy},
-            {"cx", camera.cx},
-            {"cy", camera.cy}}},
-          {"T_color_depth", rows}};
+          {"color_camera", CameraJson(fit.color_camera)},
+          {"T_color_depth", RowsJson(fit.T_color_depth)}};
 }
 
 // All mistakes of a cause: their frames, and the amount, of which there is one.

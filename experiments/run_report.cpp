@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "capture/camera_json.h"
 #include "graph/graph_figures.h"
 
 namespace curvefusion {
@@ -36,22 +37,12 @@ Json StagesJson(const std::vector<StageReport>& stages) {
   return result;
 }
 
-Json CameraJson(const PinholeCamera& camera) {
-  return {{"width", camera.width}, {"height", camera.height}, {"fx", camera.fx},
-          {"fy", camera.fy},       {"cx", camera.cx},         {"cy", camera.cy}};
-}
-
 // The cameras the run began with.
 Json CamerasJson(const RunRecord& record) {
   const Sequence& sequence = record.sequence;
-  Json rows = Json::array();
-  for (int row = 0; row < 4; ++row) {
-    const Eigen::RowVector4d values = sequence.T_color_depth.matrix().row(row);
-    rows.push_back({values[0], values[1], values[2], values[3]});
-  }
   return {{"depth", CameraJson(sequence.depth_camera)},
           {"color", CameraJson(sequence.color_camera)},
-          {"T_color_depth", rows},
+          {"T_color_depth", RowsJson(sequence.T_color_depth)},
           {"color_from", record.colour_camera_fitted ? "fit" : "intrinsics"}};
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "capture/camera_json.h"
 #include "capture/image_file.h"
 #include "capture/png.h"
 #include "capture/trajectory.h"
@@ -58,11 +59,6 @@ std::string ColorExtension(const SequenceFrame& frame) {
   return is_jpeg ? ".jpg" : ".png";
 }
 
-ordered_json CameraJson(const PinholeCamera& camera) {
-  return {{"width", camera.width}, {"height", camera.height}, {"fx", camera.fx},
-          {"fy", camera.fy},       {"cx", camera.cx},         {"cy", camera.cy}};
-}
-
 ordered_json LensJson(const PinholeCamera& camera, const Distortion& d) {
   ordered_json lens = CameraJson(camera);
   if (d.IsZero()) return lens;
@@ -77,11 +73,7 @@ ordered_json GivenIntrinsics(const Sequence& sequence) {
   if (!fs::exists(path)) {
     ordered_json cameras = LensJson(sequence.depth_camera, sequence.depth_distortion);
     cameras["color_camera"] = LensJson(sequence.color_camera, sequence.color_distortion);
-    const Eigen::Matrix4d matrix = sequence.T_color_depth.matrix();
-    for (int row = 0; row < 4; ++row) {
-      cameras["T_color_depth"].push_back(
-          {matrix(row, 0), matrix(row, 1), matrix(row, 2), matrix(row, 3)});
-    }
+    cameras["T_color_depth"] = RowsJson(sequence.T_color_depth);
     return cameras;
   }
   return ordered_json(ParseJson(ReadFile(path), path.string()));

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "capture/camera_json.h"
 #include "capture/jpeg.h"
 #include "capture/png.h"
 #include "kernel/atomic_file.h"
@@ -22,11 +23,6 @@ bool SameCamera(const PinholeCamera& a, const PinholeCamera& b) {
 }
 
 }  // namespace
-
-nlohmann::ordered_json CameraJson(const PinholeCamera& camera) {
-  return {{"width", camera.width}, {"height", camera.height}, {"fx", camera.fx},
-          {"fy", camera.fy},       {"cx", camera.cx},         {"cy", camera.cy}};
-}
 
 double FrameTime(int frame, double frame_rate) { return kStartTime + frame / frame_rate; }
 
@@ -68,13 +64,7 @@ void WriteIntrinsics(const std::filesystem::path& path, const PinholeCamera& dep
   nlohmann::ordered_json json = CameraJson(depth_camera);
   json["depth_scale"] = kDepthScale;
   if (!SameCamera(depth_camera, color_camera)) json["color_camera"] = CameraJson(color_camera);
-  const Eigen::Matrix4d matrix = T_color_depth.matrix();
-  if (!matrix.isIdentity(0)) {
-    for (int row = 0; row < 4; ++row) {
-      json["T_color_depth"].push_back(
-          {matrix(row, 0), matrix(row, 1), matrix(row, 2), matrix(row, 3)});
-    }
-  }
+  if (!T_color_depth.matrix().isIdentity(0)) json["T_color_depth"] = RowsJson(T_color_depth);
   WriteStreamAtomically(path, [&](std::ostream& stream) { stream << json.dump() << "\n"; });
 }
 

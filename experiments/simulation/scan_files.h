@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -12,9 +11,6 @@ namespace curvefusion {
 
 /// Depth units per metre in the files.
 inline constexpr double kDepthScale = 5000;
-
-/// A camera as intrinsics.json holds it.
-nlohmann::ordered_json CameraJson(const PinholeCamera& camera);
 
 /// Time of a frame in seconds.
 double FrameTime(int frame, double frame_rate);

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "capture/camera_json.h"
 #include "capture/trajectory.h"
 #include "experiments/simulation/color_plan.h"
 #include "experiments/simulation/depth_sensor.h"
