@@ -20,8 +20,6 @@ constexpr double kMargin = 0.12;     // of the cut-out's size, around the graph
 constexpr double kOpacity = 0.5;
 constexpr int kShift = 4;
 
-cv::Scalar Ink(const Rgb& color) { return {double(color[0]), double(color[1]), double(color[2])}; }
-
 RigidTransform ColorFromWorld(const Sequence& sequence, int frame) {
   return sequence.T_color_depth * sequence.frames[frame].T_world_camera.inverse();
 }

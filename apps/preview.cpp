@@ -27,8 +27,6 @@ constexpr int kHeight = kTitleHeight + 2 * kPanelHeight + 2 * kGap + kFooterHeig
 constexpr double kFilled = 0.76;          // share of a panel that the graph fills at most
 constexpr double kSmallestExtent = 0.01;  // metres, so that a single point has a scale too
 
-cv::Scalar Ink(const Rgb& color) { return {double(color[0]), double(color[1]), double(color[2])}; }
-
 std::array<OrthographicView, 3> Views(const Mat3& front) {
   Mat3 side;
   Mat3 top;

@@ -264,4 +264,8 @@ Sequence ReadSequence(const fs::path& folder, PoseUse poses, DepthUse depth,
   return sequence;
 }
 
+Sequence ReadQuietly(const fs::path& folder) {
+  return ReadSequence(folder, PoseUse::kIfGiven, DepthUse::kNeeded, [](const CheckFinding&) {});
+}
+
 }  // namespace curvefusion

@@ -14,4 +14,7 @@ namespace curvefusion {
 Sequence ReadSequence(const std::filesystem::path& folder, PoseUse poses, DepthUse depth,
                       const FindingHandler& on_finding);
 
+/// The same of depth images, with poses where there are any, and nothing said about defects.
+Sequence ReadQuietly(const std::filesystem::path& folder);
+
 }  // namespace curvefusion

@@ -25,6 +25,11 @@ cv::Mat MatOf(const Image<Pixel>& image) {
   return MatOf(const_cast<Image<Pixel>&>(image));
 }
 
+/// A colour as OpenCV draws with it.
+inline cv::Scalar Ink(const Rgb& color) {
+  return {double(color[0]), double(color[1]), double(color[2])};
+}
+
 /// An image of fewer pixels, each the mean of those that it covers.
 template <class Pixel>
 Image<Pixel> ShrunkTo(int width, int height, const Image<Pixel>& image) {

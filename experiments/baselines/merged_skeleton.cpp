@@ -3,11 +3,11 @@
 #include <vector>
 
 #include "experiments/baselines/bridged_branches.h"
+#include "experiments/baselines/volumetric_fusion.h"
 #include "fusion/paper/bundle_skeleton.h"
 #include "fusion/paper/colour_edge_samples.h"
 #include "fusion/paper/ghost_clusters.h"
 #include "fusion/paper/surface_removal.h"
-#include "fusion/volume/volume_fusion.h"
 #include "kernel/voxel_grid.h"
 
 namespace curvefusion {
@@ -31,9 +31,7 @@ SkeletonOfPoints SkeletonOfFrames(const Sequence& sequence, const BundleFrames& 
                                   const Progress& progress) {
   SkeletonOfPoints result;
   if (sequence.frames.empty()) return result;
-  int fused = 0;
-  const TsdfVolume volume = FuseVolume(
-      sequence, options.volume, 1, [&] { progress("volume", ++fused, sequence.frame_count()); });
+  const TsdfVolume volume = FusedVolume(sequence, options.volume, progress);
   const ObservedPoints merged =
       ResampleOnGrid(FindBundleDifference(sequence, frames, volume, options.surfaces).points,
                      options.bundle.voxel_size);

@@ -6,11 +6,11 @@
 #include <numbers>
 
 #include "capture/frame_stream.h"
+#include "experiments/baselines/volumetric_fusion.h"
 #include "experiments/simulation/scene.h"
 #include "experiments/simulation/scene_view.h"
 #include "fusion/appearance/wire_posterior.h"
 #include "fusion/paper/surface_removal.h"
-#include "fusion/volume/volume_fusion.h"
 #include "kernel/parallel.h"
 
 namespace curvefusion {
@@ -110,9 +110,7 @@ std::vector<SilhouetteMap> ColourSilhouettes(const Sequence& sequence,
                                              const std::vector<int>& frames,
                                              const PaperOptions& options,
                                              const Progress& progress) {
-  int fused = 0;
-  const TsdfVolume volume = FuseVolume(
-      sequence, options.volume, 1, [&] { progress("volume", ++fused, sequence.frame_count()); });
+  const TsdfVolume volume = FusedVolume(sequence, options.volume, progress);
   WireColourModel model;
   bool is_wire_seen = false;
   for (const int frame : EvenlyThinned(frames, kModelFrames)) {

@@ -1,5 +1,6 @@
 #include "experiments/baselines/volumetric_fusion.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "fusion/tracking/track_sequence.h"
@@ -7,12 +8,18 @@
 
 namespace curvefusion {
 
+TsdfVolume FusedVolume(const Sequence& sequence, const TsdfOptions& options,
+                       const Progress& progress, int stride) {
+  int frames = 0;
+  return FuseVolume(sequence, options, stride, [&] {
+    frames += stride;
+    progress("volume", std::min(frames, sequence.frame_count()), sequence.frame_count());
+  });
+}
+
 TriangleMesh VolumeFusionSurface(const Sequence& sequence, const TsdfOptions& options,
                                  const Progress& progress) {
-  int frames = 0;
-  const TsdfVolume volume = FuseVolume(
-      sequence, options, 1, [&] { progress("volume", ++frames, sequence.frame_count()); });
-  return volume.ExtractMesh();
+  return FusedVolume(sequence, options, progress).ExtractMesh();
 }
 
 KinectFusionResult FuseAsKinectFusion(const Sequence& sequence, const TsdfOptions& options,

@@ -7,6 +7,10 @@
 
 namespace curvefusion {
 
+/// FuseVolume, whose progress is told as that of the stage "volume".
+TsdfVolume FusedVolume(const Sequence& sequence, const TsdfOptions& options,
+                       const Progress& progress, int stride = 1);
+
 /// VolumeFusion (Curless and Levoy 1996): the marching-cubes surface of a TSDF of all depth images.
 /// Given: depth and the sequence's poses. Throws Error(kBadInput) for an image that cannot be read.
 TriangleMesh VolumeFusionSurface(const Sequence& sequence, const TsdfOptions& options,

@@ -66,11 +66,6 @@ double Area(const std::array<Vec3, 3>& triangle) {
   return (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).norm() / 2;
 }
 
-std::array<Vec3, 3> Corners(const TriangleMesh& mesh, const std::array<int, 3>& triangle) {
-  return {mesh.vertices[triangle[0]].cast<double>(), mesh.vertices[triangle[1]].cast<double>(),
-          mesh.vertices[triangle[2]].cast<double>()};
-}
-
 // Samples a triangle in rows along its longest side.
 void AppendSamples(std::array<Vec3, 3> triangle, SurfaceSamples& samples) {
   const auto side = [&](int i) { return (triangle[(i + 1) % 3] - triangle[i]).norm(); };
@@ -96,9 +91,7 @@ void AppendSamples(std::array<Vec3, 3> triangle, SurfaceSamples& samples) {
 
 SurfaceSamples SampleMesh(const TriangleMesh& mesh) {
   SurfaceSamples samples;
-  for (const std::array<int, 3>& triangle : mesh.triangles) {
-    AppendSamples(Corners(mesh, triangle), samples);
-  }
+  for (size_t i = 0; i < mesh.triangles.size(); ++i) AppendSamples(CornersOf(mesh, i), samples);
   return samples;
 }
 
@@ -203,11 +196,11 @@ MeshPart PartAroundTruth(const TriangleMesh& mesh, const SkeletonGraph& truth) {
   }
   MeshPart part;
   part.mesh.vertices = mesh.vertices;
-  for (const std::array<int, 3>& triangle : mesh.triangles) {
-    const std::array<Vec3, 3> corners = Corners(mesh, triangle);
+  for (size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const std::array<Vec3, 3> corners = CornersOf(mesh, i);
     const bool inside = bounds.contains((corners[0] + corners[1] + corners[2]) / 3);
     if (inside) {
-      part.mesh.triangles.push_back(triangle);
+      part.mesh.triangles.push_back(mesh.triangles[i]);
     } else {
       part.area_outside += Area(corners);
     }

@@ -20,8 +20,6 @@ constexpr double kHaloShare = 0.9;       // width of the white halo, relative to
 constexpr double kScaleBarShare = 0.22;  // of the panel's width, at most
 constexpr size_t kMostDots = 100000;
 
-cv::Scalar Ink(const Rgb& color) { return {double(color[0]), double(color[1]), double(color[2])}; }
-
 // Draws at kSupersampling times the size of the picture that comes out.
 class Panel {
  public:

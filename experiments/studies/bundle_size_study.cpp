@@ -9,13 +9,13 @@
 
 #include "capture/sequence.h"
 #include "capture/trajectory.h"
+#include "experiments/baselines/volumetric_fusion.h"
 #include "experiments/metrics/truth.h"
 #include "experiments/studies/gnuplot.h"
 #include "experiments/studies/method_outcome.h"
 #include "experiments/studies/reconstruction_run.h"
 #include "experiments/studies/result_table.h"
 #include "experiments/studies/studies.h"
-#include "fusion/volume/volume_fusion.h"
 #include "kernel/error.h"
 
 namespace curvefusion {
@@ -101,24 +101,16 @@ Sequence MiddleFrames(const Sequence& sequence, int count) {
   return middle;
 }
 
-TsdfVolume FusedVolume(const Sequence& sequence, const Config& config, int stride,
-                       const Progress& progress) {
-  int frames = 0;
-  return FuseVolume(sequence, VolumeOptions(config.pipeline), stride, [&] {
-    frames += stride;
-    progress("volume", std::min(frames, sequence.frame_count()), sequence.frame_count());
-  });
-}
-
 RunOutcome RunVolume(const RunInput& input, const Sequence& bundle, const SkeletonGraph& truth) {
-  const TsdfVolume volume = FusedVolume(bundle, input.study_case.config, 1, input.progress);
-  return KeepSurfaceOfMethod(input, volume.ExtractMesh(), truth);
+  const TsdfOptions options = VolumeOptions(input.study_case.config.pipeline);
+  return KeepSurfaceOfMethod(input, VolumeFusionSurface(bundle, options, input.progress), truth);
 }
 
 RunOutcome RunSkeleton(const RunInput& input, const Sequence& scan, const Sequence& bundle,
                        const SkeletonGraph& truth) {
   const Config& config = input.study_case.config;
-  const TsdfVolume room = FusedVolume(scan, config, kRoomStride, input.progress);
+  const TsdfVolume room =
+      FusedVolume(scan, VolumeOptions(config.pipeline), input.progress, kRoomStride);
   InterruptibleObserver observer(input.progress);
   const Reconstruction result = ReconstructAgainst(room, bundle, config.pipeline, observer);
   return KeepSkeletonOfMethod(input, result.skeleton, result.points, truth);

@@ -132,8 +132,7 @@ bool IsToSpoil(const fs::path& folder) {
 
 void AddRecording(const fs::path& folder, std::vector<StudyCase>& cases) {
   const std::string name = folder.filename().string();
-  const Sequence recording =
-      ReadSequence(folder, PoseUse::kIfGiven, DepthUse::kNeeded, [](const CheckFinding&) {});
+  const Sequence recording = ReadQuietly(folder);
   const auto reference = ReferenceOf(folder, recording.depth_camera);
   const bool is_raw = reference && !reference->is_told;
   std::vector<StudyCase> versions = {CaseOf(name, kAsRecorded, is_raw ? kRawColour : kNothing, 0)};
@@ -183,8 +182,7 @@ double MedianStep(const Sequence& sequence) {
 // Writes the version where it is another than the scan itself.
 CheckExpectation MakeVersion(const fs::path& scan, const std::string& version, fs::path& checked) {
   CheckExpectation expected;
-  const Sequence given =
-      ReadSequence(scan, PoseUse::kIfGiven, DepthUse::kNeeded, [](const CheckFinding&) {});
+  const Sequence given = ReadQuietly(scan);
   expected.frame_period = MedianStep(given);
   const auto reference = ReferenceOf(scan, given.depth_camera);
   expected.may_misplace_colour = reference && !reference->is_told;
@@ -197,9 +195,7 @@ CheckExpectation MakeVersion(const fs::path& scan, const std::string& version, f
   } else {
     expected.mistake = WriteWrongVersion(scan, version, folder);
   }
-  for (const SequenceFrame& frame :
-       ReadSequence(checked, PoseUse::kIfGiven, DepthUse::kNeeded, [](const CheckFinding&) {
-       }).frames) {
+  for (const SequenceFrame& frame : ReadQuietly(checked).frames) {
     expected.frame_names.push_back(frame.name);
   }
   return expected;
@@ -209,8 +205,7 @@ CheckExpectation MakeVersion(const fs::path& scan, const std::string& version, f
 void AddColourOffsets(const nlohmann::json& check, const fs::path& scan, Figures& figures) {
   const nlohmann::json& fit = check.at("colour_fit");
   if (fit.is_null() || !fit.at("is_misregistered").get<bool>()) return;
-  const Sequence given =
-      ReadSequence(scan, PoseUse::kIfGiven, DepthUse::kNeeded, [](const CheckFinding&) {});
+  const Sequence given = ReadQuietly(scan);
   const auto reference = ReferenceOf(scan, given.depth_camera);
   if (!reference) return;
   const nlohmann::json& camera = fit.at("color_camera");

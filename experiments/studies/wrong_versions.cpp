@@ -164,8 +164,7 @@ FileChange MoveClock(double seconds) {
 // Writes another colour camera into intrinsics.json: by factors and parts of the image's width.
 FileChange ChangeColourCamera(double focal_factor, double right, double down, double baseline) {
   return [=](const fs::path& folder, Mistake&) {
-    const Sequence scan =
-        ReadSequence(folder, PoseUse::kIfGiven, DepthUse::kNeeded, [](const CheckFinding&) {});
+    const Sequence scan = ReadQuietly(folder);
     PinholeCamera camera = scan.color_camera;
     camera.fx *= focal_factor;
     camera.fy *= focal_factor;
