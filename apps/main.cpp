@@ -3,6 +3,9 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <atomic>
+#include <cstdlib>
+#include <new>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,7 +13,6 @@
 #include "apps/command_line.h"
 #include "apps/failure.h"
 #include "apps/interrupt.h"
-#include "apps/memory_reserve.h"
 #include "kernel/error.h"
 #include "kernel/options.h"
 
@@ -19,6 +21,31 @@ namespace curvefusion {
 namespace {
 
 constexpr int kMegabyte = 1 << 20;
+
+// Memory set aside for when operator new finds none. The first lack is bridged by one half, as it
+// may happen in a destructor, which must not throw (those of JSON values take memory); the other
+// half is there for the destructors that run once std::bad_alloc is thrown. A half is, as chosen,
+// many times what a destructor of JSON values takes, 16 bytes for each element of its largest
+// array, and nothing beside what a run needs. A new handler can reach nothing but globals.
+std::atomic<void*> bridge{nullptr};
+std::atomic<void*> rest{nullptr};
+
+void UseReserve() {
+  if (void* const block = bridge.exchange(nullptr)) {
+    std::free(block);
+    return;  // operator new tries again
+  }
+  std::free(rest.exchange(nullptr));
+  throw std::bad_alloc();
+}
+
+// Throws std::bad_alloc where there is not even so much.
+void SetMemoryAside() {
+  bridge = std::malloc(kMegabyte);
+  rest = std::malloc(kMegabyte);
+  if (bridge == nullptr || rest == nullptr) throw std::bad_alloc();
+  std::set_new_handler(UseReserve);
+}
 
 // CLI11 says of a mistyped command only that one is required.
 void CheckCommandName(const CLI::App& app, const std::vector<std::string>& arguments) {

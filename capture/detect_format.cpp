@@ -11,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "capture/readers/containers.h"
 #include "capture/readers/frame_assembly.h"
 #include "capture/readers/readers.h"
 #include "kernel/error.h"
@@ -126,6 +125,17 @@ std::vector<std::string> ScansInside(const fs::path& folder) {
   std::sort(scans.begin(), scans.end());
   if (scans.size() > kMaxProposals) scans.resize(kMaxProposals);
   return scans;
+}
+
+// What a recording in one file is that is not read (.r3d), and how to export it to a layout that
+// is. Empty for other files, told by their names.
+std::string ExportRemedy(const fs::path& file) {
+  if (file.extension() != ".r3d") return {};
+  return fmt::format(
+      "a recording of Record3D; it is a zip file (unzip '{}' -d DIR) of colour images, depth "
+      "(LZFSE, float32, metres) and poses in 'metadata': write depth as 16-bit PNG in mm and "
+      "poses and cameras as transforms.json (nerfstudio)",
+      file.string());
 }
 
 [[noreturn]] void FailUnknownFormat(const fs::path& folder) {

@@ -13,7 +13,7 @@ namespace curvefusion {
 namespace {
 
 constexpr int kAttempts = 4;  // measured: scans have needed one or two
-// In radii: a tube has a dozen corners on such a grid (junction_resampling).
+// In radii: a tube has a dozen corners on such a grid (junction_mesh).
 constexpr double kResampling = 0.5;
 
 }  // namespace

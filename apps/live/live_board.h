@@ -5,6 +5,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "fusion/live/live_reconstruction.h"
 #include "kernel/camera.h"
@@ -48,18 +49,33 @@ struct LiveState {
 /// What the threads of a live run show each other and the browser.
 class LiveBoard {
  public:
-  void Update(const std::function<void(LiveState&)>& change);
-  LiveState state() const;
+  void Update(const std::function<void(LiveState&)>& change) {
+    const std::lock_guard lock(mutex_);
+    change(state_);
+  }
+  LiveState state() const { return Locked(state_); }
 
   /// The curves of the last snapshot as JSON (CurvesJson).
-  void SetCurves(std::string json);
-  std::string curves() const;
+  void SetCurves(std::string json) {
+    const std::lock_guard lock(mutex_);
+    curves_ = std::move(json);
+  }
+  std::string curves() const { return Locked(curves_); }
 
   /// What each of these curves rests on, as JSON (SightingsJson).
-  void SetSightings(std::string json);
-  std::string sightings() const;
+  void SetSightings(std::string json) {
+    const std::lock_guard lock(mutex_);
+    sightings_ = std::move(json);
+  }
+  std::string sightings() const { return Locked(sightings_); }
 
  private:
+  template <class Value>
+  Value Locked(const Value& value) const {
+    const std::lock_guard lock(mutex_);
+    return value;
+  }
+
   mutable std::mutex mutex_;
   LiveState state_;
   std::string curves_ = "null";

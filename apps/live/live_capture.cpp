@@ -11,8 +11,8 @@
 
 #include "apps/live/frame_queue.h"
 #include "apps/live/live_json.h"
-#include "apps/live/live_poses.h"
 #include "fusion/live/live_reconstruction.h"
+#include "fusion/tracking/camera_tracker.h"
 #include "graph/graph_figures.h"
 #include "graph/io/graph_io.h"
 #include "kernel/atomic_file.h"
@@ -27,6 +27,33 @@ namespace {
 constexpr size_t kMostWaiting = 30;
 constexpr double kRateWindow = 2;  // seconds over which the frame rate is counted
 constexpr std::chrono::milliseconds kStep(4);
+
+// Gives frames their poses where the source gives none: by tracking the camera.
+class LivePoses {
+ public:
+  explicit LivePoses(const Sequence& cameras) : single_(cameras) {
+    single_.frames.clear();
+    if (!cameras.has_poses) {
+      tracker_.emplace(CamerasOf(cameras), TrackingOptions(), RigidTransform::Identity());
+    }
+  }
+
+  // Sets the frame's pose, unless it has one. False where the camera was lost. A frame of 640x480
+  // takes a tenth of a second of processor time. Throws Error(kBadInput) for an image that cannot
+  // be read.
+  bool Place(SequenceFrame& frame) {
+    if (!tracker_) return true;
+    single_.frames = {frame};
+    const TrackedFrame tracked = tracker_->Track(MakeTrackingFrame(
+        frame, LoadDepth(single_, 0), LoadColor(single_, 0), CamerasOf(single_), {}));
+    frame.T_world_camera = tracked.T_world_camera;
+    return tracked.is_tracked;
+  }
+
+ private:
+  Sequence single_;  // the frame that is placed
+  std::optional<CameraTracker> tracker_;
+};
 
 // This thread takes frames as they come; another works on them, one after the other.
 class Capture {
