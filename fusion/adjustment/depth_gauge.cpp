@@ -8,7 +8,6 @@
 #include "capture/depth_noise.h"
 #include "capture/frame_stream.h"
 #include "fusion/adjustment/strip_depth.h"
-#include "kernel/parallel.h"
 #include "kernel/quantile.h"
 
 namespace curvefusion {

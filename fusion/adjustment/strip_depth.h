@@ -3,7 +3,7 @@
 #include <array>
 #include <optional>
 
-#include "kernel/camera.h"
+#include "kernel/geometry.h"
 #include "kernel/image.h"
 
 namespace curvefusion {

@@ -1,6 +1,5 @@
 #include "fusion/best/colour_curves.h"
 
-#include <opencv2/imgproc.hpp>
 #include <utility>
 
 #include "capture/frame_stream.h"

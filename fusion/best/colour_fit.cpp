@@ -1,7 +1,6 @@
 #include "fusion/best/colour_fit.h"
 
 #include <utility>
-#include <vector>
 
 #include "capture/frame_stream.h"
 

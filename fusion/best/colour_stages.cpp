@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "capture/frame_stream.h"
 #include "fusion/best/colour_fit.h"
 #include "fusion/best/colour_start.h"
 #include "fusion/best/net_stage.h"

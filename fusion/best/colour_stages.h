@@ -8,8 +8,6 @@
 #include "fusion/best/bundle_segmentation.h"
 #include "fusion/reconstruction.h"
 #include "fusion/stage_reporter.h"
-#include "fusion/strips/radius.h"
-#include "graph/skeleton_graph.h"
 
 namespace curvefusion {
 

@@ -5,7 +5,6 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <optional>
-#include <string>
 #include <utility>
 #include <vector>
 

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "graph/connected_parts.h"
-#include "graph/edge_parts.h"
 
 namespace curvefusion {
 

@@ -1,7 +1,6 @@
 #include "fusion/curve_graph/wire_proof.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 

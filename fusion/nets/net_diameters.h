@@ -2,10 +2,10 @@
 
 #include <vector>
 
-#include "capture/sequence.h"
 #include "fusion/nets/line_tracing.h"
 #include "fusion/nets/net_sheets.h"
 #include "fusion/nets/sheet_views.h"
+#include "kernel/camera.h"
 
 namespace curvefusion {
 

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <vector>
 
 #include "capture/depth_noise.h"
 #include "kernel/error.h"

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "kernel/camera.h"
 #include "kernel/image.h"
 #include "kernel/options.h"
 

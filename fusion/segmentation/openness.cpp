@@ -6,9 +6,7 @@
 
 #include "capture/depth_noise.h"
 #include "capture/frame_stream.h"
-#include "fusion/segmentation/difference_set.h"
 #include "fusion/segmentation/rendered_points.h"
-#include "kernel/parallel.h"
 
 namespace curvefusion {
 

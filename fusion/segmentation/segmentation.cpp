@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "fusion/segmentation/colour_verification.h"
 #include "fusion/segmentation/sheet_stripes.h"
 #include "kernel/parallel.h"
 #include "kernel/voxel_grid.h"

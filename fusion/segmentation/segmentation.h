@@ -1,14 +1,12 @@
 #pragma once
 
 #include <functional>
-#include <utility>
 
 #include "capture/sequence.h"
 #include "fusion/funnel.h"
 #include "fusion/nets/net_wires.h"
 #include "fusion/segmentation/bundle.h"
 #include "fusion/segmentation/colour_gate.h"
-#include "fusion/segmentation/colour_verification.h"
 #include "fusion/segmentation/depth_opening.h"
 #include "fusion/segmentation/difference_set.h"
 #include "fusion/segmentation/floating_sheets.h"

@@ -1,6 +1,5 @@
 #include "fusion/segmentation/sheet_stripes.h"
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "fusion/shards/scan_fingerprint.h"
 #include "kernel/error.h"

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "kernel/parallel.h"
-#include "kernel/polyline.h"
 #include "kernel/spatial_search.h"
 
 namespace curvefusion {

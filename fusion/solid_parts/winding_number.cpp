@@ -1,7 +1,6 @@
 #include "fusion/solid_parts/winding_number.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <numbers>
 

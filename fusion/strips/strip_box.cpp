@@ -1,6 +1,5 @@
 #include "fusion/strips/strip_box.h"
 
-#include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <utility>

@@ -4,7 +4,6 @@
 #include <limits>
 #include <vector>
 
-#include "capture/sequence.h"
 #include "graph/skeleton_graph.h"
 #include "kernel/camera.h"
 

@@ -1,6 +1,5 @@
 #include "fusion/tracking/geometric_term.h"
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
 

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <optional>
-
 #include "capture/frame_stream.h"
 #include "fusion/tracking/camera_tracker.h"
 #include "kernel/error.h"

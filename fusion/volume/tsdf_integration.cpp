@@ -1,6 +1,5 @@
 #include "fusion/volume/tsdf_integration.h"
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstring>

@@ -6,7 +6,6 @@
 #include <limits>
 #include <mutex>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "fusion/volume/marching_cubes.h"

@@ -6,7 +6,6 @@
 
 #include "fusion/best/measure_trust.h"
 #include "fusion/curve_graph/wire_proof.h"
-#include "fusion/pipeline.h"
 
 namespace curvefusion {
 namespace {

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "fusion/curve_graph/refuted_parts.h"
 #include "tests/fusion/silhouettes/silhouette_scan.h"
 

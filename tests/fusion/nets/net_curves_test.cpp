@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <vector>
 
 #include "fusion/best/net_stage.h"
 #include "fusion/nets/net_wires.h"

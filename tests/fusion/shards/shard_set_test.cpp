@@ -2,7 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include <cmath>
 #include <fstream>
 
 #include "fusion/shards/scan_fingerprint.h"

@@ -8,8 +8,6 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "fusion/curve_graph/colour_candidates.h"
-
 namespace curvefusion {
 
 namespace {

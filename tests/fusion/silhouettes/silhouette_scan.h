@@ -7,7 +7,6 @@
 #include "fusion/curve_graph/strip_views.h"
 #include "fusion/silhouettes/wire_silhouettes.h"
 #include "graph/skeleton_graph.h"
-#include "kernel/observed_points.h"
 #include "kernel/polyline.h"
 
 namespace curvefusion {

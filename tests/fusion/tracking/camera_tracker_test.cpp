@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include "fusion/tracking/track_sequence.h"
 #include "kernel/error.h"
