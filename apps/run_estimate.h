@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "fusion/planned_stage.h"
+#include "fusion/reconstruction.h"
 
 namespace curvefusion {
 

@@ -8,7 +8,6 @@
 #include "capture/sequence.h"
 #include "fusion/curve_graph/selection.h"
 #include "fusion/funnel.h"
-#include "fusion/planned_stage.h"
 #include "fusion/silhouettes/view_evidence.h"
 #include "fusion/stage_log.h"
 #include "fusion/strips/radius.h"
@@ -18,6 +17,12 @@
 #include "kernel/observed_points.h"
 
 namespace curvefusion {
+
+/// A stage that is to come, as PipelineObserver::OnProgress names it.
+struct PlannedStage {
+  std::string name;
+  double cost = 0;  ///< expected seconds on the machine where costs were measured
+};
 
 /// Hears of a run while it goes on; every function does nothing by default. All are called from the
 /// thread that called Reconstruct. An exception ends the run.

@@ -6,8 +6,22 @@
 #include <thread>
 
 #include "fusion/reconstruction.h"
+#include "fusion/stage_log.h"
 
 namespace curvefusion {
+
+/// Where the stages of a run tell what they do. They only write to it: what one stage finds for
+/// another goes from one to the other as a value.
+struct StageReporter {
+  PipelineObserver& observer;
+  StageLog& log;
+
+  /// Begins a stage of a single step. The time until the end of the result's life is the stage's.
+  [[nodiscard]] StageLog::Timer Begin(const std::string& stage) const {
+    observer.OnProgress(stage, 0, 1);
+    return {log, stage};
+  }
+};
 
 /// A stage that several threads work on: counts their steps and tells the observer of them from the
 /// thread that made it, which is the one that called Reconstruct.

@@ -14,12 +14,10 @@
 #include "fusion/best/scale_of_poses.h"
 #include "fusion/best/weak_colour.h"
 #include "fusion/registration/axis_correction.h"
-#include "fusion/registration/bundle_ridges.h"
 #include "fusion/registration/close_wires.h"
 #include "fusion/registration/frame_points.h"
 #include "fusion/registration/ray_noise.h"
 #include "fusion/stage_progress.h"
-#include "fusion/stage_reporter.h"
 #include "fusion/tracking/tracked_poses.h"
 #include "kernel/parallel.h"
 

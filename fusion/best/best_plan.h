@@ -5,7 +5,7 @@
 
 #include "capture/sequence.h"
 #include "fusion/best/best_options.h"
-#include "fusion/planned_stage.h"
+#include "fusion/reconstruction.h"
 #include "graph/skeleton_graph.h"
 
 namespace curvefusion {

@@ -10,7 +10,7 @@
 #include "fusion/funnel.h"
 #include "fusion/registration/frame_points.h"
 #include "fusion/segmentation/segmentation.h"
-#include "fusion/stage_reporter.h"
+#include "fusion/stage_progress.h"
 #include "fusion/volume/tsdf_volume.h"
 
 namespace curvefusion {

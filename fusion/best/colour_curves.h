@@ -11,7 +11,7 @@
 #include "fusion/curve_graph/strip_views.h"
 #include "fusion/reconstruction.h"
 #include "fusion/segmentation/colour_gate.h"
-#include "fusion/stage_reporter.h"
+#include "fusion/stage_progress.h"
 
 namespace curvefusion {
 

@@ -5,7 +5,7 @@
 #include "capture/sequence.h"
 #include "fusion/adjustment/colour_adjustment.h"
 #include "fusion/reconstruction.h"
-#include "fusion/stage_reporter.h"
+#include "fusion/stage_progress.h"
 #include "fusion/strips/radius.h"
 #include "graph/skeleton_graph.h"
 

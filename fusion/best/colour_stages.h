@@ -7,7 +7,7 @@
 #include "fusion/best/best_plan.h"
 #include "fusion/best/bundle_segmentation.h"
 #include "fusion/reconstruction.h"
-#include "fusion/stage_reporter.h"
+#include "fusion/stage_progress.h"
 
 namespace curvefusion {
 

@@ -7,7 +7,7 @@
 #include "fusion/best/colour_curves.h"
 #include "fusion/reconstruction.h"
 #include "fusion/segmentation/colour_gate.h"
-#include "fusion/stage_reporter.h"
+#include "fusion/stage_progress.h"
 
 namespace curvefusion {
 

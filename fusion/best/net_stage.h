@@ -3,7 +3,7 @@
 #include "fusion/nets/net_curves.h"
 #include "fusion/nets/net_wires.h"
 #include "fusion/reconstruction.h"
-#include "fusion/stage_reporter.h"
+#include "fusion/stage_progress.h"
 
 namespace curvefusion {
 

@@ -1,9 +1,8 @@
 #include "fusion/live/live_reconstruction.h"
 
+#include <ctime>
 #include <utility>
 
-#include "fusion/live/processor_timer.h"
-#include "fusion/registration/bundle_ridges.h"
 #include "fusion/registration/ray_noise.h"
 
 namespace curvefusion {
@@ -14,6 +13,22 @@ namespace {
 constexpr int kFrameStride = 2;
 // Frames that colours and grilles are learned from, at most; some ten are asked for each.
 constexpr size_t kSample = 64;
+
+// Processor seconds of this process so far, of all its threads.
+double ProcessorSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+// Adds the processor time until its end of life, of all threads, to a sum.
+class ProcessorTimer {
+ public:
+  explicit ProcessorTimer(double& seconds) : seconds_(seconds) {}
+  ~ProcessorTimer() { seconds_ += ProcessorSeconds() - start_; }
+  ProcessorTimer(const ProcessorTimer&) = delete;
+  ProcessorTimer& operator=(const ProcessorTimer&) = delete;
+
+ private:
+  double& seconds_;
+  double start_ = ProcessorSeconds();
+};
 
 BestOptions ForLive(BestOptions options) {
   // Rows of close wires take a model of all frames; the batch resolves them.

@@ -21,33 +21,21 @@ constexpr double kEnoughFrames = 15;
 constexpr double kEnoughSpread = std::numbers::pi / 3;  // chosen: what is behind shows beside it
 constexpr double kSampleStep = 0.01;                    // that of the sightings
 
-// The places of a curve whose sightings are looked up; at least one.
-struct CurvePlaces {
-  Polyline points;
-  std::vector<Vec3> tangents;
-};
-
-CurvePlaces PlacesOn(const SkeletonEdge& edge) {
-  CurvePlaces places;
-  places.points = Resample(edge.points, kSampleStep);
-  places.tangents = Tangents(places.points);
-  return places;
-}
-
 CurveSightings SightingsOn(const SkeletonEdge& edge, const SightingGrid& grid) {
-  const CurvePlaces places = PlacesOn(edge);
+  const Polyline places = Resample(edge.points, kSampleStep);
+  const std::vector<Vec3> tangents = Tangents(places);
   std::vector<double> frames, spreads;
   CurveSightings seen;
-  const size_t middle = places.points.size() / 2;
-  for (size_t i = 0; i < places.points.size(); ++i) {
-    const Sightings sightings = grid.Around(places.points[i]);
+  const size_t middle = places.size() / 2;
+  for (size_t i = 0; i < places.size(); ++i) {
+    const Sightings sightings = grid.Around(places[i]);
     frames.push_back(sightings.frames);
-    if (places.tangents[i].isZero()) continue;
-    const ViewArc arc = ArcAround(sightings.views, places.tangents[i]);
+    if (tangents[i].isZero()) continue;
+    const ViewArc arc = ArcAround(sightings.views, tangents[i]);
     spreads.push_back(arc.spread);
     if (i == middle) seen.look_from = arc.least_seen;
   }
-  seen.at = places.points[middle];
+  seen.at = places[middle];
   seen.frames = static_cast<int>(Quantile(std::move(frames), 0.5));
   if (!spreads.empty()) seen.spread = Quantile(std::move(spreads), 0.5);
   seen.evidence = EvidenceOf(seen.frames, seen.spread);

@@ -14,6 +14,14 @@ struct CarriedPointsOptions {
 };
 void VisitOptions(CarriedPointsOptions& options, OptionVisitor& visitor);
 
+/// How the ridges are found by which bundles are registered (CarriedPoints): farther apart than
+/// those of curves.
+inline RidgeProjectionOptions ForBundles(RidgeProjectionOptions options) {
+  constexpr double kBundleSpacing = 1.5;
+  options.spacing *= kBundleSpacing;
+  return options;
+}
+
 /// The points of all bundles so far, every bundle registered to the curves of those before it.
 /// Deviation: the paper averages the skeletons of bundles; carrying the points and contracting once
 /// keeps what single bundles are too sparse or too noisy to show. The curves stay the primitive to
