@@ -46,7 +46,7 @@ HybridRecord WriteHybrid(const Reconstruction& reconstruction, const TubeOptions
                          const std::filesystem::path& folder, const Progress& progress) {
   const auto start = std::chrono::steady_clock::now();
   const SolidParts parts =
-      FindSolidParts(reconstruction.sequence, reconstruction.skeleton, {}, progress);
+      FindSolidParts(reconstruction.sequence, reconstruction.skeleton, progress);
   const TubeMesh tubes = BuildTubes(parts.skeleton, options);
   const HybridMesh hybrid =
       UniteTubesAndSolids(ToTriangleMesh(tubes.surface), parts.solids,

@@ -25,7 +25,7 @@ struct KinectFusionResult {
 /// KinectFusion (Newcombe et al. 2011): frame-to-model point-to-plane ICP on depth alone, then
 /// VolumeFusion of the frames that could be placed. Given: depth, and the first frame's pose, so
 /// that the result lies in the world of the truth. Unlike the published system it tracks against a
-/// volume of its own, of 10 mm voxels (TrackingOptions); the surface comes from `options`. Errors
+/// volume of its own, of 10 mm voxels (CameraTracker); the surface comes from `options`. Errors
 /// as VolumeFusionSurface.
 KinectFusionResult FuseAsKinectFusion(const Sequence& sequence, const TsdfOptions& options,
                                       const Progress& progress);

@@ -17,7 +17,6 @@ namespace curvefusion {
 namespace {
 
 constexpr double kBorderPx = 6;
-constexpr double kMaxClearancePx = 40;
 constexpr double kCoreShare = 0.35;  // of the width to either side: wire for certain
 constexpr double kBlurredPx = 2;     // beside the strip: neither
 constexpr double kSidePx = 8;        // of background beyond
@@ -67,8 +66,7 @@ void ProjectIntoFrames(const std::vector<CurveSample>& samples, const VertexSamp
                        const StripSight& sight, const Visit& visit) {
   ParallelFor(0, static_cast<int64_t>(state.T_camera_world.size()), 1, [&](int64_t f) {
     visit(f, ProjectSamples(samples, all.samples, problem.color_camera,
-                            problem.T_color_depth * state.T_camera_world[f], kBorderPx,
-                            kMaxClearancePx, sight));
+                            problem.T_color_depth * state.T_camera_world[f], kBorderPx, sight));
   });
 }
 

@@ -38,19 +38,16 @@ Vec3 ColoursThatAgree(const std::array<Image<float>, 3>& colours, const Image<fl
 
 }  // namespace
 
-Image<float> MeanAround(const Image<float>& image, const Image<float>& weight, double sigma_px) {
-  Image<float> mean = image, weights = weight;
-  for (size_t i = 0; i < mean.size(); ++i) mean.data()[i] *= weight.data()[i];
+Image<float> MeanAround(const Image<float>& image, const MaskImage& known, double sigma_px) {
+  Image<float> mean = image, weights(known.width(), known.height());
+  for (size_t i = 0; i < mean.size(); ++i) {
+    weights.data()[i] = known.data()[i];
+    mean.data()[i] *= weights.data()[i];
+  }
   cv::GaussianBlur(MatOf(mean), MatOf(mean), {}, sigma_px);
   cv::GaussianBlur(MatOf(weights), MatOf(weights), {}, sigma_px);
   for (size_t i = 0; i < mean.size(); ++i) mean.data()[i] /= std::max(kFaint, weights.data()[i]);
   return mean;
-}
-
-Image<float> MeanAround(const Image<float>& image, const MaskImage& known, double sigma_px) {
-  Image<float> weight(known.width(), known.height());
-  for (size_t i = 0; i < weight.size(); ++i) weight.data()[i] = known.data()[i];
-  return MeanAround(image, weight, sigma_px);
 }
 
 SheetImage WiresOnSheet(const SheetColours& colours, const MaskImage& known, double noise) {

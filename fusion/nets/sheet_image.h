@@ -18,8 +18,7 @@ struct SheetImage {
 /// comes out fainter. `known`: the pixels at which `colours` were looked for.
 SheetImage WiresOnSheet(const SheetColours& colours, const MaskImage& known, double noise);
 
-/// Weighted means by a Gaussian of so many pixels; 0 far from all weight.
-Image<float> MeanAround(const Image<float>& image, const Image<float>& weight, double sigma_px);
+/// Means of what is known, weighted by a Gaussian of so many pixels; 0 far from all of it.
 Image<float> MeanAround(const Image<float>& image, const MaskImage& known, double sigma_px);
 
 }  // namespace curvefusion

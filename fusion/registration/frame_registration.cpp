@@ -19,6 +19,8 @@ constexpr int kMinPoints = 100;
 // nor one that would move farther, metres: the largest drift within a bundle.
 constexpr double kMaxMotion = 0.01;
 
+constexpr double kVoxelSize = 0.0025;  // metres, of the grid on which points are merged
+
 // The points of a frame, moved, that lie near the curves. Where wires are dense, block matching
 // makes one sheet of them, and most points lie between them and say nothing.
 std::vector<Vec3> PointsNear(const AlignmentTarget& curves, const ObservedPoints& frame,
@@ -78,7 +80,7 @@ RegisteredFrames RegisterFrames(const std::vector<ObservedPoints>& frames,
   result.T_registered_world = start;
   std::vector<RigidTransform>& T = result.T_registered_world;
   for (int round = 0; round < options.rounds; ++round) {
-    ridge = FollowRidges(ResampleOnGrid(frames, T, options.voxel_size), ridge, ridges);
+    ridge = FollowRidges(ResampleOnGrid(frames, T, kVoxelSize), ridge, ridges);
     const AlignmentTarget curves({ridge.positions, ridge.directions});
     std::vector<MeasuredCorrection> measured(frames.size());
     ParallelFor(0, static_cast<int64_t>(frames.size()), 1, [&](int64_t i) {
@@ -95,7 +97,7 @@ RegisteredFrames RegisterFrames(const std::vector<ObservedPoints>& frames,
     const RigidTransform T_anchor = T.front().inverse();
     for (RigidTransform& correction : T) correction = T_anchor * correction;
   }
-  result.points = ResampleOnGrid(frames, T, options.voxel_size);
+  result.points = ResampleOnGrid(frames, T, kVoxelSize);
   return result;
 }
 

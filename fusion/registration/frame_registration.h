@@ -14,7 +14,6 @@ namespace curvefusion {
 struct FrameRegistrationOptions {
   int rounds = 1;
   double reach = 0.006;
-  double voxel_size = 0.0025;
   DriftOptions drift;
 };
 void VisitOptions(FrameRegistrationOptions& options, OptionVisitor& visitor);

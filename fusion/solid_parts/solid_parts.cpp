@@ -20,7 +20,11 @@ namespace {
 constexpr double kReach = 20 * kMillimetre;
 // A volume smears a surface by about as much; planes and tubes hold what is within.
 constexpr double kBlurVoxels = 2;
-constexpr int kStride = 2;  // every second frame, as of the best profile's volume
+constexpr int kStride = 2;            // every second frame, as of the best profile's volume
+constexpr double kVoxelSize = 0.005;  // metres; chosen: a Kinect's noise at .7 m is 1 to 2 mm
+// Metres, of what was seen from one side only. Chosen: two voxels, a volume holds nothing thinner.
+constexpr double kThickness = 0.01;
+constexpr double kMargin = 0.2;  // metres, around the curves; chosen: a pot or a mug beside
 
 double AreaOf(const SurfaceTriangles& surface, const TriangleMarks& marks) {
   double area = 0;
@@ -54,17 +58,17 @@ SolidParts FindSolidParts(const TsdfVolume& volume, const Eigen::AlignedBox3d& b
 }
 
 SolidParts FindSolidParts(const Sequence& sequence, const SkeletonGraph& skeleton,
-                          const SolidPartsOptions& options, const Progress& progress) {
+                          const Progress& progress) {
   if (skeleton.empty()) return {.skeleton = skeleton};
   Eigen::AlignedBox3d box = BoundsOf(skeleton);
-  box.min().array() -= options.margin;
-  box.max().array() += options.margin;
+  box.min().array() -= kMargin;
+  box.max().array() += kMargin;
   const int64_t count = (sequence.frame_count() + kStride - 1) / kStride;
   int64_t done = 0;
   const TsdfVolume volume = FuseVolume(
-      sequence, {.voxel_size = options.voxel_size}, kStride,
+      sequence, {.voxel_size = kVoxelSize}, kStride,
       [&] { progress("solid parts", ++done, count); }, box);
-  return FindSolidParts(volume, box, skeleton, options.thickness);
+  return FindSolidParts(volume, box, skeleton, kThickness);
 }
 
 }  // namespace curvefusion

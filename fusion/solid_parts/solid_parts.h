@@ -10,14 +10,6 @@
 
 namespace curvefusion {
 
-/// How the solid parts of an object are found that its wires are attached to.
-struct SolidPartsOptions {
-  double voxel_size = 0.005;  ///< m; chosen: a Kinect's noise at .7 m is 1 to 2 mm
-  double thickness = 0.01;    ///< m, of what was seen from one side only; chosen: two voxels, the
-                              ///< thinnest that a volume holds
-  double margin = 0.2;        ///< m, of the box around the curves; chosen: a pot or a mug beside
-};
-
 /// The solid parts of an object, and its curves as they are attached to them.
 struct SolidParts {
   std::vector<TriangleMesh> solids;  ///< each closed, oriented, 2-manifold
@@ -36,6 +28,6 @@ SolidParts FindSolidParts(const TsdfVolume& volume, const Eigen::AlignedBox3d& b
 /// The same in a volume around the curves, of the frames at the poses of `sequence`, which should
 /// be the corrected ones. Throws Error(kBadInput) for an image that cannot be read.
 SolidParts FindSolidParts(const Sequence& sequence, const SkeletonGraph& skeleton,
-                          const SolidPartsOptions& options, const Progress& progress);
+                          const Progress& progress);
 
 }  // namespace curvefusion

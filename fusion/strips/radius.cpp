@@ -19,7 +19,6 @@ namespace curvefusion {
 namespace {
 
 constexpr double kNeighbourStep = 0.002;  // metres, between points of curves kept clear of
-constexpr double kMaxClearancePx = 40;    // a strip and its background fit in
 constexpr double kBorderPx = 8;           // samples nearer to the image border are left out
 constexpr double kCrossingPx = 8;         // farther along a wire a curve may cross it
 constexpr double kAgreement = 0.25;       // strips this near to the mode count, relative
@@ -63,7 +62,7 @@ void ForEachProjection(const ColourViews& views, const std::vector<CurveSample>&
         sequence.T_color_depth * sequence.frames[views.frames[i]].T_world_camera.inverse();
     visit(views.images[i], views.frames[i],
           ProjectSamples(samples, views.neighbours, sequence.color_camera, T_camera_world,
-                         kBorderPx, kMaxClearancePx, sight));
+                         kBorderPx, sight));
   }
 }
 

@@ -11,8 +11,10 @@ namespace curvefusion {
 
 namespace {
 
-constexpr double kMinDepth = 0.05;  // metres
-constexpr int64_t kGrain = 64;      // samples projected by one task
+constexpr double kMinDepth = 0.05;          // metres
+constexpr int64_t kGrain = 64;              // samples projected by one task
+constexpr double kMaxForeshortening = 0.9;  // beyond it curves are seen nearly end on
+constexpr double kMaxClearancePx = 40;      // a strip and its background fit in
 constexpr double kMaxSideClearancePx = 16;
 constexpr double kMaxSideAlongPx = 6;
 // Nearer to the line of a curve another curve goes on with it, or lies behind it.
@@ -91,7 +93,7 @@ class PointCells {
 
 PointCells ProjectNeighbours(const std::vector<CurveSample>& neighbours,
                              const PinholeCamera& camera, const RigidTransform& T_camera_world,
-                             double max_distance_px, bool with_tangents) {
+                             bool with_tangents) {
   std::vector<ImagePoint> points;
   points.reserve(neighbours.size());
   for (const CurveSample& sample : neighbours) {
@@ -103,7 +105,7 @@ PointCells ProjectNeighbours(const std::vector<CurveSample>& neighbours,
     const Vec2 along = ProjectionJacobian(camera, p) * (T_camera_world.linear() * sample.tangent);
     points.back().tangent = along.normalized();
   }
-  PointCells cells(camera, max_distance_px);
+  PointCells cells(camera, kMaxClearancePx);
   cells.Fill(points);
   return cells;
 }
@@ -114,9 +116,8 @@ bool IsSameCurve(const ImagePoint& point, const ProjectedSample& sample, double 
   return point.edge == sample.edge && along_px < 3 * distance_px + 6;
 }
 
-double Clearance(const ProjectedSample& sample, const PointCells& cells, double max_clearance_px,
-                 double max_along_px) {
-  double clearance = max_clearance_px;
+double Clearance(const ProjectedSample& sample, const PointCells& cells, double max_along_px) {
+  double clearance = kMaxClearancePx;
   cells.VisitNearer(sample.pixel, clearance, [&](const ImagePoint& point) {
     const Vec2 offset = point.pixel - sample.pixel;
     if (offset.squaredNorm() >= clearance * clearance) return;
@@ -152,7 +153,7 @@ std::array<double, 2> SideClearances(const ProjectedSample& sample, const PointC
 // Fills what does not depend on other samples; false where the sample cannot be measured.
 bool ProjectSample(const CurveSample& sample, const PinholeCamera& camera,
                    const RigidTransform& T_camera_world, double border_px,
-                   double max_foreshortening, ProjectedSample& projected) {
+                   ProjectedSample& projected) {
   const Vec3 p = T_camera_world * sample.position;
   if (p.z() < kMinDepth) return false;
   const Vec2 pixel = camera.Project(p);
@@ -162,7 +163,7 @@ bool ProjectSample(const CurveSample& sample, const PinholeCamera& camera,
   }
   const Vec3 tangent = T_camera_world.linear() * sample.tangent;
   const Vec3 ray = p.normalized();
-  if (std::abs(ray.dot(tangent)) > max_foreshortening) return false;
+  if (std::abs(ray.dot(tangent)) > kMaxForeshortening) return false;
   const auto jacobian = ProjectionJacobian(camera, p);
   projected.edge = sample.edge;
   projected.arc_length = sample.arc_length;
@@ -211,17 +212,15 @@ std::vector<ProjectedSample> ProjectSamples(const std::vector<CurveSample>& samp
                                             const std::vector<CurveSample>& neighbours,
                                             const PinholeCamera& camera,
                                             const RigidTransform& T_camera_world, double border_px,
-                                            double max_clearance_px, const StripSight& sight) {
-  const PointCells cells =
-      ProjectNeighbours(neighbours, camera, T_camera_world, max_clearance_px, sight.by_side);
+                                            const StripSight& sight) {
+  const PointCells cells = ProjectNeighbours(neighbours, camera, T_camera_world, sight.by_side);
   std::vector<ProjectedSample> projected(samples.size());
   ParallelFor(0, static_cast<int64_t>(samples.size()), kGrain, [&](int64_t i) {
     ProjectedSample& sample = projected[i];
-    const bool is_visible = ProjectSample(samples[i], camera, T_camera_world, border_px,
-                                          sight.max_foreshortening, sample);
+    const bool is_visible = ProjectSample(samples[i], camera, T_camera_world, border_px, sample);
     sample.index = is_visible ? static_cast<int>(i) : -1;
     if (!is_visible) return;
-    sample.clearance_px = Clearance(sample, cells, max_clearance_px, sight.max_along_px);
+    sample.clearance_px = Clearance(sample, cells, sight.max_along_px);
     if (sight.by_side) sample.side_clearance_px = SideClearances(sample, cells);
   });
   std::erase_if(projected, [](const ProjectedSample& sample) { return sample.index < 0; });

@@ -44,7 +44,6 @@ Eigen::Matrix<double, 2, 3> ProjectionJacobian(const PinholeCamera& camera, cons
 
 /// Which samples can be looked at, and which other curves are in the way.
 struct StripSight {
-  double max_foreshortening = 0.9;  ///< beyond it curves are seen nearly end on
   /// Curves farther away than this along the sample's curve do not count, pixels: those that cross
   /// it beside the sample are not in the way of what is read across it.
   double max_along_px = std::numeric_limits<double>::infinity();
@@ -58,12 +57,12 @@ struct StripSight {
 /// Projects `samples` into a camera. Left out are samples behind or outside the image (or nearer to
 /// its border than `border_px`) and those seen nearly end on.
 /// `neighbours` are samples of the same skeleton at a step of a few millimetres; clearances look at
-/// them and are exact up to `max_clearance_px`. A neighbour on the same edge belongs to another
-/// curve when it is much farther along the curve than across the image.
+/// them and are exact up to 40 px. A neighbour on the same edge belongs to another curve when it is
+/// much farther along the curve than across the image.
 std::vector<ProjectedSample> ProjectSamples(const std::vector<CurveSample>& samples,
                                             const std::vector<CurveSample>& neighbours,
                                             const PinholeCamera& camera,
                                             const RigidTransform& T_camera_world, double border_px,
-                                            double max_clearance_px, const StripSight& sight = {});
+                                            const StripSight& sight = {});
 
 }  // namespace curvefusion

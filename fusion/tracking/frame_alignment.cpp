@@ -120,7 +120,6 @@ class LevelSolver {
   }
 
   double grey_deviation() const { return grey_deviation_; }
-  int grey_points() const { return grey_points_; }
 
  private:
   PhotometricView ViewFrom(const RigidTransform& T_model_frame) const {
@@ -135,7 +134,6 @@ class LevelSolver {
     if (keyframe_ == nullptr || images.grey.empty()) return;
     const PhotometricSums sums =
         PhotometricTerm(keyframe_->levels[level], images, ViewFrom(T_model_frame), change);
-    grey_points_ = sums.points;
     grey_deviation_ = sums.deviation;
     if (sums.points < kMinGreyPoints) return;
     H += sums.equations.H();
@@ -164,7 +162,6 @@ class LevelSolver {
   double correlated_pixels_;
   double deviation_ = 1;
   double grey_deviation_ = 0;
-  int grey_points_ = 0;
   Matrix8 information_ = Matrix8::Zero();
 };
 
@@ -239,7 +236,6 @@ FrameAlignment AlignFrame(const TrackingFrame& frame, const ModelView& model,
   alignment.T_world_camera = Orthonormal(model.T_world_model * best.T_model_frame);
   alignment.fit = MeasureGeometricFit(frame.levels[0], model.levels[0], best.T_model_frame);
   alignment.grey_deviation = solver.grey_deviation();
-  alignment.grey_points = solver.grey_points();
   if (keyframe != nullptr) alignment.grey_contrast = keyframe->contrast;
   alignment.cost = solver.Cost(0, best.T_model_frame, best.change);
   alignment.uncertainty = solver.Uncertainty(best.T_model_frame * center, center.norm());

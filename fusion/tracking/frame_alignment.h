@@ -33,9 +33,8 @@ struct FrameAlignment {
   RigidTransform T_world_camera = RigidTransform::Identity();
   GeometricFit fit;           ///< at the finest level
   double grey_deviation = 0;  ///< grey levels; 0 = no photometric term
-  int grey_points = 0;
-  double grey_contrast = 0;  ///< robust deviation of the keyframe's grey
-  double cost = 0;           ///< how badly the pose explains the images; compares attempts
+  double grey_contrast = 0;   ///< robust deviation of the keyframe's grey
+  double cost = 0;            ///< how badly the pose explains the images; compares attempts
   /// Metres: the standard deviation of the least determined motion, where turns count by what they
   /// do at the median depth. Infinite where the equations have no solution.
   double uncertainty = 0;

@@ -11,7 +11,7 @@ constexpr PinholeCamera kCamera = {640, 480, 580, 580, 319.5, 239.5};
 
 std::vector<ProjectedSample> ProjectAll(const SkeletonGraph& skeleton, double step) {
   return ProjectSamples(SampleStrips(skeleton, step), SampleStrips(skeleton, 0.001), kCamera,
-                        RigidTransform::Identity(), 8, 40);
+                        RigidTransform::Identity(), 8);
 }
 
 TEST(SampleStripsTest, SamplesLieInTheMiddleOfEqualSteps) {
@@ -70,9 +70,8 @@ std::array<double, 2> SideClearances(const Polyline& other) {
   SkeletonGraph skeleton;
   const EdgeId edge = skeleton.AddPolyline({{-0.1, 0, 0.58}, {0.1, 0, 0.58}});
   skeleton.AddPolyline(other);
-  const auto projected =
-      ProjectSamples(SampleStrips(skeleton, 0.2), SampleStrips(skeleton, 0.001), kCamera,
-                     RigidTransform::Identity(), 8, 40, {.by_side = true});
+  const auto projected = ProjectSamples(SampleStrips(skeleton, 0.2), SampleStrips(skeleton, 0.001),
+                                        kCamera, RigidTransform::Identity(), 8, {.by_side = true});
   EXPECT_EQ(projected.front().edge, edge);
   EXPECT_NEAR(projected.front().normal.y(), 1, 1e-9);
   return projected.front().side_clearance_px;
