@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "graph/sampled_curves.h"
 #include "kernel/parallel.h"
 #include "kernel/point_grid.h"
 #include "kernel/polyline.h"
@@ -72,20 +73,11 @@ struct Place {
   int steps = 0;
 };
 
-// Points of the curves, so dense that none is passed by.
-std::vector<Vec3> PointsOf(const SkeletonGraph& skeleton) {
-  std::vector<Vec3> points;
-  for (const EdgeId id : skeleton.Edges()) {
-    const Polyline curve = Resample(skeleton.edge(id).points, 0.5 * kBeside);
-    points.insert(points.end(), curve.begin(), curve.end());
-  }
-  return points;
-}
-
 class TipTracker {
  public:
+  // Places on known curves are so dense that no curve is passed by.
   TipTracker(const StripViews& views, const SkeletonGraph& skeleton)
-      : views_(views), known_(PointsOf(skeleton), kBeside) {}
+      : views_(views), known_(SampleCurvesOf(skeleton, 0.5 * kBeside).positions, kBeside) {}
 
   // The path from an end as far as images show it; empty where they do not.
   Polyline Follow(const Vec3& start, const Vec3& direction) const {

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <vector>
 
+#include "graph/sampled_curves.h"
 #include "kernel/parallel.h"
 #include "kernel/point_grid.h"
 
@@ -15,15 +16,6 @@ constexpr double kSearchRadius = 10 * kMillimetre;
 // At rest: samples moved by less than this on average, metres; far below what skeletons resolve.
 constexpr double kAtRest = 1e-6;
 constexpr int64_t kGrain = 256;
-
-std::vector<Vec3> Samples(const SkeletonGraph& graph, double step) {
-  std::vector<Vec3> samples;
-  for (const EdgeId id : graph.Edges()) {
-    const Polyline points = Resample(graph.edge(id).points, step);
-    samples.insert(samples.end(), points.begin(), points.end());
-  }
-  return samples;
-}
 
 // The best motion between pairs (Umeyama 1991, which solves what Besl and McKay solve with
 // quaternions).
@@ -59,8 +51,8 @@ void VisitOptions(SkeletonAlignmentOptions& options, OptionVisitor& visitor) {
 
 RigidTransform AlignSkeletons(const SkeletonGraph& source, const SkeletonGraph& target,
                               const SkeletonAlignmentOptions& options) {
-  std::vector<Vec3> moved = Samples(source, options.sample_step);
-  const std::vector<Vec3> fixed = Samples(target, options.sample_step);
+  std::vector<Vec3> moved = SampleCurvesOf(source, options.sample_step).positions;
+  const std::vector<Vec3> fixed = SampleCurvesOf(target, options.sample_step).positions;
   const PointGrid grid(fixed, kSearchRadius);
   RigidTransform T_target_source = RigidTransform::Identity();
   std::vector<int> partners(moved.size());

@@ -4,7 +4,9 @@
 
 #include <chrono>
 #include <random>
+#include <utility>
 
+#include "graph/sampled_curves.h"
 #include "kernel/parallel.h"
 #include "tests/graph/graph_fixtures.h"
 
@@ -29,14 +31,8 @@ double Difference(const RigidTransform& a, const RigidTransform& b, const Skelet
 constexpr double kStep = 2 * kMillimetre;
 
 CurveSamples SampleCurves(const SkeletonGraph& graph, double step) {
-  CurveSamples samples;
-  for (const EdgeId id : graph.Edges()) {
-    const Polyline points = Resample(graph.edge(id).points, step);
-    const std::vector<Vec3> tangents = Tangents(points);
-    samples.points.insert(samples.points.end(), points.begin(), points.end());
-    samples.tangents.insert(samples.tangents.end(), tangents.begin(), tangents.end());
-  }
-  return samples;
+  SampledCurves sampled = SampleCurvesOf(graph, step);
+  return {std::move(sampled.positions), std::move(sampled.tangents)};
 }
 
 AlignmentResult AlignToCurves(const std::vector<Vec3>& points, const SkeletonGraph& target,
