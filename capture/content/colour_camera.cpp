@@ -9,6 +9,7 @@
 
 #include "capture/content/edge_evidence.h"
 #include "kernel/parallel.h"
+#include "kernel/thinned.h"
 
 namespace curvefusion {
 
@@ -70,13 +71,6 @@ ColourParameters Refined(const EdgeEvidence& evidence, ColourParameters x,
   return x;
 }
 
-EdgeSelection Thinned(const EdgeSelection& selection, size_t max_points) {
-  const size_t count = std::min(selection.size(), max_points);
-  EdgeSelection thinned;
-  for (size_t i = 0; i < count; ++i) thinned.push_back(selection[i * selection.size() / count]);
-  return thinned;
-}
-
 struct Start {
   ColourParameters x;
   double share;
@@ -116,7 +110,7 @@ std::vector<Start> CoarseStarts(const EdgeEvidence& evidence, const EdgeSelectio
       }
     }
   }
-  const EdgeSelection few = Thinned(selection, kSearchPoints);
+  const EdgeSelection few = ThinnedTo(selection, kSearchPoints);
   ParallelFor(0, static_cast<int64_t>(grid.size()), 32, [&](int64_t i) {
     Start& start = grid[static_cast<size_t>(i)];
     start.share = EdgeShare(evidence, start.x, few, kCoarseSigma);
@@ -142,7 +136,7 @@ constexpr double kDistinct = 1.25;
 // Whether every shift of the given camera by some coarse steps makes it much worse: then nothing
 // better is to be found far off.
 bool IsDistinct(const EdgeEvidence& evidence, const EdgeSelection& selection) {
-  const EdgeSelection few = Thinned(selection, kSearchPoints);
+  const EdgeSelection few = ThinnedTo(selection, kSearchPoints);
   const ColourParameters given = evidence.Given();
   double most = 0;
   for (const int steps : {4, 6}) {
@@ -160,7 +154,7 @@ bool IsDistinct(const EdgeEvidence& evidence, const EdgeSelection& selection) {
 // Searches from the given camera and over the grid, and refines coarse to fine.
 ColourParameters Fit(const EdgeEvidence& evidence, const EdgeSelection& selection) {
   if (IsDistinct(evidence, selection)) {
-    return Refined(evidence, evidence.Given(), Thinned(selection, kRefinePoints), kFineSigma);
+    return Refined(evidence, evidence.Given(), ThinnedTo(selection, kRefinePoints), kFineSigma);
   }
   std::vector<Start> starts;
   const double depth = MedianEdgeDepth(evidence);
@@ -169,7 +163,7 @@ ColourParameters Fit(const EdgeEvidence& evidence, const EdgeSelection& selectio
     starts.push_back({ByOffset(evidence, start.x, depth), 0});
   }
   starts.push_back({evidence.Given(), 0});
-  const EdgeSelection some = Thinned(selection, kRefinePoints);
+  const EdgeSelection some = ThinnedTo(selection, kRefinePoints);
   ParallelFor(0, static_cast<int64_t>(starts.size()), 1, [&](int64_t i) {
     Start& start = starts[static_cast<size_t>(i)];
     for (const double sigma : {8.0, 5.0, kFineSigma}) {
@@ -200,7 +194,7 @@ EdgeSelection WithoutStretch(const EdgeEvidence& evidence, int stretch) {
   for (size_t i = 0; i < evidence.points.size(); ++i) {
     if (evidence.points[i].frame * kGroups / frames != stretch) selection.push_back(i);
   }
-  return Thinned(selection, kJackknifePoints);
+  return ThinnedTo(selection, kJackknifePoints);
 }
 
 // Standard errors by leaving out one stretch of frames after the other (jackknife): frames in turn

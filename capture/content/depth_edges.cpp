@@ -6,6 +6,8 @@
 #include <numbers>
 #include <utility>
 
+#include "kernel/thinned.h"
+
 namespace curvefusion {
 
 namespace {
@@ -132,12 +134,8 @@ std::vector<DepthEdgePoint> FindDepthEdges(const DepthImage& depth, int max_poin
       if (edges(u, v) != 0 && depth(u, v) < kMaxDepth) all.push_back({u, v, depth(u, v), 0});
     }
   }
-  std::vector<DepthEdgePoint> picked;
-  const size_t count = std::min(all.size(), static_cast<size_t>(max_points));
-  for (size_t i = 0; i < count; ++i) {
-    picked.push_back(all[i * all.size() / count]);
-    picked.back().angle = NormalAngle(edges, picked.back().u, picked.back().v);
-  }
+  std::vector<DepthEdgePoint> picked = ThinnedTo(all, static_cast<size_t>(max_points));
+  for (DepthEdgePoint& point : picked) point.angle = NormalAngle(edges, point.u, point.v);
   return picked;
 }
 

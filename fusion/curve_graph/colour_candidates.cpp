@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "kernel/parallel.h"
+#include "kernel/thinned.h"
 
 namespace curvefusion {
 
@@ -62,7 +63,7 @@ class CandidateSearch {
       for (const Eigen::Vector2i& pixel : strips.unexplained())
         if (!strips.IsExplained(pixel.x(), pixel.y())) rays.emplace_back(i, pixel);
     }
-    rays = Thinned(std::move(rays));
+    rays = ThinnedTo(rays, options_.max_rays);
     std::vector<std::optional<Place>> places(rays.size());
     const auto count = static_cast<int64_t>(rays.size());
     for (int64_t part = 0; part < kReports; ++part) {
@@ -167,14 +168,6 @@ class CandidateSearch {
     if (options_.places == CandidatePlaces::kFree && !views_.IsFree(best.position))
       return std::nullopt;
     return best;
-  }
-
-  std::vector<Ray> Thinned(std::vector<Ray> rays) const {
-    if (rays.size() <= options_.max_rays) return rays;
-    std::vector<Ray> some(options_.max_rays);
-    for (size_t i = 0; i < options_.max_rays; ++i)
-      some[i] = rays[i * rays.size() / options_.max_rays];
-    return some;
   }
 
   // The greatest distance of another camera from a line of sight, metres; not zero.

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "fusion/nets/sheet_image.h"
+#include "kernel/thinned.h"
 
 namespace curvefusion {
 
@@ -107,10 +108,7 @@ Image<float> Smoothed(const TriedHeights& tried) {
 
 void MoveToWhereImagesAgree(const Sequence& sequence, const std::vector<SheetView>& views,
                             NetSheet& sheet) {
-  std::vector<SheetView> some;
-  const size_t count = std::min(kViews, views.size());
-  for (size_t i = 0; i < count; ++i) some.push_back(views[i * views.size() / count]);
-  const Image<float> smooth = Smoothed(TryHeights(sequence, some, sheet));
+  const Image<float> smooth = Smoothed(TryHeights(sequence, ThinnedTo(views, kViews), sheet));
   for (int v = 0; v < sheet.heights.height(); ++v) {
     for (int u = 0; u < sheet.heights.width(); ++u) {
       const int x = static_cast<int>(u * NetSheet::kStep / kStep);

@@ -13,6 +13,7 @@
 #include "kernel/bilinear.h"
 #include "kernel/parallel.h"
 #include "kernel/quantile.h"
+#include "kernel/thinned.h"
 
 namespace curvefusion {
 
@@ -177,10 +178,7 @@ std::vector<int> FramesBeside(const Sequence& sequence, int frame, double distan
       if (baseline > kMinBaseline * distance) beside.push_back(i);
     }
   }
-  if (beside.size() <= kViews) return beside;
-  std::vector<int> thinned;
-  for (size_t i = 0; i < kViews; ++i) thinned.push_back(beside[i * beside.size() / kViews]);
-  return thinned;
+  return ThinnedTo(beside, kViews);
 }
 
 // By how much an image is brighter, channel by channel, where both show the same.

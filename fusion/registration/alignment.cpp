@@ -9,6 +9,7 @@
 #include "kernel/parallel.h"
 #include "kernel/quantile.h"
 #include "kernel/rigid_motion.h"
+#include "kernel/thinned.h"
 
 namespace curvefusion {
 
@@ -212,15 +213,6 @@ class ClosestPointAligner {
   int inliers_ = 0;
 };
 
-// At most `count` of the points, evenly spread over their order.
-std::vector<Vec3> Thinned(const std::vector<Vec3>& points, int count) {
-  const int64_t n = static_cast<int64_t>(points.size());
-  if (n <= count) return points;
-  std::vector<Vec3> thinned;
-  for (int64_t i = 0; i < count; ++i) thinned.push_back(points[static_cast<size_t>(i * n / count)]);
-  return thinned;
-}
-
 }  // namespace
 
 void VisitOptions(AlignmentOptions& options, OptionVisitor& visitor) {
@@ -241,7 +233,7 @@ AlignmentTarget::AlignmentTarget(CurveSamples samples)
 
 AlignmentResult AlignPoints(const std::vector<Vec3>& points, const AlignmentTarget& target,
                             const AlignmentOptions& options) {
-  const std::vector<Vec3> thinned = Thinned(points, options.max_points);
+  const std::vector<Vec3> thinned = ThinnedTo(points, options.max_points);
   return ClosestPointAligner(thinned, target, options).Align();
 }
 

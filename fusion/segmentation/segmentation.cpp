@@ -5,9 +5,11 @@
 #include <span>
 #include <vector>
 
+#include "capture/frame_stream.h"
 #include "fusion/segmentation/colour_verification.h"
 #include "fusion/segmentation/sheet_stripes.h"
 #include "kernel/parallel.h"
+#include "kernel/thinned.h"
 #include "kernel/voxel_grid.h"
 
 namespace curvefusion {
@@ -118,15 +120,6 @@ SegmentedFrame SegmentFrame(const Sequence& sequence, int frame, const TsdfVolum
   if (model.array_spacing > 0) ThinToCrests(model.colours, sequence, candidates);
   segmented.funnel.gated_pixels = CountSet(candidates.mask);
   return segmented;
-}
-
-std::vector<int> FramesToLearnFrom(const Sequence& sequence, int count) {
-  count = std::min(count, sequence.frame_count());
-  std::vector<int> frames(count);
-  for (int i = 0; i < count; ++i) {
-    frames[i] = static_cast<int>(static_cast<int64_t>(i) * sequence.frame_count() / count);
-  }
-  return frames;
 }
 
 double Mean(const std::vector<double>& values) {
@@ -287,13 +280,13 @@ SegmentationModel LearnSegmentation(const Sequence& sequence, const TsdfVolume& 
   SegmentationModel model;
   if (options.min_measured_share > 0) {
     model.is_background_measured =
-        MeasuredShare(sequence, FramesToLearnFrom(sequence, kBackgroundFrames)) >=
+        MeasuredShare(sequence, ThinnedTo(AllFrames(sequence), kBackgroundFrames)) >=
         options.min_measured_share;
   }
   model.openness = MeasureOpenness(sequence, volume, options.openness_stride);
   if (options.gate.frames == 0) return model;
   const LearnedFrames learned =
-      Render(sequence, FramesToLearnFrom(sequence, options.gate.frames), volume, options);
+      Render(sequence, ThinnedTo(AllFrames(sequence), options.gate.frames), volume, options);
   if (options.max_array_spacing > 0) model.sheets = FindSheets(sequence, learned, options);
   std::vector<WireCandidates> candidates = CandidatesOf(sequence, learned, volume, model, options);
   if (options.max_array_spacing > 0) {

@@ -5,6 +5,7 @@
 
 #include "kernel/parallel.h"
 #include "kernel/quantile.h"
+#include "kernel/thinned.h"
 
 namespace curvefusion {
 
@@ -34,13 +35,6 @@ bool IsOnDepthEdge(const DepthImage& depth, int u, int v) {
   return false;
 }
 
-std::vector<GreyPoint> Thinned(std::vector<GreyPoint> points) {
-  if (points.size() <= kMaxPoints) return points;
-  std::vector<GreyPoint> kept;
-  for (size_t i = 0; i < kMaxPoints; ++i) kept.push_back(points[i * points.size() / kMaxPoints]);
-  return kept;
-}
-
 std::vector<GreyPoint> GreyPoints(const FrameLevel& level, const RigidTransform& T_color_depth) {
   std::vector<GreyPoint> points;
   const PinholeCamera& color = level.color_camera;
@@ -62,7 +56,7 @@ std::vector<GreyPoint> GreyPoints(const FrameLevel& level, const RigidTransform&
       points.push_back({p.cast<float>(), sample.value});
     }
   }
-  return Thinned(std::move(points));
+  return ThinnedTo(points, kMaxPoints);
 }
 
 double MedianDepth(const DepthImage& depth) {
