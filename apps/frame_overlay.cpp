@@ -20,10 +20,6 @@ constexpr double kMargin = 0.12;     // of the cut-out's size, around the graph
 constexpr double kOpacity = 0.5;
 constexpr int kShift = 4;
 
-RigidTransform ColorFromWorld(const Sequence& sequence, int frame) {
-  return sequence.T_color_depth * sequence.frames[frame].T_world_camera.inverse();
-}
-
 Polyline SampleGraph(const SkeletonGraph& graph) {
   Polyline samples;
   for (const EdgeId edge : graph.Edges()) {
@@ -143,7 +139,7 @@ int FrameSeeingMost(const SkeletonGraph& graph, const Sequence& sequence) {
   std::vector<Visibility> seen;
   int most = 0;
   for (int frame = 0; frame < sequence.frame_count(); ++frame) {
-    seen.push_back(SeenBy(sequence.color_camera, ColorFromWorld(sequence, frame), samples));
+    seen.push_back(SeenBy(sequence.color_camera, sequence.T_color_world(frame), samples));
     most = std::max(most, seen.back().count);
   }
   int best = -1;
@@ -157,7 +153,7 @@ int FrameSeeingMost(const SkeletonGraph& graph, const Sequence& sequence) {
 ColorImage DrawFrameOverlay(const SkeletonGraph& graph, const Sequence& sequence, int frame,
                             int width, int height, const std::optional<Rgb>& color) {
   const cv::Size size(width * kSupersampling, height * kSupersampling);
-  const RigidTransform T_color_world = ColorFromWorld(sequence, frame);
+  const RigidTransform T_color_world = sequence.T_color_world(frame);
   const cv::Rect2d cut =
       CutOut(ProjectedBounds(SampleGraph(graph), sequence.color_camera, T_color_world),
              static_cast<double>(width) / height);

@@ -89,7 +89,7 @@ PageFrame MakePageFrame(const Sequence& sequence, int frame) {
   const ColorImage image = LoadColor(sequence, frame);
   return {sequence.frames[frame].name, JpegUrl(image, kFrameWidth),
           sequence.color_camera.Scaled(ScaleTo(image.width(), kFrameWidth)),
-          sequence.T_color_depth * sequence.frames[frame].T_world_camera.inverse()};
+          sequence.T_color_world(frame)};
 }
 
 Json FrameJson(const PageFrame& frame) {

@@ -49,6 +49,10 @@ struct Sequence {
   std::shared_ptr<DecodedImages> decoded;  ///< where images stay once they are decoded; may be null
 
   int frame_count() const { return static_cast<int>(frames.size()); }
+  /// From the world to the colour camera of a frame.
+  RigidTransform T_color_world(int frame) const {
+    return T_color_depth * frames[frame].T_world_camera.inverse();
+  }
   /// Whether the images are parts of a file.
   bool IsRecording() const { return !frames.empty() && !frames[0].color_part.IsWholeFile(); }
 };

@@ -119,11 +119,9 @@ double ShareThinInDepth(const Reconstruction& depth, const Reconstruction& colou
   const PinholeCamera cells = camera.Scaled(640 / (kThinCellPx * camera.width));
   size_t looked = 0, thin = 0;
   for (const int frame : EvenlyThinned(frames, kThinImages)) {
-    const MaskImage around = CellsAround(
-        depth.points.positions, cells,
-        depth.sequence.T_color_depth * depth.sequence.frames[frame].T_world_camera.inverse());
-    const RigidTransform T_color_world =
-        colour.sequence.T_color_depth * colour.sequence.frames[frame].T_world_camera.inverse();
+    const MaskImage around =
+        CellsAround(depth.points.positions, cells, depth.sequence.T_color_world(frame));
+    const RigidTransform T_color_world = colour.sequence.T_color_world(frame);
     for (const EdgeId id : colour.skeleton.Edges()) {
       for (const Vec3& point : Resample(colour.skeleton.edge(id).points, kStep)) {
         const Vec3 p = T_color_world * point;

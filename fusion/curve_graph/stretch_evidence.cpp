@@ -186,8 +186,7 @@ void LookBeside(const Sequence& sequence, std::vector<Stretch>& stretches,
   const PinholeCamera& camera = sequence.color_camera;
   const auto look = [&](const DecodedFrame& frame) {
     const ColorImage smoothed = Smoothed(frame.color);
-    const RigidTransform T_color_world =
-        sequence.T_color_depth * sequence.frames[frame.index].T_world_camera.inverse();
+    const RigidTransform T_color_world = sequence.T_color_world(frame.index);
     constexpr int64_t kGrain = 16;
     ParallelFor(0, static_cast<int64_t>(stretches.size()), kGrain,
                 [&](int64_t i) { stretches[i].colours->Look(smoothed, camera, T_color_world); });

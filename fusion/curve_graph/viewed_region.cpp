@@ -23,7 +23,7 @@ constexpr int kAcross = 12;            // chosen: lines of sight across an image
 std::vector<RigidTransform> ColorCameras(const Sequence& sequence) {
   std::vector<RigidTransform> T_color_world;
   for (const int i : EvenlyThinned(AllFrames(sequence), kCameras))
-    T_color_world.push_back(sequence.T_color_depth * sequence.frames[i].T_world_camera.inverse());
+    T_color_world.push_back(sequence.T_color_world(i));
   return T_color_world;
 }
 

@@ -3,6 +3,7 @@
 #include "fusion/strips/strip_box.h"
 #include "fusion/strips/strip_samples.h"
 #include "fusion/strips/strip_widths.h"
+#include "graph/set_radius.h"
 #include "kernel/parallel.h"
 
 namespace curvefusion {
@@ -48,10 +49,8 @@ std::vector<double> MeasureDiameters(const SkeletonGraph& bundle_skeleton, const
   std::vector<std::vector<double>> of_frame(last - first);
   ParallelFor(0, last - first, 1, [&](int64_t i) {
     const int frame = first + static_cast<int>(i);
-    of_frame[i] =
-        DiametersInImage(LoadColor(sequence, frame), samples, sequence.color_camera,
-                         sequence.T_color_depth * sequence.frames[frame].T_world_camera.inverse(),
-                         options.box_size_px);
+    of_frame[i] = DiametersInImage(LoadColor(sequence, frame), samples, sequence.color_camera,
+                                   sequence.T_color_world(frame), options.box_size_px);
   });
   std::vector<double> diameters;
   for (const std::vector<double>& frame : of_frame) {
@@ -64,10 +63,7 @@ double AssignProminentRadius(const std::vector<double>& diameters, const WireRad
                              SkeletonGraph& skeleton) {
   const double radius = 0.5 * MostProminent(diameters, options.histogram_bin);
   if (radius <= 0) return 0;
-  for (const EdgeId id : skeleton.Edges()) {
-    const SkeletonEdge& edge = skeleton.edge(id);
-    skeleton.SetCurve(id, edge.points, std::vector<double>(edge.points.size(), radius));
-  }
+  SetRadius(radius, skeleton);
   return radius;
 }
 

@@ -58,11 +58,9 @@ void ForEachProjection(const ColourViews& views, const std::vector<CurveSample>&
                        const StripSight& sight, const Visit& visit) {
   const Sequence& sequence = views.sequence;
   for (size_t i = 0; i < views.frames.size(); ++i) {
-    const RigidTransform T_camera_world =
-        sequence.T_color_depth * sequence.frames[views.frames[i]].T_world_camera.inverse();
     visit(views.images[i], views.frames[i],
-          ProjectSamples(samples, views.neighbours, sequence.color_camera, T_camera_world,
-                         kBorderPx, sight));
+          ProjectSamples(samples, views.neighbours, sequence.color_camera,
+                         sequence.T_color_world(views.frames[i]), kBorderPx, sight));
   }
 }
 
