@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <map>
 #include <utility>
 
 #include "kernel/disjoint_sets.h"
@@ -323,6 +324,16 @@ Eigen::AlignedBox3d BoundsOf(const SkeletonGraph& graph) {
     for (const Vec3& p : graph.edge(id).points) bounds.extend(p);
   }
   return bounds;
+}
+
+void Append(const SkeletonGraph& more, SkeletonGraph& graph) {
+  std::map<NodeId, NodeId> nodes;
+  for (const NodeId node : more.Nodes()) nodes[node] = graph.AddNode(more.position(node));
+  for (const EdgeId id : more.Edges()) {
+    SkeletonEdge edge = more.edge(id);
+    edge.nodes = {nodes[edge.nodes[0]], nodes[edge.nodes[1]]};
+    graph.AddEdge(std::move(edge));
+  }
 }
 
 SkeletonGraph Transformed(const SkeletonGraph& graph, const AffineTransform& T) {

@@ -174,6 +174,9 @@ class SkeletonGraph {
 /// The box around the points of all curves; empty without any.
 Eigen::AlignedBox3d BoundsOf(const SkeletonGraph& graph);
 
+/// Adds the nodes and edges of another graph; nothing is joined.
+void Append(const SkeletonGraph& more, SkeletonGraph& graph);
+
 /// The graph after a motion or another affine map; radii stay.
 SkeletonGraph Transformed(const SkeletonGraph& graph, const AffineTransform& T);
 

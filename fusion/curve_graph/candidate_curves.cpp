@@ -1,7 +1,6 @@
 #include "fusion/curve_graph/candidate_curves.h"
 
 #include <algorithm>
-#include <map>
 #include <utility>
 #include <vector>
 
@@ -12,6 +11,7 @@
 #include "graph/connected_parts.h"
 #include "graph/edge_curve.h"
 #include "graph/edge_parts.h"
+#include "graph/set_radius.h"
 #include "kernel/point_grid.h"
 
 namespace curvefusion {
@@ -44,18 +44,6 @@ void KeepNewWires(const std::vector<Vec3>& known, SkeletonGraph& found) {
     KeepParts(id, PartsWhere(points.size(), is_new), kMinPiece, found);
   }
   found.RemoveIsolatedNodes();
-}
-
-void AddGraph(const SkeletonGraph& more, double radius, SkeletonGraph& skeleton) {
-  std::map<NodeId, NodeId> nodes;
-  for (const NodeId node : more.Nodes()) nodes[node] = skeleton.AddNode(more.position(node));
-  for (const EdgeId id : more.Edges()) {
-    const SkeletonEdge& edge = more.edge(id);
-    skeleton.AddEdge({{nodes.at(edge.nodes[0]), nodes.at(edge.nodes[1])},
-                      edge.points,
-                      std::vector<double>(edge.points.size(), radius),
-                      {}});
-  }
 }
 
 // Removes joins that images do not show: straight lines, as yet without points on them.
@@ -110,7 +98,8 @@ AddedCurves AddCandidateCurves(const Sequence& sequence, const ObservedPoints& c
   AddedCurves added = {0, std::move(proof.stretches)};
   if (found.empty()) return added;
   const double length = skeleton.TotalLength();
-  AddGraph(found, radius, skeleton);
+  SetRadius(radius, found);
+  Append(found, skeleton);
   TrackTips(radius, views, skeleton);
   FreeEndOptions reach = options.free_ends;
   reach.max_gap = kMaxGap;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "graph/edge_curve.h"
+#include "graph/edge_parts.h"
 #include "graph/junctions.h"
 #include "kernel/spatial_search.h"
 
@@ -38,16 +39,9 @@ std::vector<Stretch> UnmatchedStretches(const SkeletonGraph& bundle,
                                         const std::vector<std::vector<Match>>& matches) {
   std::vector<Stretch> stretches;
   for (const EdgeId id : bundle.Edges()) {
-    for (size_t i = 0; i < matches[id].size(); ++i) {
-      if (matches[id][i].edge >= 0) continue;
-      const bool continues =
-          !stretches.empty() && stretches.back().edge == id && stretches.back().last + 1 == i;
-      if (continues) {
-        stretches.back().last = i;
-      } else {
-        stretches.push_back({id, i, i});
-      }
-    }
+    const auto is_unmatched = [&](size_t i) { return matches[id][i].edge < 0; };
+    for (const EdgePart& part : PartsWhere(matches[id].size(), is_unmatched))
+      stretches.push_back({id, part.first, part.last});
   }
   return stretches;
 }
