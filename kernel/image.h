@@ -57,6 +57,11 @@ int Divisor(const Image<T>& image, const Image<U>& smaller) {
   return (image.width() + smaller.width() / 2) / smaller.width();
 }
 
+/// How many pixels were measured.
+inline int64_t CountMeasured(const DepthImage& depth) {
+  return std::count_if(depth.data(), depth.data() + depth.size(), [](float z) { return z > 0; });
+}
+
 inline bool AnySet(const MaskImage& mask) {
   return std::find(mask.data(), mask.data() + mask.size(), 1) != mask.data() + mask.size();
 }

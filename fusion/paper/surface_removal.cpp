@@ -108,8 +108,7 @@ BundleDifference FindBundleDifference(const Sequence& sequence, const BundleFram
     of_frame[i].points =
         Transformed(ImageDifference(depth, sequence.depth_camera, T_world_camera, volume, options),
                     T_bundle_world * T_world_camera);
-    of_frame[i].depth_pixels =
-        std::count_if(depth.data(), depth.data() + depth.size(), [](float z) { return z > 0; });
+    of_frame[i].depth_pixels = CountMeasured(depth);
   });
   BundleDifference difference;
   for (const BundleDifference& frame : of_frame) {

@@ -38,10 +38,6 @@ int64_t CountSet(const MaskImage& mask) {
   return std::count_if(mask.data(), mask.data() + mask.size(), [](uint8_t set) { return set; });
 }
 
-int64_t CountMeasured(const DepthImage& depth) {
-  return std::count_if(depth.data(), depth.data() + depth.size(), [](float z) { return z > 0; });
-}
-
 // Mean of the largest less the least of R, G and B, of every 64th pixel.
 double Chroma(const ColorImage& color) {
   constexpr int kStep = 8;

@@ -44,9 +44,7 @@ TsdfOptions VolumeOptions(const TrackingOptions& options) {
 // The share of the pixels of the finest level that have a depth.
 double MeasuredShare(const TrackingFrame& frame) {
   const DepthImage& depth = frame.levels.front().depth;
-  const auto count =
-      std::count_if(depth.data(), depth.data() + depth.size(), [](float z) { return z > 0; });
-  return static_cast<double>(count) / static_cast<double>(depth.size());
+  return static_cast<double>(CountMeasured(depth)) / static_cast<double>(depth.size());
 }
 
 TrackedFrame LostWithoutDepth(const TrackingFrame& frame) {
