@@ -1,5 +1,6 @@
 #include "kernel/dbscan.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "kernel/buckets.h"
@@ -139,6 +140,16 @@ std::vector<int> Dbscan(const std::vector<Vec3>& points, double radius, int min_
     labels[i] = first;
   }
   return labels;
+}
+
+std::vector<std::vector<int>> ClustersOf(const std::vector<int>& labels) {
+  std::vector<std::vector<int>> clusters;
+  for (size_t i = 0; i < labels.size(); ++i) {
+    if (labels[i] == kNoise) continue;
+    clusters.resize(std::max(clusters.size(), static_cast<size_t>(labels[i]) + 1));
+    clusters[labels[i]].push_back(static_cast<int>(i));
+  }
+  return clusters;
 }
 
 }  // namespace curvefusion

@@ -15,4 +15,7 @@ inline constexpr int kNoise = -1;
 /// kNoise. A border point goes to the first cluster that reaches it.
 std::vector<int> Dbscan(const std::vector<Vec3>& points, double radius, int min_points);
 
+/// The points of each cluster, ascending, by the labels of Dbscan.
+std::vector<std::vector<int>> ClustersOf(const std::vector<int>& labels);
+
 }  // namespace curvefusion

@@ -21,10 +21,9 @@ Clusters SplitIntoClusters(const ObservedPoints& points, const GhostClusterOptio
   const std::vector<int> labels =
       Dbscan(points.positions, options.cluster_radius, options.core_points);
   Clusters clusters;
-  for (size_t i = 0; i < labels.size(); ++i) {
-    if (labels[i] == kNoise) continue;
-    clusters.resize(std::max(clusters.size(), static_cast<size_t>(labels[i]) + 1));
-    clusters[labels[i]].Add(points, i);
+  for (const std::vector<int>& members : ClustersOf(labels)) {
+    ObservedPoints& cluster = clusters.emplace_back();
+    for (const int i : members) cluster.Add(points, static_cast<size_t>(i));
   }
   return clusters;
 }

@@ -20,13 +20,8 @@ constexpr double kLargeShare = 0.05;
 // Clusters of at least min_cluster_points, largest first.
 std::vector<Cluster> LargeClusters(const std::vector<Vec3>& points,
                                    const GhostRemovalOptions& options) {
-  const std::vector<int> labels = Dbscan(points, options.cluster_radius, options.core_points);
-  std::vector<Cluster> clusters;
-  for (size_t i = 0; i < labels.size(); ++i) {
-    if (labels[i] == kNoise) continue;
-    clusters.resize(std::max(clusters.size(), static_cast<size_t>(labels[i]) + 1));
-    clusters[labels[i]].push_back(static_cast<int>(i));
-  }
+  std::vector<Cluster> clusters =
+      ClustersOf(Dbscan(points, options.cluster_radius, options.core_points));
   const auto too_small = [&](const Cluster& cluster) {
     return static_cast<int>(cluster.size()) < options.min_cluster_points;
   };

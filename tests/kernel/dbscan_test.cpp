@@ -16,6 +16,11 @@ TEST(Dbscan, SeparatesTwoClustersAndNoise) {
   for (int i = 0; i < 10; ++i) EXPECT_EQ(labels[i], 0);
   for (int i = 10; i < 20; ++i) EXPECT_EQ(labels[i], 1);
   EXPECT_EQ(labels[20], kNoise);
+  const std::vector<std::vector<int>> clusters = ClustersOf(labels);
+  ASSERT_EQ(clusters.size(), 2u);
+  EXPECT_EQ(clusters[0], std::vector<int>({0, 1, 2, 3, 4, 5, 6, 7, 8, 9}));
+  EXPECT_EQ(clusters[1].front(), 10);
+  EXPECT_EQ(clusters[1].back(), 19);
 }
 
 TEST(Dbscan, EmptyInputGivesNoLabels) { EXPECT_TRUE(Dbscan({}, 0.01, 3).empty()); }
