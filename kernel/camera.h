@@ -21,6 +21,16 @@ struct PinholeCamera {
     return {fx * p_camera.x() / p_camera.z() + cx, fy * p_camera.y() / p_camera.z() + cy};
   }
 
+  /// Where a box along the camera's axes is seen; low.z() must be positive.
+  Eigen::AlignedBox2d BoundsOfBox(const Vec3& low, const Vec3& high) const {
+    // The least x is seen farthest left from near when negative, from afar when positive.
+    const double left = low.x() / (low.x() < 0 ? low.z() : high.z());
+    const double right = high.x() / (high.x() > 0 ? low.z() : high.z());
+    const double top = low.y() / (low.y() < 0 ? low.z() : high.z());
+    const double bottom = high.y() / (high.y() > 0 ? low.z() : high.z());
+    return {Vec2(fx * left + cx, fy * top + cy), Vec2(fx * right + cx, fy * bottom + cy)};
+  }
+
   /// Point in the camera frame at a pixel and a depth along the optical axis (metres).
   Vec3 Unproject(double u, double v, double depth) const {
     return {(u - cx) / fx * depth, (v - cy) / fy * depth, depth};

@@ -52,15 +52,6 @@ Image<float> HalvedGrey(const Image<float>& grey) {
   return half;
 }
 
-// Of every second row and column: means of slanted surfaces lie off them.
-DepthImage EverySecond(const DepthImage& depth) {
-  DepthImage half(depth.width() / 2, depth.height() / 2, 0);
-  for (int v = 0; v < half.height(); ++v) {
-    for (int u = 0; u < half.width(); ++u) half(u, v) = depth(2 * u, 2 * v);
-  }
-  return half;
-}
-
 Image<GreySample> WithGradient(const Image<float>& grey) {
   Image<GreySample> samples(grey.width(), grey.height());
   ParallelFor(0, grey.height(), kBandRows, [&](int64_t v) {

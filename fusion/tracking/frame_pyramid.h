@@ -46,6 +46,16 @@ TrackingCameras CamerasOf(const Sequence& sequence);
 /// The camera of an image that has every n-th pixel of every n-th row of another's.
 PinholeCamera EveryNth(const PinholeCamera& camera, int n);
 
+/// Every second pixel of every second row: means of slanted surfaces lie off them.
+template <class Pixel>
+Image<Pixel> EverySecond(const Image<Pixel>& image) {
+  Image<Pixel> half(image.width() / 2, image.height() / 2);
+  for (int v = 0; v < half.height(); ++v) {
+    for (int u = 0; u < half.width(); ++u) half(u, v) = image(2 * u, 2 * v);
+  }
+  return half;
+}
+
 /// Depth divided by a whole number: the mean of those in a square that are, by the sensor's noise,
 /// of one surface with the square's median; 0 where fewer than half of its pixels are.
 DepthImage ReducedDepth(const DepthImage& depth, int divisor, double max_depth);

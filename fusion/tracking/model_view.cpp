@@ -28,19 +28,8 @@ Vec3f NormalAt(const Image<Vec3f>& points, int u, int v, float pixel_size) {
   return (down - up).cross(right - left).normalized();
 }
 
-// Every second pixel: averages would move points off the surface.
 ModelLevel Halved(const ModelLevel& fine) {
-  ModelLevel half;
-  half.camera = EveryNth(fine.camera, 2);
-  half.points = Image<Vec3f>(half.camera.width, half.camera.height, Vec3f::Zero());
-  half.normals = Image<Vec3f>(half.camera.width, half.camera.height, Vec3f::Zero());
-  for (int v = 0; v < half.camera.height; ++v) {
-    for (int u = 0; u < half.camera.width; ++u) {
-      half.points(u, v) = fine.points(2 * u, 2 * v);
-      half.normals(u, v) = fine.normals(2 * u, 2 * v);
-    }
-  }
-  return half;
+  return {EveryNth(fine.camera, 2), EverySecond(fine.points), EverySecond(fine.normals)};
 }
 
 }  // namespace

@@ -77,14 +77,9 @@ std::optional<PixelBox> FindCoveredPixels(const VoxelCamera& view, const VoxelKe
   if (low.z() < kNearestProjectable) {
     return PixelBox{0, camera.width - 1, 0, camera.height - 1};
   }
-  const double left = low.x() / (low.x() < 0 ? low.z() : high.z());
-  const double right = high.x() / (high.x() > 0 ? low.z() : high.z());
-  const double top = low.y() / (low.y() < 0 ? low.z() : high.z());
-  const double bottom = high.y() / (high.y() > 0 ? low.z() : high.z());
-  const auto [u_min, u_max] =
-      ClippedPixels(camera.fx * left + camera.cx, camera.fx * right + camera.cx, camera.width);
-  const auto [v_min, v_max] =
-      ClippedPixels(camera.fy * top + camera.cy, camera.fy * bottom + camera.cy, camera.height);
+  const Eigen::AlignedBox2d seen = camera.BoundsOfBox(low, high);
+  const auto [u_min, u_max] = ClippedPixels(seen.min().x(), seen.max().x(), camera.width);
+  const auto [v_min, v_max] = ClippedPixels(seen.min().y(), seen.max().y(), camera.height);
   if (u_min > u_max || v_min > v_max) return std::nullopt;
   return PixelBox{u_min, u_max, v_min, v_max};
 }

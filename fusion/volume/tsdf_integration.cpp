@@ -56,14 +56,9 @@ class BlockVisibility {
     if (low.z() < kNearestProjectable) {
       depth = frame_.MaxDepthWithin(0, 0, camera.width, camera.height);
     } else {
-      // The least x is seen farthest left from near when negative, from afar when positive.
-      const double left = low.x() / (low.x() < 0 ? low.z() : high.z());
-      const double right = high.x() / (high.x() > 0 ? low.z() : high.z());
-      const double top = low.y() / (low.y() < 0 ? low.z() : high.z());
-      const double bottom = high.y() / (high.y() > 0 ? low.z() : high.z());
-      depth = frame_.MaxDepthWithin(
-          camera.fx * left + camera.cx - 0.5, camera.fy * top + camera.cy - 0.5,
-          camera.fx * right + camera.cx + 0.5, camera.fy * bottom + camera.cy + 0.5);
+      const Eigen::AlignedBox2d seen = camera.BoundsOfBox(low, high);
+      depth = frame_.MaxDepthWithin(seen.min().x() - 0.5, seen.min().y() - 0.5,
+                                    seen.max().x() + 0.5, seen.max().y() + 0.5);
     }
     return depth > 0 ? static_cast<double>(depth) : kNothing;
   }
