@@ -55,6 +55,13 @@ inline EdgeId Connect(SkeletonGraph& graph, NodeId a, NodeId b, Polyline points)
   return graph.AddEdge({{a, b}, std::move(points), {}, {}});
 }
 
+/// A graph of one curve.
+inline SkeletonGraph OfCurve(const Polyline& points) {
+  SkeletonGraph graph;
+  graph.AddPolyline(points);
+  return graph;
+}
+
 /// Three straight arms of `length` in the xy plane that meet at `center`.
 inline SkeletonGraph YShape(double length, const Vec3& center = Vec3::Zero(), double step = 1e-3) {
   SkeletonGraph graph;
@@ -116,6 +123,15 @@ inline SkeletonGraph Perturbed(const SkeletonGraph& graph, const RigidTransform&
     result.AddEdge(std::move(edge));
   }
   return result;
+}
+
+/// Largest distance by which two motions move the nodes of a graph apart.
+inline double Difference(const RigidTransform& a, const RigidTransform& b,
+                         const SkeletonGraph& graph) {
+  double worst = 0;
+  for (const NodeId node : graph.Nodes())
+    worst = std::max(worst, (a * graph.position(node) - b * graph.position(node)).norm());
+  return worst;
 }
 
 /// Largest distance from the points of `graph` to the curves of `truth`. Brute force.

@@ -14,12 +14,6 @@ namespace {
 constexpr double kStep = 1 * kMillimetre;
 constexpr double kDistance = 10 * kMillimetre;
 
-SkeletonGraph OfCurve(const Polyline& points) {
-  SkeletonGraph graph;
-  graph.AddPolyline(points);
-  return graph;
-}
-
 int MatchedCount(const std::vector<Match>& matches) {
   return static_cast<int>(std::count_if(matches.begin(), matches.end(),
                                         [](const Match& match) { return match.edge >= 0; }));

@@ -9,14 +9,6 @@
 namespace curvefusion {
 namespace {
 
-// Largest distance by which two motions move the nodes of a graph apart.
-double Difference(const RigidTransform& a, const RigidTransform& b, const SkeletonGraph& graph) {
-  double worst = 0;
-  for (const NodeId node : graph.Nodes())
-    worst = std::max(worst, (a * graph.position(node) - b * graph.position(node)).norm());
-  return worst;
-}
-
 const RigidTransform kMotion = RigidMotion({0.01, 0.005, 0.01}, {0.003, -0.002, 0.004});
 
 TEST(AlignSkeletons, FindsTheMotionOfALattice) {

@@ -27,12 +27,6 @@ SkeletonFusionOptions Unaligned() {
   return options;
 }
 
-SkeletonGraph OfCurve(const Polyline& points) {
-  SkeletonGraph graph;
-  graph.AddPolyline(points);
-  return graph;
-}
-
 RigidTransform Drift(unsigned seed, double metres, double radians) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;

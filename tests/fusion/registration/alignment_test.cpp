@@ -20,14 +20,6 @@ RigidTransform Motion(double angle, const Vec3& axis, const Vec3& translation) {
   return T;
 }
 
-// Largest distance by which two motions move the points of a graph apart.
-double Difference(const RigidTransform& a, const RigidTransform& b, const SkeletonGraph& graph) {
-  double worst = 0;
-  for (const NodeId node : graph.Nodes())
-    worst = std::max(worst, (a * graph.position(node) - b * graph.position(node)).norm());
-  return worst;
-}
-
 constexpr double kStep = 2 * kMillimetre;
 
 CurveSamples SampleCurves(const SkeletonGraph& graph, double step) {
