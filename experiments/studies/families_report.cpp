@@ -110,6 +110,7 @@ Table WorstTable(const std::vector<StudyRun>& worst) {
 void DrawWorst(const StudyResults& results, const std::vector<StudyRun>& worst) {
   if (worst.empty()) return;
   PictureGrid grid;
+  grid.cell_width = 1.4;  // "umbrella 101, F2 0.92" fits
   grid.rows = {"truth", "result"};
   for (const StudyRun& run : worst) {
     grid.columns.push_back(fmt::format("{} {}, F2 {:.2f}", LabelOf(run.labels, "family"), run.seed,
