@@ -8,6 +8,7 @@
 
 #include "capture/image_mat.h"
 #include "experiments/pictures/picture_style.h"
+#include "graph/sampled_curves.h"
 
 namespace curvefusion {
 
@@ -19,15 +20,6 @@ constexpr double kAlmostAll = 0.98;  // of the best count of samples: as good as
 constexpr double kMargin = 0.12;     // of the cut-out's size, around the graph
 constexpr double kOpacity = 0.5;
 constexpr int kShift = 4;
-
-Polyline SampleGraph(const SkeletonGraph& graph) {
-  Polyline samples;
-  for (const EdgeId edge : graph.Edges()) {
-    const Polyline curve = Resample(graph.edge(edge).points, kSampleStep);
-    samples.insert(samples.end(), curve.begin(), curve.end());
-  }
-  return samples;
-}
 
 // How many samples a camera sees, and how large: the sum of 1/depth over them.
 struct Visibility {
@@ -135,7 +127,7 @@ void PaintTubes(const SkeletonGraph& graph, const TubePainter& painter,
 }  // namespace
 
 int FrameSeeingMost(const SkeletonGraph& graph, const Sequence& sequence) {
-  const Polyline samples = SampleGraph(graph);
+  const std::vector<Vec3> samples = SampleCurvesOf(graph, kSampleStep).positions;
   std::vector<Visibility> seen;
   int most = 0;
   for (int frame = 0; frame < sequence.frame_count(); ++frame) {
@@ -154,9 +146,9 @@ ColorImage DrawFrameOverlay(const SkeletonGraph& graph, const Sequence& sequence
                             int width, int height, const std::optional<Rgb>& color) {
   const cv::Size size(width * kSupersampling, height * kSupersampling);
   const RigidTransform T_color_world = sequence.T_color_world(frame);
-  const cv::Rect2d cut =
-      CutOut(ProjectedBounds(SampleGraph(graph), sequence.color_camera, T_color_world),
-             static_cast<double>(width) / height);
+  const cv::Rect2d cut = CutOut(ProjectedBounds(SampleCurvesOf(graph, kSampleStep).positions,
+                                                sequence.color_camera, T_color_world),
+                                static_cast<double>(width) / height);
   const CutOutMap map{size.width / cut.width, {cut.x, cut.y}};
   cv::Mat image = CutAndScale(LoadColor(sequence, frame), map, size);
   PaintTubes(graph, {sequence.color_camera, T_color_world, map}, color, image);

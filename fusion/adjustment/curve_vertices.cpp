@@ -1,11 +1,11 @@
 #include "fusion/adjustment/curve_vertices.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <utility>
 
 #include "graph/edge_curve.h"
+#include "kernel/angle.h"
 
 namespace curvefusion {
 
@@ -15,9 +15,7 @@ namespace {
 constexpr double kThroughAngle = 0.35;
 
 double TurnAngle(const Vec3& before, const Vec3& here, const Vec3& behind) {
-  const Vec3 in = here - before;
-  const Vec3 out = behind - here;
-  return std::atan2(in.cross(out).norm(), in.dot(out));
+  return AngleBetween(here - before, behind - here);
 }
 
 void AddRow(const std::vector<Vec3>& positions, const std::array<int, 3>& row, double max_turn,
