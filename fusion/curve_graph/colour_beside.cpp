@@ -60,6 +60,19 @@ SeenColour Summary(const std::vector<Channels>& colours) {
   return seen;
 }
 
+// From the axis of the thickest curve to where its colour ends.
+double ReachOf(const std::vector<CurvePlace>& places) {
+  double radius = 0;
+  for (const CurvePlace& place : places) radius = std::max(radius, place.radius);
+  return radius + kBlur;
+}
+
+std::vector<Vec3> PositionsOf(const std::vector<CurvePlace>& places) {
+  std::vector<Vec3> positions;
+  for (const CurvePlace& place : places) positions.push_back(place.position);
+  return positions;
+}
+
 // How a line is seen at one of its places.
 struct LineInImage {
   Vec2 pixel;
@@ -121,6 +134,17 @@ std::vector<CurvePlace> LineAt(const Vec3& middle, const Vec3& tangent) {
 
 }  // namespace
 
+OnCurves::OnCurves(const std::vector<CurvePlace>& places)
+    : places_(places), reach_(ReachOf(places)), grid_(PositionsOf(places), reach_) {}
+
+bool OnCurves::Contains(const Vec3& point) const {
+  bool is_on_curve = false;
+  grid_.ForEachWithin(point, reach_, [&](int i, const Vec3& on_curve) {
+    is_on_curve |= (on_curve - point).norm() < places_[static_cast<size_t>(i)].radius + kBlur;
+  });
+  return is_on_curve;
+}
+
 ColourBeside::ColourBeside(const std::vector<CurvePlace>& places) {
   for (size_t i = 0; i < places.size(); i += kPlaceStride) {
     Place& place = places_.emplace_back();
@@ -136,20 +160,10 @@ ColourBeside::ColourBeside(const std::vector<CurvePlace>& places) {
   }
 }
 
-void ColourBeside::LeaveOutCurves(const std::vector<CurvePlace>& curves,
-                                  const PointGrid& positions) {
-  double reach = 0;
-  for (const CurvePlace& place : curves) reach = std::max(reach, place.radius + kBlur);
-  for (Place& place : places_) {
-    for (auto& points : place.beside) {
-      for (Point& point : points) {
-        positions.ForEachWithin(point.position, reach, [&](int i, const Vec3& on_curve) {
-          const double distance = (on_curve - point.position).norm();
-          point.is_on_curve |= distance < curves[static_cast<size_t>(i)].radius + kBlur;
-        });
-      }
-    }
-  }
+void ColourBeside::LeaveOut(const OnCurves& curves) {
+  for (Place& place : places_)
+    for (auto& points : place.beside)
+      for (Point& point : points) point.is_on_curve = curves.Contains(point.position);
 }
 
 // Whether most of a direction is left out.

@@ -21,6 +21,20 @@ struct ColourChange {
   double most = 0;   ///< in that in which they change most; 0 = not known
 };
 
+/// What lies on some curve, as wide as its colour shows.
+class OnCurves {
+ public:
+  /// Of places that are dense along all curves (world frame), which must outlive it.
+  explicit OnCurves(const std::vector<CurvePlace>& places);
+
+  bool Contains(const Vec3& point) const;
+
+ private:
+  const std::vector<CurvePlace>& places_;
+  double reach_ = 0;  // metres, of the thickest curve
+  PointGrid grid_;
+};
+
 /// The colours of points beside a curve in many images. Where a surface goes on beside the curve,
 /// they are those of the surface from wherever it is seen; past a wire every image shows another
 /// part of what is behind.
@@ -30,8 +44,7 @@ class ColourBeside {
   explicit ColourBeside(const std::vector<CurvePlace>& places);
 
   /// Leaves out what lies beside this curve on another one, whose colour stays as a surface's does.
-  /// `curves` are all that there are, `positions` those of their places.
-  void LeaveOutCurves(const std::vector<CurvePlace>& curves, const PointGrid& positions);
+  void LeaveOut(const OnCurves& curves);
 
   /// Adds an image that has at each pixel the mean of those around it.
   void Look(const ColorImage& smoothed, const PinholeCamera& camera,

@@ -239,10 +239,8 @@ std::vector<StretchEvidence> CollectEvidence(const SkeletonGraph& skeleton,
     }
   }
   if (stretches.empty()) return {};
-  std::vector<Vec3> positions;
-  for (const CurvePlace& place : curves) positions.push_back(place.position);
-  const PointGrid near_curves(positions, kStripReach);
-  for (Stretch& stretch : stretches) stretch.colours->LeaveOutCurves(curves, near_curves);
+  const OnCurves on_curves(curves);
+  for (Stretch& stretch : stretches) stretch.colours->LeaveOut(on_curves);
   const std::vector<int> frames = EvenlyThinned(AllFrames(sequence), max_frames);
   ForEachFrame(sequence, frames, {.depth = true, .color = false}, [&](const DecodedFrame& frame) {
     const RigidTransform& T_world_camera = sequence.frames[frame.index].T_world_camera;

@@ -37,9 +37,7 @@ ColourChange Change(double plane_z, double contrast, int cameras = 12,
                     const std::vector<CurvePlace>& left_out = {},
                     const std::vector<CurvePlace>& drawn = {}) {
   ColourBeside beside(Line());
-  std::vector<Vec3> positions;
-  for (const CurvePlace& place : left_out) positions.push_back(place.position);
-  beside.LeaveOutCurves(left_out, PointGrid(positions, 0.005));
+  beside.LeaveOut(OnCurves(left_out));
   for (int i = 0; i < cameras; ++i) {
     const Vec3 center(0.02 * (i - 5.5), 0.01 * (i % 3), 0);
     RigidTransform T_camera_world = RigidTransform::Identity();
