@@ -1,5 +1,6 @@
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -36,6 +37,7 @@ constexpr int kUsualPort = 8700;
 constexpr double kUsualIdle = 10;  // seconds: hands that change their hold take a few
 // What a live run and its result write: those of reconstruct and snapshots of the same size.
 constexpr std::uintmax_t kFiles = 24u << 20;
+constexpr const char* kScanFolder = "scan";
 constexpr std::chrono::seconds kFarewell(2);  // a page asks twice a second
 
 struct LiveArguments {
@@ -44,6 +46,7 @@ struct LiveArguments {
   ConfigArguments config;
   double rate = 0;
   bool follow = false;
+  bool is_stream = false;
   double idle = kUsualIdle;
   bool track = false;
   bool serve = false;
@@ -75,7 +78,33 @@ bool WritesPoses(const LiveArguments& arguments) {
   return !arguments.track && fs::is_directory(arguments.source / "pose");
 }
 
+// A stream becomes a folder in the output, since in the end all frames are reconstructed.
+void PrepareStream(LiveArguments& arguments) {
+  if (arguments.follow || arguments.rate != 0) {
+    throw Error(ErrorKind::kUsage,
+                "live -: frames are taken as they come on standard input: leave out --follow, "
+                "--idle and --rate");
+  }
+  if (isatty(STDIN_FILENO) != 0) {
+    throw Error(ErrorKind::kUsage,
+                "live -: standard input is a terminal: send a tar archive to it, as in "
+                "'tar -C scan -c --sort=name . | curvefusion live - -o result'");
+  }
+  arguments.is_stream = true;
+  arguments.source = arguments.output / kScanFolder;
+  if (fs::exists(arguments.source)) {
+    throw Error(ErrorKind::kUsage,
+                fmt::format("{}: holds the frames of another run: name another folder by -o, or "
+                            "move this one",
+                            arguments.source.string()));
+  }
+}
+
 std::unique_ptr<LiveSource> OpenSource(const LiveArguments& arguments) {
+  if (arguments.is_stream) {
+    fs::create_directory(arguments.source);
+    return ReceiveFolder(arguments.source, !arguments.track);
+  }
   if (!arguments.follow) {
     return ReplayOf(OpenSequence(arguments.source, PosesFor(arguments)), arguments.rate);
   }
@@ -93,7 +122,8 @@ std::unique_ptr<LiveSource> OpenSource(const LiveArguments& arguments) {
 Sequence Recorded(const LiveArguments& arguments, const CaptureEnd& end) {
   if (end.last_arrived.empty()) {
     throw Error(end.by_user ? ErrorKind::kInterrupted : ErrorKind::kBadInput,
-                fmt::format("{}: no frame has come, so there is nothing to reconstruct",
+                fmt::format("{}: no frame has come, so there is nothing to reconstruct; without "
+                            "poses give --track",
                             arguments.source.string()));
   }
   Sequence sequence = OpenSequence(arguments.source, PosesFor(arguments));
@@ -122,12 +152,16 @@ void SetPhase(LivePhase phase, const fs::path& folder, LiveBoard& board) {
   WriteState(board, folder);
 }
 
-int RunLive(const LiveArguments& arguments) {
+int RunLive(LiveArguments arguments) {
   const auto start = std::chrono::steady_clock::now();
   const Config config = ReadConfig(Sources(arguments.config));
   const BestOptions& options = BestOf(config);
   LimitThreads(arguments.run);
-  RequireOutside(arguments.source, arguments.output);
+  if (arguments.source == "-") {
+    PrepareStream(arguments);
+  } else {
+    RequireOutside(arguments.source, arguments.output);
+  }
   RequireApart({arguments.config.file}, arguments.output / "config.toml");
   RequireFreeSpace(arguments.output, kFiles);
   const ResultFolder output(arguments.output,
@@ -191,7 +225,8 @@ void AddLiveCommand(CLI::App& app, int& exit_code) {
   const auto arguments = std::make_shared<LiveArguments>();
   command
       ->add_option("SOURCE", arguments->source,
-                   "Sequence (folder or recording) to replay; with --follow a folder that grows")
+                   "Sequence (folder or recording) to replay; with --follow a folder that grows; "
+                   "-: a tar archive of such a folder on standard input, kept as OUTPUT/scan")
       ->required();
   command
       ->add_option("-o,--output", arguments->output,
@@ -209,7 +244,8 @@ void AddLiveCommand(CLI::App& app, int& exit_code) {
       "the program.\n"
       "Example:\n  curvefusion live scan -o result --serve\n"
       "  curvefusion live camera_folder -o result --follow --idle 20 --serve --port 9000\n"
-      "  curvefusion live scan -o result --rate 15");
+      "  curvefusion live scan -o result --rate 15\n"
+      "  camera_program | curvefusion live - -o result");
   command->callback([arguments, &exit_code] { exit_code = RunLive(*arguments); });
 }
 

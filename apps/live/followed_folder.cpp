@@ -17,7 +17,12 @@ class FollowedFolder : public LiveSource {
   FollowedFolder(const std::filesystem::path& folder, bool use_poses, double idle)
       : folder_(folder, use_poses), idle_(idle) {}
 
-  std::optional<Sequence> Cameras() override { return folder_.Cameras(); }
+  std::optional<Sequence> Cameras() override {
+    const bool ended = folder_.HasEnded();
+    std::optional<Sequence> cameras = folder_.Cameras();
+    has_end_ = ended && !cameras;  // they will not come any more
+    return cameras;
+  }
 
   std::vector<ArrivedFrame> Arrived(double now) override {
     std::vector<ArrivedFrame> arrived;

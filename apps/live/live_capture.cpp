@@ -85,7 +85,7 @@ class Capture {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   }
 
-  bool HasEnded() { return cameras_ && source_.HasEnded(Now()); }
+  bool HasEnded() { return source_.HasEnded(Now()); }
 
   void FindCameras() {
     cameras_ = source_.Cameras();

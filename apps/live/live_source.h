@@ -36,4 +36,9 @@ std::unique_ptr<LiveSource> ReplayOf(Sequence sequence, double rate);
 std::unique_ptr<LiveSource> FollowFolder(const std::filesystem::path& folder, bool use_poses,
                                          double idle);
 
+/// A folder that is unpacked from a tar archive on standard input while it comes, and followed. It
+/// ends with the archive. Throws Error(kBadInput) for input that is no archive, ends in the midst
+/// or leads out of the folder, Error(kResource) where nothing can be written.
+std::unique_ptr<LiveSource> ReceiveFolder(const std::filesystem::path& folder, bool use_poses);
+
 }  // namespace curvefusion

@@ -14,6 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using testing::AllOf;
 using testing::HasSubstr;
 
 class LiveCommand : public CommandLine {
@@ -80,6 +81,52 @@ TEST_F(LiveCommand, FollowsAFolderThatGrows) {
   EXPECT_EQ(State()["frames"]["arrived"], 40);
   ASSERT_EQ(Run("reconstruct cam -o batch --quiet").exit_code, 0);
   EXPECT_EQ(Text("out/skeleton.json"), Text("batch/skeleton.json"));
+}
+
+class StreamedLiveCommand : public LiveCommand {
+ protected:
+  // A folder `cam` with one pose a frame.
+  void RecordCube(int frames) {
+    ASSERT_EQ(SimulateCube(frames).exit_code, 0);
+    const std::string writer = SourceFolder() / "tests/apps/live/write_like_a_camera.py";
+    const Outcome written = RunShell("mkdir -p cam/color cam/depth cam/pose && python3 '" + writer +
+                                     "' scan cam 0 && rm cam/end");
+    ASSERT_EQ(written.exit_code, 0) << written.output;
+  }
+
+  Outcome Send(const std::string& archive, const std::string& output) {
+    return RunShell(archive + " | \"$CURVEFUSION\" live - -o " + output +
+                    " --quiet >output.txt 2>&1");
+  }
+};
+
+TEST_F(StreamedLiveCommand, TakesFramesFromStandardInput) {
+  RecordCube(40);
+  const Outcome live = Send("tar -C cam -c --sort=name intrinsics.json pose color depth", "out");
+  ASSERT_EQ(live.exit_code, 0) << live.output;
+  EXPECT_EQ(State()["frames"]["arrived"], 40);
+  ASSERT_EQ(Run("reconstruct cam -o batch --quiet").exit_code, 0);
+  EXPECT_EQ(Text("out/skeleton.json"), Text("batch/skeleton.json"));
+  // The frames are kept, and no other run is written among them.
+  EXPECT_EQ(Send("tar -C cam -c .", "out").exit_code, 2);
+}
+
+TEST_F(StreamedLiveCommand, StreamsThatAreNoneAreTold) {
+  RecordCube(3);
+  const Outcome cut = Send("tar -C cam -c . | head -c 100000", "cut");
+  EXPECT_EQ(cut.exit_code, 3);
+  EXPECT_THAT(cut.output, AllOf(HasSubstr("Truncated"), HasSubstr("cut/scan")));
+  EXPECT_EQ(Send("echo no archive at all", "text").exit_code, 3);
+  EXPECT_EQ(Send("true", "empty").exit_code, 3);
+  EXPECT_EQ(Send("tar -c cam --transform 's,^cam,../elsewhere,' -P", "outside").exit_code, 3);
+  EXPECT_FALSE(fs::exists(folder_ / "outside/elsewhere"));
+  // Nothing that a camera would send.
+  const Outcome other = Send("tar -C scan -c rgb", "other");
+  EXPECT_EQ(other.exit_code, 3);
+  EXPECT_THAT(other.output, HasSubstr("no frame has come"));
+  EXPECT_EQ(
+      RunShell("\"$CURVEFUSION\" live - -o rate --rate 3 </dev/null >output.txt 2>&1").exit_code,
+      2);
 }
 
 TEST_F(LiveCommand, WhatCannotBeIsToldBeforeAnyFrame) {
