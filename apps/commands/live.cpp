@@ -88,7 +88,7 @@ void PrepareStream(LiveArguments& arguments) {
   if (isatty(STDIN_FILENO) != 0) {
     throw Error(ErrorKind::kUsage,
                 "live -: standard input is a terminal: send a tar archive to it, as in "
-                "'tar -C scan -c --sort=name . | curvefusion live - -o result'");
+                "'tar -C scan -c intrinsics.json pose color depth | curvefusion live - -o result'");
   }
   arguments.is_stream = true;
   arguments.source = arguments.output / kScanFolder;

@@ -637,8 +637,7 @@ const ReportPage = (() => {
   // report.html#curve=12 opens with that curve chosen.
   function selectByHash() {
     const wanted = /^#curve=(\d+)$/.exec(location.hash);
-    const index = wanted ? Number(wanted[1]) - 1 : -1;
-    if (index >= 0 && index < page.data.curves.edges.length) select(index);
+    if (wanted && Number(wanted[1]) < page.data.curves.edges.length) select(Number(wanted[1]));
   }
 
   // Shows a result in place of the one before, if there is one.

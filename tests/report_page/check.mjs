@@ -125,7 +125,7 @@ const checks = {
         await page.evaluate(`ReportPage.select(null)`);
         await page.click(at.x, at.y);
         const shown = await text(page, "#selection");
-        if (!shown.includes(`Curve ${i + 1}\n`)) continue;
+        if (!shown.includes(`Curve ${i}\n`)) continue;
         ++hits;
         const edge = report.skeleton.per_edge[i];
         assert.ok(shown.includes(`${edge.diameter_mm.toFixed(2)} mm`), shown);
