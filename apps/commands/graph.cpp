@@ -116,6 +116,13 @@ void RemoveCurves(const GraphArguments& arguments, SkeletonGraph& graph) {
   graph.DissolveDegree2Nodes();
 }
 
+// Nodes and curves with the numbers that they get in a file.
+SkeletonGraph Renumbered(const SkeletonGraph& graph) {
+  SkeletonGraph renumbered;
+  Append(graph, renumbered);
+  return renumbered;
+}
+
 void CheckUsage(const GraphArguments& arguments) {
   const bool changes =
       !arguments.removed.empty() || arguments.resolve_mm > 0 || arguments.smooth > 0;
@@ -159,7 +166,10 @@ int RunGraph(const GraphArguments& arguments) {
     options.lambda = arguments.smooth;
     graph = SmoothGraph(graph, options);
   }
-  if (!arguments.output.empty()) Export(arguments.output, graph, arguments.run.quiet);
+  if (!arguments.output.empty()) {
+    graph = Renumbered(graph);
+    Export(arguments.output, graph, arguments.run.quiet);
+  }
   if (!arguments.cut_list.empty()) ExportCutList(arguments, graph);
   const bool only_info = !arguments.validate && arguments.convert.empty() &&
                          arguments.output.empty() && arguments.cut_list.empty();

@@ -86,7 +86,7 @@ const LivePage = (() => {
       ["Free ends", String(ends)],
     ];
     byId("selection").replaceChildren(
-      element("h3", {}, `Curve ${chosen + 1}`),
+      element("h3", {}, `Curve ${chosen}`),
       element("dl", { class: "facts" }, ...facts.flatMap(([what, value]) =>
         [element("dt", {}, what), element("dd", {}, value)])));
   }
@@ -109,7 +109,7 @@ const LivePage = (() => {
           page.turned = true;
           if (page.viewer) page.viewer.follow(hint);
         },
-      }, `Curve ${hint.curve + 1}, ${grouped(figures.length_mm)} mm: sides ${figures.spread_degrees}° apart`));
+      }, `Curve ${hint.curve}, ${grouped(figures.length_mm)} mm: sides ${figures.spread_degrees}° apart`));
     }));
   }
 

@@ -12,6 +12,7 @@
 namespace curvefusion {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 
 class GraphCommand : public CommandLine {
@@ -64,6 +65,9 @@ TEST_F(GraphCommand, CurvesAreRemovedByTheirNumbers) {
   EXPECT_EQ(edited.edge_count(), 1);
   EXPECT_EQ(edited.node_count(), 2);
   EXPECT_NEAR(edited.TotalLength(), 0.2, 1e-12);
+  // Whatever else is written has the numbers of the new file.
+  EXPECT_EQ(Run("graph star.json --remove 0,1 -o two.json --cut-list two.csv").exit_code, 0);
+  EXPECT_THAT(Text("two.csv"), AllOf(HasSubstr("\n0,0,1,30"), HasSubstr("\n1,2,3,200")));
   const Outcome missing = Run("graph star.json --remove 4 -o edited.json");
   EXPECT_EQ(missing.exit_code, 2);
   EXPECT_THAT(missing.output, HasSubstr("has 4 curves, counted from 0"));
