@@ -37,8 +37,10 @@ BestOptions ForLive(BestOptions options) {
   return options;
 }
 
+// Nothing of its images is kept either.
 Sequence WithoutFrames(Sequence sequence) {
   sequence.frames.clear();
+  sequence.decoded.reset();
   return sequence;
 }
 
@@ -47,7 +49,7 @@ Sequence WithoutFrames(Sequence sequence) {
 LiveReconstruction::LiveReconstruction(const Sequence& cameras, const BestOptions& options)
     : options_(ForLive(options)),
       volume_(options.volume),
-      bundle_(WithoutFrames(cameras)),
+      bundle_(KeepingImages(WithoutFrames(cameras))),
       sample_(WithoutFrames(cameras)),
       evidence_{CarriedPoints(options.carried), {}} {}
 
@@ -99,7 +101,7 @@ SegmentedBundle LiveReconstruction::SegmentFrames() {
   const ProcessorTimer timer(cost_.segmentation);
   SegmentedBundle segmented = SegmentBundle(bundle_, 0, bundle_.frame_count(), volume_, model_,
                                             options_.segmentation, [] {});
-  bundle_.frames.clear();
+  bundle_ = KeepingImages(WithoutFrames(std::move(bundle_)));
   return segmented;
 }
 
