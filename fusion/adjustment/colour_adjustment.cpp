@@ -187,6 +187,8 @@ Fit RunRounds(const Sequence& sequence, const CurveVertices& curves, CurvePosePr
       color_shift =
           UseDepth(sequence, frames, curves, state, strips, options.axis_depth, problem, result);
     }
+    // While curves find their strips this would carry one wrong strip to its neighbours.
+    problem.evens_bends = &round == &kRounds.back();
     state = ImproveCurvesAndPoses(problem, state, round.huber_px);
     if (round.learns_colours) LearnColours(strips, curves, frames);
     result.strips = static_cast<int>(problem.strips.size());

@@ -28,6 +28,8 @@ constexpr double kEdgeSigmaPx = 1.5;
 // the depth of one frame tell, as it errs on the same side of a wire in many.
 constexpr double kDepthCentreSigmaPx = 8;
 constexpr double kBendSigma = 0.3 * kMillimetre;  // of a second difference, steps of 3 mm
+constexpr double kKinkSigma =
+    0.03 * kMillimetre;  // of a third difference; chosen on training scans
 // Chosen: sine of the turn in a step of 3 mm, a radius of 10 mm. Without it the corners of the
 // paper's cat, which contraction cuts, stay cut.
 constexpr double kSharp = 0.3;
@@ -84,11 +86,12 @@ class NormalEquations {
   }
 
   // weight |residual + sum of by_vertex dv|^2.
-  void AddRow(const std::array<int, 3>& row, const Vec3& residual,
-              const std::array<Mat3, 3>& by_vertex, double weight) {
-    for (size_t i = 0; i < 3; ++i) {
+  template <size_t N>
+  void AddRow(const std::array<int, N>& row, const Vec3& residual,
+              const std::array<Mat3, N>& by_vertex, double weight) {
+    for (size_t i = 0; i < N; ++i) {
       vertex_rhs_.segment<3>(3 * row[i]) -= weight * by_vertex[i].transpose() * residual;
-      for (size_t j = 0; j < 3; ++j) {
+      for (size_t j = 0; j < N; ++j) {
         if (row[j] > row[i]) continue;
         const Mat3 block = weight * by_vertex[i].transpose() * by_vertex[j];
         for (int k = 0; k < 3; ++k)
@@ -234,6 +237,10 @@ Mat3 Along(const Vec3& tangent) {
   return t * t.transpose();
 }
 
+bool IsSharp(const Vec3& before, const Vec3& behind) {
+  return before.cross(behind).norm() > kSharp * before.norm() * behind.norm();
+}
+
 // Adds the second difference of three vertices, across the curve. A vertex that slides along the
 // curve, here the parabola through the three, does not bend it: otherwise bends would relax by
 // pulling free ends back. At sharp corners a parabola tells no tangents.
@@ -245,15 +252,30 @@ void AddBend(const std::array<int, 3>& row, const std::vector<Vec3>& positions,
   const Mat3 one = Mat3::Identity();
   const double weight = 1 / (kBendSigma * kBendSigma);
   const Vec3 ab = b - a, bc = c - b;
-  if (ab.cross(bc).norm() > kSharp * ab.norm() * bc.norm()) {
-    equations.AddRow(row, bc - ab, {one, -2 * one, one}, weight);
+  if (IsSharp(ab, bc)) {
+    equations.AddRow<3>(row, bc - ab, {one, -2 * one, one}, weight);
     return;
   }
   const Mat3 across = one - Along(c - a);
   const Mat3 by_a = across * (one - Along(-3 * a + 4 * b - c));
   const Mat3 by_c = across * (one - Along(a - 4 * b + 3 * c));
   const Mat3 by_b = -(by_a + by_c);  // moving all three alike bends nothing
-  equations.AddRow(row, across * (bc - ab), {by_a, by_b, by_c}, weight);
+  equations.AddRow<3>(row, across * (bc - ab), {by_a, by_b, by_c}, weight);
+}
+
+// Adds the third difference of four vertices, across the curve: how much its bend changes, which
+// is nothing along straight wires and circles. Corners are left as they are.
+void AddKink(const std::array<int, 4>& row, const std::vector<Vec3>& positions,
+             NormalEquations& equations) {
+  const Vec3& a = positions[row[0]];
+  const Vec3& b = positions[row[1]];
+  const Vec3& c = positions[row[2]];
+  const Vec3& d = positions[row[3]];
+  const Vec3 ab = b - a, bc = c - b, cd = d - c;
+  if (IsSharp(ab, bc) || IsSharp(bc, cd)) return;
+  const Mat3 across = Mat3::Identity() - Along(d - a);
+  equations.AddRow<4>(row, across * (cd - 2 * bc + ab), {-across, 3 * across, -3 * across, across},
+                      1 / (kKinkSigma * kKinkSigma));
 }
 
 // Adds the change of the distance between two neighbours: what holds vertices along the curve.
@@ -262,8 +284,8 @@ void AddStretch(int from, int to, const CurvePoseProblem& problem, const CurvePo
   const Vec3 d = state.positions[to] - state.positions[from];
   const double start = (problem.start.positions[to] - problem.start.positions[from]).norm();
   const Mat3 along = Along(d);
-  equations.AddRow({from, to, to}, d - start * d.normalized(), {-along, along, Mat3::Zero()},
-                   1 / (kStretchSigma * kStretchSigma));
+  equations.AddRow<3>({from, to, to}, d - start * d.normalized(), {-along, along, Mat3::Zero()},
+                      1 / (kStretchSigma * kStretchSigma));
 }
 
 // The pairs of neighbours in rows, once each.
@@ -283,6 +305,11 @@ void AddCurvePriors(const CurvePoseProblem& problem, const CurvePoseState& state
                              1 / (kVertexSigma * kVertexSigma));
   }
   for (const std::array<int, 3>& row : problem.rows) AddBend(row, state.positions, equations);
+  for (size_t i = 0; problem.evens_bends && i + 1 < problem.rows.size(); ++i) {
+    const auto& [a, b, c] = problem.rows[i];
+    const auto& [next_a, next_b, d] = problem.rows[i + 1];
+    if (next_a == b && next_b == c) AddKink({a, b, c, d}, state.positions, equations);
+  }
   for (const auto& [from, to] : Neighbours(problem.rows))
     AddStretch(from, to, problem, state, equations);
 }

@@ -30,8 +30,8 @@ struct CurvePoseState {
   std::vector<RigidTransform> T_camera_world;  ///< of each frame
 };
 
-/// How the errors of given poses behave: a tracker by images drifts; one that holds to surfaces errs
-/// in each frame for itself, by little.
+/// How the errors of given poses behave: a tracker by images drifts; one that holds to surfaces
+/// errs in each frame for itself, by little.
 enum class PoseErrors { kDrift, kJitter };
 
 /// Bundle adjustment of curves and poses.
@@ -40,6 +40,7 @@ struct CurvePoseProblem {
   RigidTransform T_color_depth = RigidTransform::Identity();
   CurvePoseState start;                       ///< what priors pull towards
   std::vector<std::array<int, 3>> rows;       ///< vertices in a row on smooth curves
+  bool evens_bends = false;                   ///< whether third differences count
   std::vector<RigidTransform> T_world_given;  ///< the tracker's pose of each frame
   PoseErrors pose_errors = PoseErrors::kDrift;
   /// Frames of the video between a frame of the problem and the next, one fewer than frames; empty
@@ -60,12 +61,12 @@ double StripResidual(const CurvePoseProblem& problem, const CurvePoseState& stat
 
 /// One Gauss-Newton step from `state` for the sum of squares of strips (sigma .5 px, by their edges
 /// 1.5 px, Huber beyond `huber_px`), depths and their middles (8 px), second differences of
-/// vertices in a row across the curve (.3 mm), changes of distances of neighbours in rows (1 mm),
-/// distances from the start (vertices 12 mm; poses 5 mm and .3 degrees, .8 mm and .05 degrees where
-/// they jitter) and, in a video, changes of a pose's correction from frame to frame (.8 mm and .04
-/// degrees times the square root of the gap), whose first frame is held. Vertices are eliminated by
-/// a sparse factorisation; the dense Schur complement of the 6 unknowns of each frame remains.
-/// Cost: vertices times frames squared.
+/// vertices in a row across the curve (.3 mm; where bends are evened, third ones as well, .03 mm),
+/// changes of distances of neighbours in rows (1 mm), distances from the start (vertices 12 mm;
+/// poses 5 mm and .3 degrees, .8 mm and .05 degrees where they jitter) and, in a video, changes of
+/// a pose's correction from frame to frame (.8 mm and .04 degrees times the square root of the
+/// gap), whose first frame is held. Vertices are eliminated by a sparse factorisation; the dense
+/// Schur complement of the 6 unknowns of each frame remains. Cost: vertices times frames squared.
 CurvePoseState ImproveCurvesAndPoses(const CurvePoseProblem& problem, const CurvePoseState& state,
                                      double huber_px);
 

@@ -166,6 +166,32 @@ TEST_F(CurvePoseSolverTest, RecoversCurvesAndPoses) {
   EXPECT_LT(RmsStepError(state), 0.5 * RmsStepError(problem_.start));
 }
 
+// Root mean square of the third differences along the curves.
+double Unevenness(const CurvePoseProblem& problem, const std::vector<Vec3>& positions) {
+  double sum = 0;
+  int count = 0;
+  for (const auto& [a, b, c] : problem.rows) {
+    if (c + 1 == static_cast<int>(positions.size())) continue;
+    const Vec3 third = positions[c + 1] - 3 * positions[c] + 3 * positions[b] - positions[a];
+    if (third.norm() > 0.01) continue;  // the next curve
+    sum += third.squaredNorm();
+    ++count;
+  }
+  return std::sqrt(sum / count);
+}
+
+TEST_F(CurvePoseSolverTest, EvenBendsFollowNoiseLess) {
+  for (size_t i = 0; i < problem_.strips.size(); ++i) {
+    StripObservation& strip = problem_.strips[i];
+    strip.pixel += 2 * std::sin(7.3 * static_cast<double>(i)) * strip.normal;
+  }
+  const CurvePoseState uneven = Solve(5);
+  problem_.evens_bends = true;
+  const CurvePoseState even = Solve(5);
+  EXPECT_LT(Unevenness(problem_, even.positions), 0.5 * Unevenness(problem_, uneven.positions));
+  EXPECT_LE(MeanDistance(even), MeanDistance(uneven));
+}
+
 // Strips hold a bent curve across, nothing holds its free ends along it.
 TEST(ImproveCurvesAndPoses, BentCurvesWithFreeEndsKeepTheirLength) {
   constexpr double kBendRadius = 0.02;
