@@ -122,9 +122,9 @@ std::unique_ptr<LiveSource> OpenSource(const LiveArguments& arguments) {
 Sequence Recorded(const LiveArguments& arguments, const CaptureEnd& end) {
   if (end.last_arrived.empty()) {
     throw Error(end.by_user ? ErrorKind::kInterrupted : ErrorKind::kBadInput,
-                fmt::format("{}: no frame has come, so there is nothing to reconstruct; without "
-                            "poses give --track",
-                            arguments.source.string()));
+                fmt::format("{}: no frame has come, so there is nothing to reconstruct{}",
+                            arguments.source.string(),
+                            arguments.is_stream ? "; frames without poses need --track" : ""));
   }
   Sequence sequence = OpenSequence(arguments.source, PosesFor(arguments));
   if (!end.by_user) return sequence;

@@ -82,7 +82,8 @@ class Unpacking {
   void Run() {
     try {
       Unpack();
-      std::ofstream(folder_ / "end");
+      const fs::path end = folder_ / "end";
+      if (!std::ofstream(end)) ThrowUnwritable(end);
     } catch (...) {
       failure_ = std::current_exception();
       has_failed_ = true;

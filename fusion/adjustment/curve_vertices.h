@@ -13,8 +13,8 @@ struct CurveVertices {
   std::vector<Vec3> positions;
   std::vector<double> radii;            ///< metres; 0 where the skeleton has none
   std::vector<std::vector<int>> edges;  ///< vertices along each edge, in the order of Edges()
-  /// Three vertices in a row along smooth curves: within edges, and through nodes where two ends
-  /// continue one another.
+  /// Three vertices in a row along smooth curves: within edges, from their first to their last, and
+  /// after these through nodes where two ends continue one another.
   std::vector<std::array<int, 3>> rows;
 };
 

@@ -20,6 +20,12 @@ using testing::HasSubstr;
 class LiveCommand : public CommandLine {
  protected:
   json State() const { return json::parse(Text("out/state.json")); }
+
+  // What writes the scan as the folder `cam` with one pose a frame.
+  static std::string WriteLikeACamera(const std::string& seconds) {
+    return "python3 '" + (SourceFolder() / "tests/apps/live/write_like_a_camera.py").string() +
+           "' scan cam " + seconds;
+  }
 };
 
 // Whatever was dropped, the result is that of all frames.
@@ -72,11 +78,8 @@ TEST_F(LiveCommand, FollowsAFolderThatGrows) {
   ASSERT_EQ(SimulateCube(40).exit_code, 0);
   const Outcome live = RunShell(
       "mkdir -p cam/color cam/depth cam/pose; "
-      "\"$CURVEFUSION\" live cam -o out --follow --idle 60 --quiet >output.txt 2>&1 & "
-      "python3 '" +
-      (SourceFolder() / "tests/apps/live/write_like_a_camera.py").string() +
-      "' scan cam 0.02; "
-      "wait $!");
+      "\"$CURVEFUSION\" live cam -o out --follow --idle 60 --quiet >output.txt 2>&1 & " +
+      WriteLikeACamera("0.02") + "; wait $!");
   ASSERT_EQ(live.exit_code, 0) << live.output;
   EXPECT_EQ(State()["frames"]["arrived"], 40);
   ASSERT_EQ(Run("reconstruct cam -o batch --quiet").exit_code, 0);
@@ -88,9 +91,8 @@ class StreamedLiveCommand : public LiveCommand {
   // A folder `cam` with one pose a frame.
   void RecordCube(int frames) {
     ASSERT_EQ(SimulateCube(frames).exit_code, 0);
-    const std::string writer = SourceFolder() / "tests/apps/live/write_like_a_camera.py";
-    const Outcome written = RunShell("mkdir -p cam/color cam/depth cam/pose && python3 '" + writer +
-                                     "' scan cam 0 && rm cam/end");
+    const Outcome written = RunShell("mkdir -p cam/color cam/depth cam/pose && " +
+                                     WriteLikeACamera("0") + " && rm cam/end");
     ASSERT_EQ(written.exit_code, 0) << written.output;
   }
 
