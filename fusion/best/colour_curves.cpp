@@ -1,12 +1,17 @@
 #include "fusion/best/colour_curves.h"
 
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "capture/frame_stream.h"
 #include "capture/image_mat.h"
 #include "fusion/appearance/local_contrast.h"
 #include "fusion/best/colour_fit.h"
+#include "fusion/best/curves_in_depth.h"
+#include "fusion/curve_graph/candidate_proof.h"
 #include "fusion/curve_graph/colour_candidates.h"
+#include "fusion/curve_graph/strip_snapping.h"
 #include "graph/contraction/ridge_skeleton.h"
 
 namespace curvefusion {
@@ -23,6 +28,10 @@ constexpr double kWidestStripPx = 12;
 constexpr double kFirstScale = 0.5;
 // Derived: twice the reach of a strip. Short paths know no better how far a place is.
 constexpr double kSamePlacePx = 3;
+// Chosen on 13 training scans by Azure Kinect and Kinect V2: of places that .5 of the images have
+// too .7 and more lie on wires, of those that fewer have .1 to .2 (docs/lab_notebook.md).
+constexpr double kMinSupport = 0.5;
+constexpr double kUsualRadius = 0.0025;  // chosen: metres, where no image shows how thick wires are
 
 // How a round looks at images.
 struct Look {
@@ -30,7 +39,11 @@ struct Look {
   CandidateOptions candidates;
 };
 
-Look LookOf(int round, bool has_depth, WireDepth depth, size_t max_rays) {
+Look LookOf(int round, bool has_depth, WireDepth depth, bool in_thin_pixels, size_t max_rays) {
+  if (in_thin_pixels) {
+    return {1,
+            {.places = CandidatePlaces::kFree, .max_rays = max_rays, .min_support = kMinSupport}};
+  }
   if (has_depth) {
     return {1,
             {.places = CandidatePlaces::kFree,
@@ -54,15 +67,34 @@ void ContractPlaces(const StripViews& views, const CandidateOptions& candidates,
   reporter.observer.OnGraph("from_colour", colour.skeleton);
 }
 
+// Leaves of the curves what strips prove.
+void KeepProven(StripViews& views, const StageReporter& reporter, Reconstruction& colour) {
+  const StageLog::Timer timer = reporter.Begin(kWiresFromColour);
+  const double measured = colour.radii.unmeasured_radius;
+  KeepProvenCandidates(colour.sequence, colour.points.positions,
+                       measured > 0 ? measured : kUsualRadius, views, colour.skeleton);
+  reporter.log.Count(kWiresFromColour, "proven length, m", colour.skeleton.TotalLength());
+}
+
 // Curves of known radius that images agree on.
-void FindCurves(const WireImages& images, const Eigen::AlignedBox3d& around, const Look& look,
-                const BestOptions& options, const StageReporter& reporter, Reconstruction& colour) {
+void FindCurves(const WireImages& images, const Eigen::AlignedBox3d& around,
+                const Reconstruction* thin, const Look& look, const BestOptions& options,
+                const StageReporter& reporter, Reconstruction& colour) {
+  std::optional<StripViews> views;
   {
     const StageLog::Timer timer = reporter.Begin(kWiresFromColour);
-    const StripViews views(colour.sequence, images.frames, images.posteriors, around, look.scale);
-    ContractPlaces(views, look.candidates, options, reporter, colour);
+    std::vector<PosteriorImage> kept;
+    if (thin != nullptr) kept = KeepThinInDepth(*thin, images.frames, images.posteriors);
+    views.emplace(colour.sequence, images.frames, thin != nullptr ? kept : images.posteriors,
+                  around, look.scale);
+    ContractPlaces(*views, look.candidates, options, reporter, colour);
+    if (thin != nullptr) SnapToStrips(*views, colour.skeleton);
   }
-  if (!colour.skeleton.empty()) AssignMeasuredRadii(0, options.radius, reporter, colour);
+  if (colour.skeleton.empty()) return;
+  AssignMeasuredRadii(0, options.radius, reporter, colour);
+  if (thin == nullptr) return;
+  KeepProven(*views, reporter, colour);
+  AssignMeasuredRadii(0, options.radius, reporter, colour);
 }
 
 }  // namespace
@@ -87,27 +119,27 @@ WireImages LookForContrast(const Sequence& sequence) {
   return images;
 }
 
-std::optional<ColourCurves> FitCurvesOfColour(const Sequence& sequence,
-                                              const AdjustmentStart& start,
-                                              Eigen::AlignedBox3d around,
-                                              const BestOptions& options,
-                                              const StageReporter& reporter, WireImages& images,
-                                              Reconstruction& colour) {
+std::optional<ColourCurves> FitCurvesOfColour(
+    const Sequence& sequence, const AdjustmentStart& start, Eigen::AlignedBox3d around,
+    const Reconstruction* thin, const BestOptions& options, const StageReporter& reporter,
+    WireImages& images, Reconstruction& colour) {
   colour.sequence = sequence;
   Reconstruction next;
   const auto find_adjusted = [&](int round, size_t max_rays) {
     next = {};
     next.sequence = colour.sequence;
-    FindCurves(images, around, LookOf(round, sequence.has_depth, start.depth, max_rays), options,
+    FindCurves(images, around, thin,
+               LookOf(round, sequence.has_depth, start.depth, thin != nullptr, max_rays), options,
                reporter, next);
     return AdjustCurvesAndPoses(start, options.colour_adjustment, reporter, next);
   };
-  size_t max_rays = CandidateOptions().max_rays;
+  size_t max_rays = thin != nullptr ? kManyRays : CandidateOptions().max_rays;
   std::optional<ColourCurves> fitted;
   for (int round = 0; round < kRounds; ++round) {
     std::optional<ColourAdjustment> again = find_adjusted(round, max_rays);
     // Of thin wires and rough poses few lines of sight find a place.
-    if (!again && round == 0 && sequence.has_depth && start.depth == WireDepth::kNotShown) {
+    if (!again && round == 0 && sequence.has_depth && start.depth == WireDepth::kNotShown &&
+        max_rays < kManyRays) {
       max_rays = kManyRays;
       again = find_adjusted(round, max_rays);
     }

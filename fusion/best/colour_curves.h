@@ -45,14 +45,15 @@ struct ColourCurves {
 /// object are contracted, and curves and poses adjusted to the images; with these poses and the
 /// colours then learned all of that once more. Depth says what stands before or behind a place.
 /// Where there is none, the first round looks at images of half the size, in which given poses err
-/// by half as many pixels, and the second one around what the first one found. `images` are those
-/// to begin with, in the end those with the colours learned last. Curves, points, radii and poses
-/// are those of `colour`. Nothing where no curve can be fitted.
-std::optional<ColourCurves> FitCurvesOfColour(const Sequence& sequence,
-                                              const AdjustmentStart& start,
-                                              Eigen::AlignedBox3d around,
-                                              const BestOptions& options,
-                                              const StageReporter& reporter, WireImages& images,
-                                              Reconstruction& colour);
+/// by half as many pixels, and the second one around what the first one found. Where `thin` is
+/// given, places are sought only in pixels around which it has points of something thin (at
+/// whatever distance), must be found from half of the images, and only what strips then prove
+/// stays: little, but right, to which rounds add the rest. `images` are those to begin with, in the
+/// end those with the colours learned last. Curves, points, radii and poses are those of `colour`.
+/// Nothing where no curve can be fitted.
+std::optional<ColourCurves> FitCurvesOfColour(
+    const Sequence& sequence, const AdjustmentStart& start, Eigen::AlignedBox3d around,
+    const Reconstruction* thin, const BestOptions& options, const StageReporter& reporter,
+    WireImages& images, Reconstruction& colour);
 
 }  // namespace curvefusion

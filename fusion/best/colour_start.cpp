@@ -19,6 +19,9 @@ namespace {
 
 constexpr double kStep = 0.003;       // metres, between the places that images are asked about
 constexpr double kShownAsWire = 0.9;  // of the images
+// Chosen on 13 training scans by Azure Kinect and Kinect V2, of which curves in thin pixels have
+// .52 to .96 where they are better than the others, .26 and .59 where not (docs/lab_notebook.md).
+constexpr double kMinOnCurves = 0.5;
 
 // Metres of curve, and how many of them the images show as wire.
 struct ShownCurves {
@@ -29,6 +32,11 @@ struct ShownCurves {
   bool IsBetterThan(const ShownCurves& other, DepthCurves others) const {
     const bool is_more = others == DepthCurves::kMisplaced || shown > other.shown;
     return is_more && 2 * shown - length > 2 * other.shown - other.length;
+  }
+
+  // Whether more of them is shown, however many there are.
+  bool IsShownMoreThan(const ShownCurves& other) const {
+    return shown * other.length > other.shown * length;
   }
 };
 
@@ -92,6 +100,18 @@ struct ColourFit {
   std::optional<ColourCurves> curves;
 };
 
+// How curves are sought.
+struct Attempt {
+  WireDepth depth = WireDepth::kNotShown;
+  bool in_thin_pixels = false;  // only around what depth has of something thin
+};
+
+// One after the other, until one gives curves that are better than depth's.
+std::vector<Attempt> AttemptsFor(DepthCurves depth_curves) {
+  if (depth_curves == DepthCurves::kNone) return {{}, {WireDepth::kLookedPast}};
+  return {{.in_thin_pixels = true}, {}, {WireDepth::kLookedPast}};
+}
+
 // Whether curves from colour agree with what depth shows, if it shows wires like that.
 bool IsLikely(bool depth_shows_them, const Reconstruction& result, const ColourFit& fit,
               const StageReporter& reporter) {
@@ -108,6 +128,21 @@ bool IsLikely(bool depth_shows_them, const Reconstruction& result, const ColourF
   return places.AreOpen();
 }
 
+// Whether the curves of an attempt replace depth's.
+bool IsAccepted(const Attempt& attempt, DepthCurves depth_curves, const ShownCurves& before,
+                const ShownCurves& after, const Reconstruction& result, const ColourFit& fit,
+                const StageReporter& reporter) {
+  if (attempt.in_thin_pixels) {
+    const double on_curves = ShareOnCurves(result, fit.colour, fit.images.frames);
+    reporter.log.Count(kWiresFromColour, "share of depth on curves", on_curves);
+    return on_curves >= kMinOnCurves && after.IsShownMoreThan(before);
+  }
+  const bool is_none = depth_curves == DepthCurves::kNone;
+  const bool shows_thin = attempt.depth == WireDepth::kNotShown && !is_none;
+  return IsLikely(shows_thin, result, fit, reporter) &&
+         (is_none || after.IsBetterThan(before, depth_curves));
+}
+
 }  // namespace
 
 std::optional<ColourCurves> StartFromColour(const Sequence& given, PoseErrors pose_errors,
@@ -121,10 +156,12 @@ std::optional<ColourCurves> StartFromColour(const Sequence& given, PoseErrors po
   const WireImages images =
       colours.posterior.empty() ? LookForContrast(given) : LookForColours(given, colours);
   const Eigen::AlignedBox3d around = RegionOf(given, result.points);
-  for (const WireDepth depth : {WireDepth::kNotShown, WireDepth::kLookedPast}) {
+  for (const Attempt& attempt : AttemptsFor(depth_curves)) {
     ColourFit fit = {images, {}, {}};
-    const AdjustmentStart start = {CameraPoses(given), pose_errors, depth, colours.posterior};
-    fit.curves = FitCurvesOfColour(given, start, around, options, reporter, fit.images, fit.colour);
+    const AdjustmentStart start = {CameraPoses(given), pose_errors, attempt.depth,
+                                   colours.posterior};
+    fit.curves = FitCurvesOfColour(given, start, around, attempt.in_thin_pixels ? &result : nullptr,
+                                   options, reporter, fit.images, fit.colour);
     if (!fit.curves) continue;
     const Sequence& fitted = fit.colour.sequence;
     const ShownCurves before = CountShown(
@@ -133,10 +170,10 @@ std::optional<ColourCurves> StartFromColour(const Sequence& given, PoseErrors po
     const ShownCurves after = CountShown(fitted, fit.images, fit.colour.skeleton);
     reporter.log.Count(kWiresFromColour, "of depth shown as wire, m", before.shown);
     reporter.log.Count(kWiresFromColour, "shown as wire, m", after.shown);
-    const bool shows_thin = depth == WireDepth::kNotShown && !is_none;
-    const bool is_likely = IsLikely(shows_thin, result, fit, reporter);
-    const bool is_better = is_likely && (is_none || after.IsBetterThan(before, depth_curves));
-    if (!is_asked_for && !is_better) continue;
+    const bool is_accepted =
+        IsAccepted(attempt, depth_curves, before, after, result, fit, reporter);
+    const bool is_taken = is_accepted || (is_asked_for && !attempt.in_thin_pixels);
+    if (!is_taken) continue;
     TakeCurves(std::move(fit.colour), result);
     result.warnings.push_back(fmt::format(
         "the curves come from the colour images alone, and their size from depth: the images show "
@@ -156,7 +193,7 @@ std::optional<ColourCurves> StartWithoutDepth(const Sequence& given, const BestO
   Reconstruction colour;
   WireImages images = LookForContrast(given);
   std::optional<ColourCurves> fitted =
-      FitCurvesOfColour(given, start, around, options, reporter, images, colour);
+      FitCurvesOfColour(given, start, around, nullptr, options, reporter, images, colour);
   if (!fitted) return std::nullopt;
   TakeCurves(std::move(colour), result);
   result.warnings.push_back(

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "capture/frame_stream.h"
+#include "kernel/parallel.h"
 #include "kernel/polyline.h"
 
 namespace curvefusion {
@@ -51,6 +52,10 @@ MaskImage CellsAround(const std::vector<Vec3>& points, const PinholeCamera& cell
         around(u, v) = 1;
   }
   return around;
+}
+
+PinholeCamera ThinCells(const PinholeCamera& camera) {
+  return camera.Scaled(640 / (kThinCellPx * camera.width));
 }
 
 // Whether depth lies behind a place on both sides of the curve that it lies on: what is there is a
@@ -113,10 +118,51 @@ PlacesInDepth LookUpDepth(const Sequence& sequence, const SkeletonGraph& skeleto
   return places;
 }
 
+std::vector<PosteriorImage> KeepThinInDepth(const Reconstruction& depth,
+                                            const std::vector<int>& frames,
+                                            std::vector<PosteriorImage> posteriors) {
+  ParallelFor(0, static_cast<int64_t>(frames.size()), 1, [&](int64_t i) {
+    const MaskImage around =
+        CellsAround(depth.points.positions, ThinCells(depth.sequence.color_camera),
+                    depth.sequence.T_color_world(frames[i]));
+    PosteriorImage& image = posteriors[i];
+    for (int v = 0; v < image.height(); ++v) {
+      const uint8_t* cells = around.row(v * around.height() / image.height());
+      uint8_t* likely = image.row(v);
+      for (int u = 0; u < image.width(); ++u)
+        if (cells[u * around.width() / image.width()] == 0) likely[u] = 0;
+    }
+  });
+  return posteriors;
+}
+
+double ShareOnCurves(const Reconstruction& depth, const Reconstruction& colour,
+                     const std::vector<int>& frames) {
+  const PinholeCamera cells = ThinCells(depth.sequence.color_camera);
+  std::vector<Vec3> curves;
+  for (const EdgeId id : colour.skeleton.Edges()) {
+    const Polyline points = Resample(colour.skeleton.edge(id).points, kStep);
+    curves.insert(curves.end(), points.begin(), points.end());
+  }
+  size_t looked = 0, explained = 0;
+  for (const int frame : EvenlyThinned(frames, kThinImages)) {
+    const MaskImage around = CellsAround(curves, cells, colour.sequence.T_color_world(frame));
+    const RigidTransform T_color_world = depth.sequence.T_color_world(frame);
+    for (const Vec3& point : depth.points.positions) {
+      const Vec3 p = T_color_world * point;
+      if (p.z() <= 0 || !cells.Contains(cells.Project(p))) continue;
+      const Eigen::Vector2i at = PinholeCamera::Rounded(cells.Project(p));
+      ++looked;
+      explained += around(at.x(), at.y());
+    }
+  }
+  return Share(explained, looked);
+}
+
 double ShareThinInDepth(const Reconstruction& depth, const Reconstruction& colour,
                         const std::vector<int>& frames) {
   const PinholeCamera& camera = depth.sequence.color_camera;
-  const PinholeCamera cells = camera.Scaled(640 / (kThinCellPx * camera.width));
+  const PinholeCamera cells = ThinCells(camera);
   size_t looked = 0, thin = 0;
   for (const int frame : EvenlyThinned(frames, kThinImages)) {
     const MaskImage around =

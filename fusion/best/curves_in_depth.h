@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "capture/sequence.h"
+#include "fusion/appearance/wire_posterior.h"
 #include "fusion/reconstruction.h"
 #include "graph/skeleton_graph.h"
 
@@ -28,6 +29,12 @@ struct PlacesInDepth {
 PlacesInDepth LookUpDepth(const Sequence& sequence, const SkeletonGraph& skeleton,
                           const std::vector<int>& frames);
 
+/// How likely pixels of these frames' images show wire, zero where depth has no points of something
+/// thin around them, at whatever distance.
+std::vector<PosteriorImage> KeepThinInDepth(const Reconstruction& depth,
+                                            const std::vector<int>& frames,
+                                            std::vector<PosteriorImage> posteriors);
+
 /// How much of the curves from colour lies, in 20 of the frames, where depth has points of
 /// something thin, in whatever distance: a share of the places of all images.
 double ShareThinInDepth(const Reconstruction& depth, const Reconstruction& colour,
@@ -35,5 +42,10 @@ double ShareThinInDepth(const Reconstruction& depth, const Reconstruction& colou
 
 /// Whether the share is that of wires, not of what is painted on surfaces.
 bool IsThinInDepth(double share);
+
+/// How much of what depth has of something thin lies, in 20 of the frames, where the curves from
+/// colour are, in whatever distance: a share of the points of all images.
+double ShareOnCurves(const Reconstruction& depth, const Reconstruction& colour,
+                     const std::vector<int>& frames);
 
 }  // namespace curvefusion

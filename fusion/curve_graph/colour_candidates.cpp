@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "kernel/parallel.h"
+#include "kernel/point_grid.h"
 #include "kernel/thinned.h"
 
 namespace curvefusion {
@@ -19,9 +20,11 @@ constexpr double kCoarsePx = 3;         // steps along a line of sight, in the v
 constexpr double kFinePx = 0.5;         // likewise
 constexpr double kCoarseEvidence = 1;   // least log-likelihood ratio
 constexpr double kFineEvidence = 3.5;
-constexpr double kAmbiguous = 1.5;     // less of it between two places of one line of sight
-constexpr double kMinBaseline = 0.02;  // metres
-constexpr double kSamePlace = 0.015;   // metres; places nearer to each other are one wire
+constexpr double kAmbiguous = 1.5;       // less of it between two places of one line of sight
+constexpr double kMinBaseline = 0.02;    // metres
+constexpr double kSamePlace = 0.015;     // metres; places nearer to each other are one wire
+constexpr double kSupportReach = 0.004;  // metres across lines of sight
+constexpr double kUncertainPx = 2;
 constexpr int kMinFirstLooks = 2;
 constexpr int kMinFullLooks = 4;  // where all of them show a strip
 constexpr int kMinLooks = 8;
@@ -74,6 +77,7 @@ class CandidateSearch {
     std::vector<Found> found;
     for (size_t i = 0; i < rays.size(); ++i)
       if (places[i]) found.push_back({rays[i], *places[i]});
+    if (options_.min_support > 0) found = Supported(found);
     if (options_.follow) Follow(found);
     ObservedPoints points;
     for (const auto& [ray, place] : found) {
@@ -95,6 +99,41 @@ class CandidateSearch {
     Ray ray;
     double distance = 0;
   };
+
+  // How far along its line of sight a place may be wrong, metres.
+  double Uncertainty(const Found& one) const {
+    const View& view = views_.views()[one.ray.first];
+    const double step =
+        Step(one.place.distance, BaselineOf(view, one.place.position), kUncertainPx);
+    return std::clamp(step, kSupportReach, kSamePlace);
+  }
+
+  // Places of which other images have some as well.
+  std::vector<Found> Supported(const std::vector<Found>& found) const {
+    std::vector<Vec3> positions;
+    for (const Found& one : found) positions.push_back(one.place.position);
+    const PointGrid grid(positions, kSamePlace);
+    const size_t references = (views_.views().size() + kReferenceStride - 1) / kReferenceStride;
+    const double least = options_.min_support * static_cast<double>(references);
+    std::vector<char> is_supported(found.size());
+    ParallelFor(0, static_cast<int64_t>(found.size()), 16, [&](int64_t i) {
+      const Vec3& p = positions[i];
+      const Vec3 sight = (p - views_.views()[found[i].ray.first].center).normalized();
+      const double uncertainty = Uncertainty(found[i]);
+      std::vector<char> has_place(references, 0);
+      grid.ForEachWithin(p, std::hypot(kSupportReach, uncertainty), [&](int j, const Vec3& other) {
+        const double along = (other - p).dot(sight);
+        const double across = (other - p - along * sight).norm();
+        if (std::abs(along) <= uncertainty && across <= kSupportReach)
+          has_place[found[j].ray.first / kReferenceStride] = 1;
+      });
+      is_supported[i] = static_cast<double>(std::ranges::count(has_place, 1)) >= least;
+    });
+    std::vector<Found> supported;
+    for (size_t i = 0; i < found.size(); ++i)
+      if (is_supported[i]) supported.push_back(found[i]);
+    return supported;
+  }
 
   // Pixels of strips that were not looked at, for each view that lines of sight start in.
   std::vector<MaskImage> OpenPixels() const {

@@ -25,6 +25,9 @@ struct CandidateOptions {
   /// Lines of sight, evenly thinned. Chosen on the four shared scans without depth, between numbers
   /// that 15 training scans do not tell apart (docs/lab_notebook.md).
   size_t max_rays = 5000;
+  /// Of the images that lines of sight start in, at least so many must have a place near each
+  /// place: a share.
+  double min_support = 0;
 };
 
 /// Measured: lines of sight to wires that depth has lost, and to those of a scan from colour alone

@@ -1,5 +1,7 @@
 #include "fusion/live/live_reconstruction.h"
 
+#include <tbb/parallel_invoke.h>
+
 #include <ctime>
 #include <utility>
 
@@ -72,8 +74,12 @@ LiveSnapshot LiveReconstruction::Snapshot() {
 void LiveReconstruction::IntegrateLatest() {
   if (frame_count_ % options_.volume_stride != 0) return;
   const ProcessorTimer timer(cost_.volume);
-  volume_.Integrate(LoadDepth(bundle_, bundle_.frame_count() - 1), bundle_.depth_camera,
-                    bundle_.frames.back().T_world_camera);
+  const int latest = bundle_.frame_count() - 1;
+  DepthImage depth;
+  // The colour image is kept for the segmentation, which looks at the same frames.
+  tbb::parallel_invoke([&] { depth = LoadDepth(bundle_, latest); },
+                       [&] { LoadColor(bundle_, latest); });
+  volume_.Integrate(depth, bundle_.depth_camera, bundle_.frames.back().T_world_camera);
 }
 
 // Once there are too many, every second one is forgotten.

@@ -87,6 +87,12 @@ class ColourStart : public testing::Test {
     for (const double x : {-0.1, 0.1}) result_.points.Add({x, x, 0}, Vec3::UnitZ(), 1);
   }
 
+  // Most of what depth has of something thin lies on no wire.
+  void AddStrayPoints() {
+    for (double x = -0.3; x < -0.12; x += 0.003)
+      for (double y = -0.1; y < 0.1; y += 0.003) result_.points.Add({x, y, 0}, Vec3::UnitZ(), 1);
+  }
+
   double Count(const std::string& name) const {
     double count = 0;
     for (const StageReport& stage : log_.stages())
@@ -122,11 +128,25 @@ TEST_F(ColourStart, FindsWiresThatDepthShowsInWrongPlaces) {
   EXPECT_EQ(result_.warnings.size(), 1u);
 }
 
+// A few curves of which all is shown are a better start than many of which most is not.
+TEST_F(ColourStart, StartsWithTheWireAtWhichDepthShowsSomethingThin) {
+  result_.skeleton = WiresOffBy(0.04);
+  AddPointsAtOneWire();
+  const std::optional<ColourCurves> started =
+      StartWithCurves(DefaultBestOptions(), DepthCurves::kDoubtful);
+  ASSERT_TRUE(started.has_value());
+  EXPECT_EQ(started->start.depth, WireDepth::kNotShown);
+  EXPECT_GT(Count("share of depth on curves"), 0.9);
+  EXPECT_LT(result_.skeleton.TotalLength(), 1.2 * Length(kWires[0]));
+  EXPECT_LT(MedianDistance(), 0.001);
+}
+
 // Strips where depth shows nothing thin are painted on something.
 TEST_F(ColourStart, LeavesCurvesWhereDepthShowsNothingThinAtTheNewOnes) {
   const SilhouetteScan near_wall(kWires, {}, 0.655);
   result_.skeleton = WiresOffBy(0.04);
   AddPointsAtOneWire();
+  AddStrayPoints();
   EXPECT_FALSE(StartIn(near_wall, DefaultBestOptions(), DepthCurves::kDoubtful).has_value());
   EXPECT_GT(Count("share thin in depth"), 0.1);
   EXPECT_LT(Count("share thin in depth"), 0.6);
@@ -137,6 +157,7 @@ TEST_F(ColourStart, LeavesCurvesWhereDepthShowsNothingThinAtTheNewOnes) {
 TEST_F(ColourStart, TakesCurvesThatDepthLooksPast) {
   result_.skeleton = WiresOffBy(0.04);
   AddPointsAtOneWire();
+  AddStrayPoints();
   const std::optional<ColourCurves> started =
       StartWithCurves(DefaultBestOptions(), DepthCurves::kDoubtful);
   ASSERT_TRUE(started.has_value());
@@ -221,6 +242,7 @@ TEST_F(ColourStart, DoubtfulCurvesGiveWayOnlyWhereMoreIsShown) {
       AddTestEdge(result_.skeleton, TestLine({x, 0.04, 0}, {x, 0.08, 0}));
     }
     AddPointsBehindWires(0);
+    for (int i = 0; i < 3; ++i) AddStrayPoints();
     return StartWithCurves(DefaultBestOptions(), depth_curves).has_value();
   };
   EXPECT_FALSE(with_what_nothing_shows(DepthCurves::kDoubtful));

@@ -79,5 +79,43 @@ TEST_F(CurvesInDepth, WhatIsHiddenTellsNothing) {
   EXPECT_FALSE(places.AreOpen());
 }
 
+// An upright wire of which depth has points, at whatever distance along its line of sight.
+class ThinInDepth : public testing::Test {
+ protected:
+  ThinInDepth() {
+    depth_.sequence.color_camera = depth_.sequence.depth_camera = {640, 480, 525, 525, 320, 240};
+    depth_.sequence.frames.resize(1);
+    depth_.sequence.frames[0].T_world_camera = RigidTransform::Identity();
+    for (const Vec3& p : TestLine({0, -0.1, kRange}, {0, 0.1, kRange}))
+      depth_.points.Add(1.1 * p, Vec3::UnitZ(), 1);
+  }
+
+  // A wire beside it, seen by the same camera.
+  Reconstruction WireAt(double x) const {
+    Reconstruction colour;
+    colour.sequence = depth_.sequence;
+    AddTestEdge(colour.skeleton, TestLine({x, -0.1, kRange}, {x, 0.1, kRange}));
+    return colour;
+  }
+
+  Reconstruction depth_;
+};
+
+TEST_F(ThinInDepth, PixelsElsewhereAreUnlikelyWire) {
+  const std::vector<PosteriorImage> kept =
+      KeepThinInDepth(depth_, {0}, {PosteriorImage(640, 480, 200)});
+  EXPECT_EQ(kept[0](320, 240), 200);
+  EXPECT_EQ(kept[0](332, 240), 200);
+  EXPECT_EQ(kept[0](350, 240), 0);
+  EXPECT_EQ(kept[0](320, 380), 0);
+}
+
+TEST_F(ThinInDepth, IsOnCurvesInItsPixels) {
+  EXPECT_EQ(ShareOnCurves(depth_, WireAt(0), {0}), 1);
+  EXPECT_EQ(ShareOnCurves(depth_, WireAt(0.1), {0}), 0);
+  EXPECT_EQ(ShareThinInDepth(depth_, WireAt(0), {0}), 1);
+  EXPECT_EQ(ShareThinInDepth(depth_, WireAt(0.1), {0}), 0);
+}
+
 }  // namespace
 }  // namespace curvefusion

@@ -66,6 +66,22 @@ TEST(ColourCandidates, FollowedAlongTheirStripsAreMore) {
   EXPECT_GT(share_on_wires(followed), 0.98 * share_on_wires(few));
 }
 
+// Of a wire that all images see places stay, where most propose some; where all must, fewer do.
+TEST(ColourCandidates, ArePlacesThatEnoughImagesPropose) {
+  const SilhouetteScan scan({kStem, kTwig}, {}, kBehind);
+  const StripViews views = scan.Strips(Known());
+  const auto find = [&views](double min_support) {
+    return FindColourCandidates(views,
+                                {.places = CandidatePlaces::kFree, .min_support = min_support},
+                                [](int64_t, int64_t) {});
+  };
+  const size_t all = find(0).size();
+  EXPECT_GT(find(0.5).size(), 0.95 * static_cast<double>(all));
+  EXPECT_GT(find(1).size(), 0u);
+  EXPECT_LT(find(1).size(), all);
+  EXPECT_TRUE(find(1.01).empty());
+}
+
 TEST(ColourCandidates, NoneWhereCurvesExplainAllStrips) {
   const SilhouetteScan scan({kStem, kTwig}, {}, kBehind);
   SkeletonGraph graph = Known();
