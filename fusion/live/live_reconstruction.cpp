@@ -94,13 +94,13 @@ void LiveReconstruction::AddToSample(const SequenceFrame& frame) {
   sample_stride_ *= 2;
 }
 
-// Each time the frames have doubled: the work of one frame stays the same on average.
+// Each time the frames have trebled: the work of one frame falls.
 void LiveReconstruction::LearnIfDue() {
   if (frame_count_ < learn_at_) return;
   const ProcessorTimer timer(cost_.learning);
   model_ = LearnSegmentation(sample_, volume_, options_.segmentation);
   model_.frame_stride = kFrameStride;
-  learn_at_ = 2 * frame_count_;
+  learn_at_ = 3 * frame_count_;
 }
 
 SegmentedBundle LiveReconstruction::SegmentFrames() {
