@@ -58,6 +58,42 @@ PinholeCamera ThinCells(const PinholeCamera& camera) {
   return camera.Scaled(640 / (kThinCellPx * camera.width));
 }
 
+// Places in the world of a sequence's poses.
+struct PosedPlaces {
+  std::vector<Vec3> places;
+  const Sequence& sequence;
+};
+
+std::vector<Vec3> PlacesAlong(const SkeletonGraph& skeleton) {
+  std::vector<Vec3> places;
+  for (const EdgeId id : skeleton.Edges()) {
+    const Polyline points = Resample(skeleton.edge(id).points, kStep);
+    places.insert(places.end(), points.begin(), points.end());
+  }
+  return places;
+}
+
+// How many of the places, over 20 images, lie in pixels around which others do, at whatever
+// distance.
+double ShareInPixelsOf(const PosedPlaces& others, const PosedPlaces& places,
+                       const std::vector<int>& frames) {
+  const PinholeCamera cells = ThinCells(others.sequence.color_camera);
+  size_t looked = 0, found = 0;
+  for (const int frame : EvenlyThinned(frames, kThinImages)) {
+    const MaskImage around =
+        CellsAround(others.places, cells, others.sequence.T_color_world(frame));
+    const RigidTransform T_color_world = places.sequence.T_color_world(frame);
+    for (const Vec3& place : places.places) {
+      const Vec3 p = T_color_world * place;
+      if (p.z() <= 0 || !cells.Contains(cells.Project(p))) continue;
+      const Eigen::Vector2i at = PinholeCamera::Rounded(cells.Project(p));
+      ++looked;
+      found += around(at.x(), at.y());
+    }
+  }
+  return Share(found, looked);
+}
+
 // Whether depth lies behind a place on both sides of the curve that it lies on: what is there is a
 // wire, or nothing.
 bool IsOpenOnBothSides(const DepthImage& depth, const Vec2& pixel, const Vec2& along,
@@ -136,51 +172,18 @@ std::vector<PosteriorImage> KeepThinInDepth(const Reconstruction& depth,
   return posteriors;
 }
 
-double ShareOnCurves(const Reconstruction& depth, const Reconstruction& colour,
-                     const std::vector<int>& frames) {
-  const PinholeCamera cells = ThinCells(depth.sequence.color_camera);
-  std::vector<Vec3> curves;
-  for (const EdgeId id : colour.skeleton.Edges()) {
-    const Polyline points = Resample(colour.skeleton.edge(id).points, kStep);
-    curves.insert(curves.end(), points.begin(), points.end());
-  }
-  size_t looked = 0, explained = 0;
-  for (const int frame : EvenlyThinned(frames, kThinImages)) {
-    const MaskImage around = CellsAround(curves, cells, colour.sequence.T_color_world(frame));
-    const RigidTransform T_color_world = depth.sequence.T_color_world(frame);
-    for (const Vec3& point : depth.points.positions) {
-      const Vec3 p = T_color_world * point;
-      if (p.z() <= 0 || !cells.Contains(cells.Project(p))) continue;
-      const Eigen::Vector2i at = PinholeCamera::Rounded(cells.Project(p));
-      ++looked;
-      explained += around(at.x(), at.y());
-    }
-  }
-  return Share(explained, looked);
-}
-
 double ShareThinInDepth(const Reconstruction& depth, const Reconstruction& colour,
                         const std::vector<int>& frames) {
-  const PinholeCamera& camera = depth.sequence.color_camera;
-  const PinholeCamera cells = ThinCells(camera);
-  size_t looked = 0, thin = 0;
-  for (const int frame : EvenlyThinned(frames, kThinImages)) {
-    const MaskImage around =
-        CellsAround(depth.points.positions, cells, depth.sequence.T_color_world(frame));
-    const RigidTransform T_color_world = colour.sequence.T_color_world(frame);
-    for (const EdgeId id : colour.skeleton.Edges()) {
-      for (const Vec3& point : Resample(colour.skeleton.edge(id).points, kStep)) {
-        const Vec3 p = T_color_world * point;
-        if (p.z() <= 0 || !cells.Contains(cells.Project(p))) continue;
-        const Eigen::Vector2i at = PinholeCamera::Rounded(cells.Project(p));
-        ++looked;
-        thin += around(at.x(), at.y());
-      }
-    }
-  }
-  return Share(thin, looked);
+  return ShareInPixelsOf({depth.points.positions, depth.sequence},
+                         {PlacesAlong(colour.skeleton), colour.sequence}, frames);
 }
 
 bool IsThinInDepth(double share) { return share >= kMinThinInDepth; }
+
+double ShareOnCurves(const Reconstruction& depth, const Reconstruction& colour,
+                     const std::vector<int>& frames) {
+  return ShareInPixelsOf({PlacesAlong(colour.skeleton), colour.sequence},
+                         {depth.points.positions, depth.sequence}, frames);
+}
 
 }  // namespace curvefusion

@@ -1,11 +1,10 @@
 #include "fusion/live/live_reconstruction.h"
 
-#include <tbb/parallel_invoke.h>
-
 #include <ctime>
 #include <utility>
 
 #include "fusion/registration/ray_noise.h"
+#include "kernel/parallel.h"
 
 namespace curvefusion {
 
@@ -76,9 +75,12 @@ void LiveReconstruction::IntegrateLatest() {
   const ProcessorTimer timer(cost_.volume);
   const int latest = bundle_.frame_count() - 1;
   DepthImage depth;
-  // The colour image is kept for the segmentation, which looks at the same frames.
-  tbb::parallel_invoke([&] { depth = LoadDepth(bundle_, latest); },
-                       [&] { LoadColor(bundle_, latest); });
+  // The colour image is kept for the segmentation, which as a rule looks at the same frames.
+  const int images = latest % kFrameStride == 0 ? 2 : 1;
+  ParallelFor(0, images, 1, [&](int64_t i) {
+    if (i == 0) depth = LoadDepth(bundle_, latest);
+    if (i == 1) LoadColor(bundle_, latest);
+  });
   volume_.Integrate(depth, bundle_.depth_camera, bundle_.frames.back().T_world_camera);
 }
 

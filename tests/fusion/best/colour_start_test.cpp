@@ -87,6 +87,12 @@ class ColourStart : public testing::Test {
     for (const double x : {-0.1, 0.1}) result_.points.Add({x, x, 0}, Vec3::UnitZ(), 1);
   }
 
+  std::optional<ColourCurves> StartWithPointsAtOneWire() {
+    result_.skeleton = WiresOffBy(0.04);
+    AddPointsAtOneWire();
+    return StartWithCurves(DefaultBestOptions(), DepthCurves::kDoubtful);
+  }
+
   // Most of what depth has of something thin lies on no wire.
   void AddStrayPoints() {
     for (double x = -0.3; x < -0.12; x += 0.003)
@@ -130,10 +136,7 @@ TEST_F(ColourStart, FindsWiresThatDepthShowsInWrongPlaces) {
 
 // A few curves of which all is shown are a better start than many of which most is not.
 TEST_F(ColourStart, StartsWithTheWireAtWhichDepthShowsSomethingThin) {
-  result_.skeleton = WiresOffBy(0.04);
-  AddPointsAtOneWire();
-  const std::optional<ColourCurves> started =
-      StartWithCurves(DefaultBestOptions(), DepthCurves::kDoubtful);
+  const std::optional<ColourCurves> started = StartWithPointsAtOneWire();
   ASSERT_TRUE(started.has_value());
   EXPECT_EQ(started->start.depth, WireDepth::kNotShown);
   EXPECT_GT(Count("share of depth on curves"), 0.9);
@@ -155,11 +158,8 @@ TEST_F(ColourStart, LeavesCurvesWhereDepthShowsNothingThinAtTheNewOnes) {
 
 // Depth shows what is far behind them: it does not show the wires at all.
 TEST_F(ColourStart, TakesCurvesThatDepthLooksPast) {
-  result_.skeleton = WiresOffBy(0.04);
-  AddPointsAtOneWire();
   AddStrayPoints();
-  const std::optional<ColourCurves> started =
-      StartWithCurves(DefaultBestOptions(), DepthCurves::kDoubtful);
+  const std::optional<ColourCurves> started = StartWithPointsAtOneWire();
   ASSERT_TRUE(started.has_value());
   EXPECT_EQ(started->start.depth, WireDepth::kLookedPast);
   EXPECT_LT(Count("share thin in depth"), 0.6);
