@@ -28,8 +28,9 @@ constexpr double kWidestStripPx = 12;
 constexpr double kFirstScale = 0.5;
 // Derived: twice the reach of a strip. Short paths know no better how far a place is.
 constexpr double kSamePlacePx = 3;
-// Chosen on 13 training scans by Azure Kinect and Kinect V2: of places that .5 of the images have
-// too .7 and more lie on wires, of those that fewer have .1 to .2 (docs/lab_notebook.md).
+// Chosen on 13 training scans by Azure Kinect and Kinect V2. Of places that half of the images have
+// too .47 to 1.00 lie on wires, of those that fewer have .03 to .22 (two of the scans,
+// docs/lab_notebook.md).
 constexpr double kMinSupport = 0.5;
 constexpr double kUsualRadius = 0.0025;  // chosen: metres, where no image shows how thick wires are
 

@@ -20,7 +20,8 @@ namespace {
 constexpr double kStep = 0.003;       // metres, between the places that images are asked about
 constexpr double kShownAsWire = 0.9;  // of the images
 // Chosen on 13 training scans by Azure Kinect and Kinect V2, of which curves in thin pixels have
-// .52 to .96 where they are better than the others, .26 and .59 where not (docs/lab_notebook.md).
+// .52 to .96 where they are better than others or hardly worse, .26 where they are much worse
+// (docs/lab_notebook.md).
 constexpr double kMinOnCurves = 0.5;
 
 // Metres of curve, and how many of them the images show as wire.
