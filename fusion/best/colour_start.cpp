@@ -94,54 +94,59 @@ Eigen::AlignedBox3d RegionOf(const Sequence& sequence, const ObservedPoints& poi
   return around.isEmpty() ? RegionSeenByMost(sequence) : around;
 }
 
-// Curves from colour and what they were fitted with.
-struct ColourFit {
-  WireImages images;
-  Reconstruction colour;
-  std::optional<ColourCurves> curves;
-};
-
 // How curves are sought.
 struct Attempt {
   WireDepth depth = WireDepth::kNotShown;
   bool in_thin_pixels = false;  // only around what depth has of something thin
 };
 
-// One after the other, until one gives curves that are better than depth's.
-std::vector<Attempt> AttemptsFor(DepthCurves depth_curves) {
-  if (depth_curves == DepthCurves::kNone) return {{}, {WireDepth::kLookedPast}};
-  return {{.in_thin_pixels = true}, {}, {WireDepth::kLookedPast}};
+// Curves from colour and what speaks for them.
+struct ColourFit {
+  Attempt attempt;
+  std::vector<int> frames;
+  Reconstruction colour;
+  ColourCurves curves;
+  ShownCurves depth_shown, shown;
+  double on_curves = 0;  // share of what depth has of something thin
+};
+
+void ReportShown(const ColourFit& fit, StageLog& log) {
+  log.Count(kWiresFromColour, "of depth shown as wire, m", fit.depth_shown.shown);
+  log.Count(kWiresFromColour, "shown as wire, m", fit.shown.shown);
+  log.Count(kWiresFromColour, "share of depth on curves", fit.on_curves);
+}
+
+// Those of one row compete; the next row is tried where none of them is better than depth's curves.
+std::vector<std::vector<Attempt>> AttemptsFor(DepthCurves depth_curves) {
+  const Attempt whole_images, looked_past = {WireDepth::kLookedPast};
+  if (depth_curves == DepthCurves::kNone) return {{whole_images}, {looked_past}};
+  return {{{.in_thin_pixels = true}, whole_images}, {looked_past}};
 }
 
 // Whether curves from colour agree with what depth shows, if it shows wires like that.
 bool IsLikely(bool depth_shows_them, const Reconstruction& result, const ColourFit& fit,
               const StageReporter& reporter) {
   if (depth_shows_them) {
-    const double thin = ShareThinInDepth(result, fit.colour, fit.images.frames);
+    const double thin = ShareThinInDepth(result, fit.colour, fit.frames);
     reporter.log.Count(kWiresFromColour, "share thin in depth", thin);
     return IsThinInDepth(thin);
   }
-  const PlacesInDepth places =
-      LookUpDepth(fit.colour.sequence, fit.colour.skeleton, fit.images.frames);
+  const PlacesInDepth places = LookUpDepth(fit.colour.sequence, fit.colour.skeleton, fit.frames);
   reporter.log.Count(kWiresFromColour, "places looked at in depth", places.looked);
   reporter.log.Count(kWiresFromColour, "places measured in depth", places.measured);
   reporter.log.Count(kWiresFromColour, "share free in depth", places.ShareOpen());
   return places.AreOpen();
 }
 
-// Whether the curves of an attempt replace depth's.
-bool IsAccepted(const Attempt& attempt, DepthCurves depth_curves, const ShownCurves& before,
-                const ShownCurves& after, const Reconstruction& result, const ColourFit& fit,
+// Whether they may replace depth's.
+bool IsAccepted(const ColourFit& fit, DepthCurves depth_curves, const Reconstruction& result,
                 const StageReporter& reporter) {
-  if (attempt.in_thin_pixels) {
-    const double on_curves = ShareOnCurves(result, fit.colour, fit.images.frames);
-    reporter.log.Count(kWiresFromColour, "share of depth on curves", on_curves);
-    return on_curves >= kMinOnCurves && after.IsShownMoreThan(before);
-  }
+  if (fit.attempt.in_thin_pixels)
+    return fit.on_curves >= kMinOnCurves && fit.shown.IsShownMoreThan(fit.depth_shown);
   const bool is_none = depth_curves == DepthCurves::kNone;
-  const bool shows_thin = attempt.depth == WireDepth::kNotShown && !is_none;
+  const bool shows_thin = fit.attempt.depth == WireDepth::kNotShown && !is_none;
   return IsLikely(shows_thin, result, fit, reporter) &&
-         (is_none || after.IsBetterThan(before, depth_curves));
+         (is_none || fit.shown.IsBetterThan(fit.depth_shown, depth_curves));
 }
 
 }  // namespace
@@ -157,30 +162,44 @@ std::optional<ColourCurves> StartFromColour(const Sequence& given, PoseErrors po
   const WireImages images =
       colours.posterior.empty() ? LookForContrast(given) : LookForColours(given, colours);
   const Eigen::AlignedBox3d around = RegionOf(given, result.points);
-  for (const Attempt& attempt : AttemptsFor(depth_curves)) {
-    ColourFit fit = {images, {}, {}};
+
+  const auto fit_curves = [&](const Attempt& attempt) -> std::optional<ColourFit> {
+    WireImages learned = images;
+    Reconstruction colour;
     const AdjustmentStart start = {CameraPoses(given), pose_errors, attempt.depth,
                                    colours.posterior};
-    fit.curves = FitCurvesOfColour(given, start, around, attempt.in_thin_pixels ? &result : nullptr,
-                                   options, reporter, fit.images, fit.colour);
-    if (!fit.curves) continue;
+    std::optional<ColourCurves> curves =
+        FitCurvesOfColour(given, start, around, attempt.in_thin_pixels ? &result : nullptr, options,
+                          reporter, learned, colour);
+    if (!curves) return std::nullopt;
+    ColourFit fit = {attempt, learned.frames, std::move(colour), *std::move(curves)};
     const Sequence& fitted = fit.colour.sequence;
-    const ShownCurves before = CountShown(
-        fitted, fit.images,
+    fit.depth_shown = CountShown(
+        fitted, learned,
         Transformed(result.skeleton, AffineTransform(MeanMotion(result.sequence, fitted))));
-    const ShownCurves after = CountShown(fitted, fit.images, fit.colour.skeleton);
-    reporter.log.Count(kWiresFromColour, "of depth shown as wire, m", before.shown);
-    reporter.log.Count(kWiresFromColour, "shown as wire, m", after.shown);
-    const bool is_accepted =
-        IsAccepted(attempt, depth_curves, before, after, result, fit, reporter);
-    const bool is_taken = is_accepted || (is_asked_for && !attempt.in_thin_pixels);
-    if (!is_taken) continue;
-    TakeCurves(std::move(fit.colour), result);
+    fit.shown = CountShown(fitted, learned, fit.colour.skeleton);
+    fit.on_curves = ShareOnCurves(result, fit.colour, fit.frames);
+    ReportShown(fit, reporter.log);
+    return fit;
+  };
+
+  for (const std::vector<Attempt>& competing : AttemptsFor(depth_curves)) {
+    std::optional<ColourFit> best;
+    for (const Attempt& attempt : competing) {
+      std::optional<ColourFit> fit = fit_curves(attempt);
+      if (!fit) continue;
+      const bool is_accepted = IsAccepted(*fit, depth_curves, result, reporter) ||
+                               (is_asked_for && !attempt.in_thin_pixels);
+      if (is_accepted && (!best || fit->on_curves > best->on_curves)) best = std::move(fit);
+    }
+    if (!best) continue;
+    ReportShown(*best, reporter.log);  // not those tried last
+    TakeCurves(std::move(best->colour), result);
     result.warnings.push_back(fmt::format(
         "the curves come from the colour images alone, and their size from depth: the images show "
         "{:.2f} m of them as wire, and {:.2f} of {:.2f} m of depth's",
-        after.shown, before.shown, before.length));
-    return std::move(fit.curves);
+        best->shown.shown, best->depth_shown.shown, best->depth_shown.length));
+    return std::move(best->curves);
   }
   return std::nullopt;
 }

@@ -25,18 +25,19 @@ enum class DepthCurves {
 /// has the poses that are started from, which err as told); with the poses and colours then learned
 /// all of that once more. Scale is left to HoldToScaleOfDepth.
 ///
-/// Places are sought in turn, until curves from them replace curves, points, radii and poses of the
-/// result:
-/// - in pixels around which depth has points of something thin: of what is proven there the images
-///   must show a greater share as wire than of depth's curves, and half of those points must lie in
-///   pixels of it. It may be little: a start;
+/// Places are sought in these ways, until curves from them replace curves, points, radii and poses
+/// of the result. Of the first two, those curves are taken in whose pixels more of the points lie
+/// that depth has of something thin:
+/// - in pixels around which depth has such points: of what is proven there the images must show a
+///   greater share as wire than of depth's curves, and half of those points must lie in pixels of
+///   it. It may be little: a start;
 /// - in whole images: these must show more metres as wire, metres that they do not show taken off,
 ///   than of depth's curves; where those are only doubtful, also more without taking any off, as
 ///   images that hardly show depth's curves may hardly show wires at all. Most of the new curves
 ///   must lie in pixels in which depth shows something thin, as what is painted on surfaces does
 ///   not;
-/// - the same, but as depth may not show them at all, strips are followed from place to place, and
-///   depth must show something behind nearly all of them.
+/// - last, in whole images again, but as depth may not show them at all, strips are followed from
+///   place to place, and depth must show something behind nearly all of them.
 /// Where depth shows no wire only the latter two are tried: depth must show something behind nearly
 /// all of them, and no more is asked: the proof decides. With DepthRole::kBackground those from
 /// whole images are taken wherever there are any. Where depth has shown nothing thin, places are

@@ -144,6 +144,21 @@ TEST_F(ColourStart, StartsWithTheWireAtWhichDepthShowsSomethingThin) {
   EXPECT_LT(MedianDistance(), 0.001);
 }
 
+// Depth shows something thin all along two wires and at one place of the third: around that alone
+// no curve is found, but in whole images.
+TEST_F(ColourStart, StartsWithTheCurvesThatHoldMoreOfWhatDepthShowsThin) {
+  result_.skeleton = WiresOffBy(0.04);
+  for (const Polyline& wire : {kWires[0], kWires[2]})
+    for (const Vec3& p : Resample(wire, 0.004)) result_.points.Add(p, Vec3::UnitZ(), 1);
+  const Vec3 alone = 0.5 * (kWires[1].front() + kWires[1].back());
+  for (int i = 0; i < 8; ++i) result_.points.Add(alone, Vec3::UnitZ(), 1);
+  ASSERT_TRUE(StartWithCurves(DefaultBestOptions(), DepthCurves::kDoubtful).has_value());
+  double length = 0;
+  for (const Polyline& wire : kWires) length += Length(wire);
+  EXPECT_NEAR(result_.skeleton.TotalLength(), length, 0.15 * length);
+  EXPECT_GT(Count("share of depth on curves"), 0.95);
+}
+
 // Strips where depth shows nothing thin are painted on something.
 TEST_F(ColourStart, LeavesCurvesWhereDepthShowsNothingThinAtTheNewOnes) {
   const SilhouetteScan near_wall(kWires, {}, 0.655);
