@@ -136,9 +136,12 @@ std::vector<PlannedStage> BestStages(const Costs& costs, const RunSize& size, bo
   const double by_colour = size.by_colour ? 1 : 0;
   Append(costs.ByColour(), by_colour, plan);
   Append(costs.ByColour(), 0.5 * by_colour, plan);  // where that gives nothing
-  Append({costs.Strips(), costs.Silhouettes(), costs.Radius(), costs.Evidence(), radii_again}, 1,
-         plan);
-  Append({{"evidence again", 0}, radii_again}, 1, plan);  // where few are wires
+  Append({costs.Strips(), costs.Silhouettes(), costs.Radius()}, 1, plan);
+  // Colour's own curves are proven before more are added, those that depth shows with them.
+  const bool is_proven_first = size.by_colour || !has_depth;
+  const std::vector<PlannedStage> proof = {
+      costs.Evidence(), radii_again, {"evidence again", 0}, radii_again};  // where few are wires
+  if (is_proven_first) Append(proof, 1, plan);
   double probability = 1;
   for (int round = 0; round < kColourRounds; ++round) {
     Append({costs.Wires(), costs.Radius()}, probability, plan);
@@ -146,6 +149,7 @@ std::vector<PlannedStage> BestStages(const Costs& costs, const RunSize& size, bo
     Append({costs.Adjustment(), costs.Strips(), costs.Silhouettes(), costs.Radius()}, probability,
            plan);
   }
+  if (!is_proven_first) Append(proof, 1, plan);
   Append({{"nets", 0}, radii_again}, 1, plan);  // in few scans
   Append({costs.Evidence()}, 1, plan);
   return plan;

@@ -1,5 +1,6 @@
 #include "fusion/best/colour_fit.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "capture/frame_stream.h"
@@ -7,6 +8,9 @@
 namespace curvefusion {
 
 namespace {
+
+// Derived: where most candidates are no wires, what stays is more likely one than not.
+constexpr double kRatherAWire = 0.5;
 
 void ReportAdjustment(const ColourAdjustment& adjusted, StageLog& log) {
   const char* stage = "colour adjustment";
@@ -63,6 +67,10 @@ std::optional<ColourAdjustment> AdjustCurvesAndPoses(const AdjustmentStart& star
   result.trust.residual_px = adjusted.residual_px;
   reporter.observer.OnGraph("adjusted", result.skeleton);
   return adjusted.skipped.empty() ? std::optional(std::move(adjusted)) : std::nullopt;
+}
+
+ProofLimits LimitsOf(const ViewEvidenceOptions& options) {
+  return {options.min_probability, std::max(options.min_probability, kRatherAWire)};
 }
 
 }  // namespace curvefusion

@@ -4,7 +4,9 @@
 
 #include "capture/sequence.h"
 #include "fusion/adjustment/colour_adjustment.h"
+#include "fusion/curve_graph/selection.h"
 #include "fusion/reconstruction.h"
+#include "fusion/silhouettes/view_evidence.h"
 #include "fusion/stage_progress.h"
 #include "fusion/strips/radius.h"
 #include "graph/skeleton_graph.h"
@@ -28,5 +30,8 @@ std::optional<ColourAdjustment> AdjustCurvesAndPoses(const AdjustmentStart& star
                                                      const ColourAdjustmentOptions& options,
                                                      const StageReporter& reporter,
                                                      Reconstruction& result);
+
+/// The least probabilities of curves that were adjusted to colours.
+ProofLimits LimitsOf(const ViewEvidenceOptions& options);
 
 }  // namespace curvefusion

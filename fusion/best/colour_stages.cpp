@@ -30,10 +30,9 @@ namespace {
 constexpr const char* kAskedFor = "asked for";
 constexpr const char* kImagesDoNotTell =
     "skipped: the images do not show the curves as wire throughout";
-// Chosen: before poses and curves are adjusted to colours more is given the benefit of the doubt.
-constexpr double kHardlyAWire = 0.4;  // times evidence.min_probability
-// Derived: where most candidates are no wires, what stays is more likely one than not.
-constexpr double kRatherAWire = 0.5;
+// Chosen on 24 training scans (docs/lab_notebook.md): before curves are adjusted to colours and
+// completed by them, only what is almost surely no wire leaves the result.
+constexpr double kSurelyNoWire = 0.005;
 // Measured: 1.7 to 4.7 where depth shows wires in their places, 5.7 and more with time of flight
 // (docs/wires_from_colour.md); 19 of a cable by a D400 from .3 m, where colour's curves are not
 // taken (docs/lab_notebook.md).
@@ -283,8 +282,8 @@ void RefineByColour(const PosedScan& scan, const LearnedWires& wires, RunSize si
   };
   TellPlan(size, options, reporter, result);
   measure_radii();
-  // Nothing is to be added to what is hardly a wire.
-  keep_proven("evidence", "evidence_before_colour", {.usual = kHardlyAWire * min_probability});
+  keep_proven("evidence", "evidence_before_colour",
+              {.usual = std::min(kSurelyNoWire, min_probability)});
   std::optional<ColourAdjustment> adjusted =
       AdjustCurvesAndPoses(start, options.colour_adjustment, reporter, result);
   StartFromColourWhereDepthFails(scan, wires.colours, size, options, reporter, start, adjusted,
@@ -297,18 +296,23 @@ void RefineByColour(const PosedScan& scan, const LearnedWires& wires, RunSize si
     PruneUnadjusted(wires.colours, options.silhouettes, reporter, result);
   }
   measure_radii();
-  const double raised = std::max(min_probability, kRatherAWire);
-  keep_proven("evidence", "evidence", {min_probability, raised});
-  const bool is_unmeasured = !result.skeleton.empty() && result.radii.global_radius == 0;
-  if (min_probability > 0 && is_unmeasured) {
-    keep_proven("evidence again", "evidence_again", {.usual = raised});
-  }
-  if (adjusted) {
+  const ProofLimits limits = LimitsOf(options.evidence);
+  const auto complete = [&] {
+    if (!adjusted) return;
     adjusted.reset();  // its images are not needed any more
     CompleteByColour(start, std::move(strips), wires.array_diameter, size, options, reporter,
                      result);
     strips.reset();
+  };
+  // What colour adds tells of wires that depth shows in parts; nothing is to be added to what is no
+  // wire where all curves are colour's.
+  if (start.depth == WireDepth::kShown) complete();
+  keep_proven("evidence", "evidence", limits);
+  const bool is_unmeasured = !result.skeleton.empty() && result.radii.global_radius == 0;
+  if (min_probability > 0 && is_unmeasured) {
+    keep_proven("evidence again", "evidence_again", {.usual = limits.doubtful});
   }
+  complete();
   const NetCurves nets = TraceNets(wires.nets, reporter, result);
   const int crossings = result.trust.adjusted ? SeparateCrossings(result.skeleton) : 0;
   const bool has_contacts = !Violations(result.skeleton, kProximity).empty();

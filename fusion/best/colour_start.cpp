@@ -8,8 +8,11 @@
 #include <utility>
 #include <vector>
 
+#include "fusion/best/colour_fit.h"
 #include "fusion/best/curves_in_depth.h"
+#include "fusion/curve_graph/selection.h"
 #include "fusion/curve_graph/viewed_region.h"
+#include "fusion/curve_graph/wire_proof.h"
 #include "fusion/silhouettes/wire_silhouettes.h"
 #include "kernel/polyline.h"
 
@@ -138,13 +141,24 @@ bool IsLikely(bool depth_shows_them, const Reconstruction& result, const ColourF
   return places.AreOpen();
 }
 
+// Whether colour images prove any of them to be a wire: nothing does not replace what depth has.
+bool AreProven(const Reconstruction& colour, const ProofLimits& limits) {
+  SkeletonGraph kept = colour.skeleton;
+  UncertainCurves uncertain;
+  const std::vector<StretchEvidence> evidence =
+      CollectEvidence(kept, colour.radii, colour.sequence, 0);
+  KeepProven(evidence, ProveWires(kept, evidence, {}), limits, kept, uncertain);
+  return !kept.empty();
+}
+
 // Whether they may replace depth's.
-bool IsAccepted(const ColourFit& fit, DepthCurves depth_curves, const Reconstruction& result,
-                const StageReporter& reporter) {
-  if (fit.attempt.in_thin_pixels)
-    return fit.on_curves >= kMinOnCurves && fit.shown.IsShownMoreThan(fit.depth_shown);
+bool IsAccepted(const ColourFit& fit, DepthCurves depth_curves, const BestOptions& options,
+                const Reconstruction& result, const StageReporter& reporter) {
   const bool is_none = depth_curves == DepthCurves::kNone;
   const bool shows_thin = fit.attempt.depth == WireDepth::kNotShown && !is_none;
+  if (!is_none && !AreProven(fit.colour, LimitsOf(options.evidence))) return false;
+  if (fit.attempt.in_thin_pixels)
+    return fit.on_curves >= kMinOnCurves && fit.shown.IsShownMoreThan(fit.depth_shown);
   return IsLikely(shows_thin, result, fit, reporter) &&
          (is_none || fit.shown.IsBetterThan(fit.depth_shown, depth_curves));
 }
@@ -188,7 +202,7 @@ std::optional<ColourCurves> StartFromColour(const Sequence& given, PoseErrors po
     for (const Attempt& attempt : competing) {
       std::optional<ColourFit> fit = fit_curves(attempt);
       if (!fit) continue;
-      const bool is_accepted = IsAccepted(*fit, depth_curves, result, reporter) ||
+      const bool is_accepted = IsAccepted(*fit, depth_curves, options, result, reporter) ||
                                (is_asked_for && !attempt.in_thin_pixels);
       if (is_accepted && (!best || fit->on_curves > best->on_curves)) best = std::move(fit);
     }
