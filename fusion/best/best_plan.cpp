@@ -141,7 +141,7 @@ std::vector<PlannedStage> BestStages(const Costs& costs, const RunSize& size, bo
   const bool is_proven_first = size.by_colour || !has_depth;
   const std::vector<PlannedStage> proof = {
       costs.Evidence(), radii_again, {"evidence again", 0}, radii_again};  // where few are wires
-  if (is_proven_first) Append(proof, 1, plan);
+  Append(proof, is_proven_first ? 1 : 0, plan);
   double probability = 1;
   for (int round = 0; round < kColourRounds; ++round) {
     Append({costs.Wires(), costs.Radius()}, probability, plan);
@@ -149,7 +149,7 @@ std::vector<PlannedStage> BestStages(const Costs& costs, const RunSize& size, bo
     Append({costs.Adjustment(), costs.Strips(), costs.Silhouettes(), costs.Radius()}, probability,
            plan);
   }
-  if (!is_proven_first) Append(proof, 1, plan);
+  Append(proof, is_proven_first ? 0 : 1, plan);
   Append({{"nets", 0}, radii_again}, 1, plan);  // in few scans
   Append({costs.Evidence()}, 1, plan);
   return plan;
