@@ -21,7 +21,9 @@
 #include "graph/crossings.h"
 #include "graph/edge_parts.h"
 #include "graph/intersections.h"
+#include "graph/sampled_curves.h"
 #include "graph/validate.h"
+#include "kernel/spatial_search.h"
 
 namespace curvefusion {
 
@@ -30,37 +32,50 @@ namespace {
 constexpr const char* kAskedFor = "asked for";
 constexpr const char* kImagesDoNotTell =
     "skipped: the images do not show the curves as wire throughout";
-// Chosen on 24 training scans (docs/lab_notebook.md): before curves are adjusted to colours and
-// completed by them, only what is almost surely no wire leaves the result.
-constexpr double kSurelyNoWire = 0.005;
+// Chosen: before poses and curves are adjusted to colours more is given the benefit of the doubt.
+constexpr double kHardlyAWire = 0.4;  // times evidence.min_probability
+// Chosen: metres; curves are adjusted by some millimetres, and what is added goes on beside them.
+constexpr double kBesideDepth = 0.008;
+constexpr double kBetweenPlaces = 0.25 * kBesideDepth;
 // Measured: 1.7 to 4.7 where depth shows wires in their places, 5.7 and more with time of flight
 // (docs/wires_from_colour.md); 19 of a cable by a D400 from .3 m, where colour's curves are not
 // taken (docs/lab_notebook.md).
 constexpr double kWrongScatter = 5;
 constexpr double kLittle = 0.01;  // of the length; less is not worth another round
 
-// Depth shows a net as one surface: that it goes on beside a curve says nothing there.
-void DisregardNets(const Nets& nets, const SkeletonGraph& skeleton,
-                   std::vector<StretchEvidence>& evidence) {
-  if (nets.empty()) return;
+// For and against what depth can speak.
+struct DepthEvidence {
+  int images = 0;            // looked at, at most; 0 = depth does not show wires
+  const Nets& nets;          // which it shows as surfaces
+  std::vector<Vec3> curves;  // places on those that it shows; empty = on all
+};
+
+// Depth shows a net as one surface: that it goes on beside a curve says nothing there. And what
+// colour adds are wires that depth has lost: that depth looks past them says nothing either.
+void DisregardDepth(const DepthEvidence& depth, const SkeletonGraph& skeleton,
+                    std::vector<StretchEvidence>& evidence) {
+  const PointIndex shown(depth.curves);
   for (StretchEvidence& stretch : evidence) {
     const Polyline& points = skeleton.edge(stretch.edge).points;
     stretch.same *=
-        1 - ShareOf(points, stretch.part, [&](const Vec3& p) { return nets.Contains(p); });
+        1 - ShareOf(points, stretch.part, [&](const Vec3& p) { return depth.nets.Contains(p); });
+    if (depth.curves.empty()) continue;
+    const Vec3& nearest = depth.curves[static_cast<size_t>(shown.Nearest(stretch.middle))];
+    if ((nearest - stretch.middle).norm() > kBesideDepth) stretch.images = 0;
   }
 }
 
-// Thin by proof: what is not likely enough a wire leaves the result, by so many depth images at
-// most and the strips of all radii, which come before. Whether any wire left: then edges were cut,
-// and radii are to be measured again.
+// Thin by proof: what is not likely enough a wire leaves the result, by depth and the strips of all
+// radii, which come before. Whether any wire left: then edges were cut, and radii are to be
+// measured again.
 bool KeepProvenWires(const std::string& stage, const std::string& name, const ProofLimits& limits,
-                     int depth_images, const Nets& nets, const StageReporter& reporter,
+                     const DepthEvidence& depth, const StageReporter& reporter,
                      Reconstruction& result) {
   const StageLog::Timer timer = reporter.Begin(stage);
   const double uncertain = result.uncertain.lengths.Sum();
   std::vector<StretchEvidence> evidence =
-      CollectEvidence(result.skeleton, result.radii, result.sequence, depth_images);
-  DisregardNets(nets, result.skeleton, evidence);
+      CollectEvidence(result.skeleton, result.radii, result.sequence, depth.images);
+  DisregardDepth(depth, result.skeleton, evidence);
   reporter.observer.OnTable(name, [&] { return EvidenceCsv(result.skeleton, evidence); });
   const std::vector<WireProof> proofs =
       ProveWires(result.skeleton, evidence, result.uncertain.beside_kept);
@@ -273,17 +288,16 @@ void RefineByColour(const PosedScan& scan, const LearnedWires& wires, RunSize si
                            scan.given.has_depth ? WireDepth::kShown : WireDepth::kNotShown,
                            wires.colours.posterior};
   const double min_probability = options.evidence.min_probability;
+  DepthEvidence depth = {.nets = wires.nets};
   const auto keep_proven = [&](const std::string& stage, const std::string& name,
                                const ProofLimits& limits) {
-    // Depth that does not show wires says nothing for or against them.
-    const int depth_images = start.depth == WireDepth::kShown ? options.evidence.max_frames : 0;
-    if (KeepProvenWires(stage, name, limits, depth_images, wires.nets, reporter, result))
-      measure_radii();
+    depth.images = start.depth == WireDepth::kShown ? options.evidence.max_frames : 0;
+    if (KeepProvenWires(stage, name, limits, depth, reporter, result)) measure_radii();
   };
   TellPlan(size, options, reporter, result);
   measure_radii();
-  keep_proven("evidence", "evidence_before_colour",
-              {.usual = std::min(kSurelyNoWire, min_probability)});
+  // Nothing is to be adjusted to what is hardly a wire.
+  keep_proven("evidence", "evidence_before_colour", {.usual = kHardlyAWire * min_probability});
   std::optional<ColourAdjustment> adjusted =
       AdjustCurvesAndPoses(start, options.colour_adjustment, reporter, result);
   StartFromColourWhereDepthFails(scan, wires.colours, size, options, reporter, start, adjusted,
@@ -300,6 +314,7 @@ void RefineByColour(const PosedScan& scan, const LearnedWires& wires, RunSize si
   const auto complete = [&] {
     if (!adjusted) return;
     adjusted.reset();  // its images are not needed any more
+    depth.curves = SampleCurvesOf(result.skeleton, kBetweenPlaces).positions;
     CompleteByColour(start, std::move(strips), wires.array_diameter, size, options, reporter,
                      result);
     strips.reset();

@@ -52,6 +52,20 @@ TEST_F(ColourCamera, IsFoundWhereColourLiesBesideDepth) {
   }
 }
 
+// Of edges at one distance, a centre 8 px lower looks like a camera 24 mm higher; nearer wires tell
+// them apart.
+TEST_F(ColourCamera, LiesBesideTheDepthCameraNotAboveWhereEdgesDoNotTell) {
+  LayeredScene scene = Unregistered();
+  scene.nearest = 0.8;
+  scene.farthest = 0.82;
+  scene.offset.y() = 0;
+  scene.color_camera.cy = scene.depth_camera.cy + 8;
+  const ColourCameraFit fit = FitColourCamera(Open(scene), {});
+  EXPECT_TRUE(fit.IsMisregistered());
+  EXPECT_LT(std::abs(fit.T_color_depth.translation().y()), 0.004);
+  EXPECT_NEAR(fit.color_camera.cy, scene.color_camera.cy, 1.5);
+}
+
 // The colour camera of a D400 sees less than half as much as its depth camera.
 TEST_F(ColourCamera, OfAMuchLongerFocalLengthIsFound) {
   LayeredScene scene = Unregistered();

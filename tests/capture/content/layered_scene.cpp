@@ -18,13 +18,13 @@ struct Rectangle {
   int grey;
 };
 
-std::vector<Rectangle> RandomRectangles(std::mt19937& random) {
+std::vector<Rectangle> RandomRectangles(const LayeredScene& scene, std::mt19937& random) {
   const auto between = [&random](double low, double high) {
     return low + (high - low) * static_cast<double>(random()) / std::mt19937::max();
   };
   std::vector<Rectangle> rectangles;
   for (int i = 0; i < kRectangles; ++i) {
-    const double depth = between(0.6, 1.6);
+    const double depth = between(scene.nearest, scene.farthest);
     const double x = between(-0.5, 0.5) * depth, y = between(-0.4, 0.4) * depth;
     const double w = between(0.03, 0.15) * depth, h = between(0.03, 0.15) * depth;
     rectangles.push_back({x - w, x + w, y - h, y + h, depth, static_cast<int>(between(90, 250))});
@@ -47,7 +47,7 @@ Rectangle Seen(const std::vector<Rectangle>& rectangles, const PinholeCamera& ca
 
 void WriteImages(const LayeredScene& scene, const std::string& name, std::mt19937& random,
                  const std::filesystem::path& folder) {
-  const std::vector<Rectangle> rectangles = RandomRectangles(random);
+  const std::vector<Rectangle> rectangles = RandomRectangles(scene, random);
   cv::Mat depth(scene.depth_camera.height, scene.depth_camera.width, CV_16UC1);
   cv::Mat color(scene.color_camera.height, scene.color_camera.width, CV_8UC3);
   for (int v = 0; v < depth.rows; ++v) {

@@ -11,11 +11,14 @@ namespace curvefusion {
 /// What colour images show of a layered scene.
 enum class SceneColour { kRegistered, kConstant, kNoise };
 
-/// Rectangles at random places 0.6 to 1.6 m before a wall at 2.2 m, other ones in every frame, as
-/// 320x240 images; the grey level of each surface is its own. `color_camera` sees the colours, from
-/// `offset` (metres, T_color_depth's translation); the intrinsics say that it is the depth camera.
+/// Rectangles at random places, `nearest` to `farthest` metres away, before a wall at 2.2 m, other
+/// ones in every frame, as 320x240 images; the grey level of each surface is its own.
+/// `color_camera` sees the colours, from `offset` (metres, T_color_depth's translation); the
+/// intrinsics say that it is the depth camera.
 struct LayeredScene {
   int frames = 12;
+  double nearest = 0.6;
+  double farthest = 1.6;
   PinholeCamera depth_camera = {320, 240, 290, 290, 159.5, 119.5};
   PinholeCamera color_camera = depth_camera;
   Vec3 offset = Vec3::Zero();
