@@ -44,9 +44,9 @@ constexpr int kMinStrips = 300;
 // .17 px; adjustments that do not fit have .04 and less (training rack 1 and spring 4).
 constexpr double kMinAcceptedShare = 0.05;
 // Chosen: or so many of the strips that are accepted at places where most images show one. Curves
-// that fit have .47 and more, but for close coils; those that do not .05 at most
+// that fit have .33 and more, but for close coils; those that do not .05 at most
 // (docs/lab_notebook.md).
-constexpr double kMinAgreedShare = 0.5;
+constexpr double kMinAgreedShare = 0.25;
 // Curves that fit come to .1; more is a wire taken for the next.
 constexpr double kMaxResidualPx = 0.4;
 // Chosen: above what fitted curves come to (.1 to .2). Those that lay on their strips before need

@@ -136,6 +136,7 @@ std::vector<PlannedStage> BestStages(const Costs& costs, const RunSize& size, bo
   const double by_colour = size.by_colour ? 1 : 0;
   Append(costs.ByColour(), by_colour, plan);
   Append(costs.ByColour(), 0.5 * by_colour, plan);  // where that gives nothing
+  Append({{"colour adjustment", 0}}, 1, plan);      // without depth, in few scans
   Append({costs.Strips(), costs.Silhouettes(), costs.Radius()}, 1, plan);
   // Colour's own curves are proven before more are added, those that depth shows with them.
   const bool is_proven_first = size.by_colour || !has_depth;

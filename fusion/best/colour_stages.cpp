@@ -41,6 +41,10 @@ constexpr double kBetweenPlaces = 0.25 * kBesideDepth;
 // (docs/wires_from_colour.md); 19 of a cable by a D400 from .3 m, where colour's curves are not
 // taken (docs/lab_notebook.md).
 constexpr double kWrongScatter = 5;
+// Measured on 22 training and validation scans by time of flight, 3.9 and more of which had
+// adjusted curves: most are better by images alone. 24 scans by other cameras have 3.3 at most
+// (docs/lab_notebook.md).
+constexpr double kDoubtfulScatter = 3.5;
 constexpr double kLittle = 0.01;  // of the length; less is not worth another round
 
 // For and against what depth can speak.
@@ -197,14 +201,20 @@ void TellPlan(RunSize& size, const BestOptions& options, const StageReporter& re
   reporter.observer.OnPlan(PlanBest(result.sequence, options, size));
 }
 
+// The poses held to surfaces, where there are any, and how they err.
+const Sequence& HeldPoses(const PosedScan& scan) { return scan.held ? *scan.held : scan.sequence; }
+PoseErrors HeldErrors(const PosedScan& scan) {
+  return scan.held ? PoseErrors::kJitter : scan.errors;
+}
+
 // Curves from colour alone where depth does not serve, and what depth then was used for.
 void StartFromColourWhereDepthFails(const PosedScan& scan, const WireColours& colours,
                                     RunSize& size, const BestOptions& options,
                                     const StageReporter& reporter, AdjustmentStart& start,
                                     std::optional<ColourAdjustment>& adjusted,
                                     Reconstruction& result) {
-  const Sequence& given = scan.held ? *scan.held : scan.sequence;
-  const PoseErrors errors = scan.held ? PoseErrors::kJitter : scan.errors;
+  const Sequence& given = HeldPoses(scan);
+  const PoseErrors errors = HeldErrors(scan);
   const std::string why = WhyColourStart(given, options, adjusted, result);
   const bool is_asked_for = options.depth.use == DepthRole::kWires;
   result.depth = {DepthRoleName(DepthRole::kWires),
@@ -231,6 +241,27 @@ void StartFromColourWhereDepthFails(const PosedScan& scan, const WireColours& co
   result.depth.why = why + ", but colour alone gives no better curves";
   size.by_colour = false;
   TellPlan(size, options, reporter, result);
+}
+
+// Depth's curves fitted to images alone where depth scatters about them, but not so much that
+// others were sought.
+void FitWithoutDepth(const PosedScan& scan, SkeletonGraph unadjusted, const BestOptions& options,
+                     const StageReporter& reporter, AdjustmentStart& start,
+                     std::optional<ColourAdjustment>& adjusted, Reconstruction& result) {
+  const bool is_given = start.depth == WireDepth::kShown && options.depth.use == DepthRole::kAuto;
+  if (!is_given || !adjusted) return;
+  const double scatter = adjusted->depth_scatter;
+  if (scatter <= kDoubtfulScatter || scatter > kWrongScatter) return;
+  std::optional<ColourCurves> fitted =
+      FitToColourAlone(std::move(unadjusted), HeldPoses(scan), HeldErrors(scan), start.colours,
+                       options, reporter, result);
+  if (!fitted) return;
+  result.depth.why = fmt::format(
+      "depth scatters about the curves {:.1f} times as much as about a plane: they were fitted to "
+      "the colour images alone",
+      scatter);
+  adjusted = std::move(fitted->adjusted);
+  start = std::move(fitted->start);
 }
 
 // Adds wires that colour images show, fits curves and poses to the images again and corrects them,
@@ -267,6 +298,20 @@ void CompleteByColour(const AdjustmentStart& start, std::optional<StripViews> st
   }
 }
 
+// Adds the wires of nets, and takes apart what does not touch.
+void AddNets(const LearnedWires& wires, const RadiusOptions& options, const StageReporter& reporter,
+             Reconstruction& result) {
+  const NetCurves nets = TraceNets(wires.nets, reporter, result);
+  const int crossings = result.trust.adjusted ? SeparateCrossings(result.skeleton) : 0;
+  const bool has_contacts = !Violations(result.skeleton, kProximity).empty();
+  if (has_contacts) ResolveIntersections(result.skeleton, kProximity);
+  if (crossings > 0 || has_contacts || nets.length > 0) {
+    AssignMeasuredRadii(wires.array_diameter, options, reporter, result);
+  }
+  MeasureNetWires(nets, result);
+  reporter.log.Count("radius", "crossings taken apart", crossings);
+}
+
 // In how many images every place of the result was looked for and seen.
 void LookForEvidence(const ViewEvidenceOptions& options, const StageReporter& reporter,
                      Reconstruction& result) {
@@ -298,10 +343,12 @@ void RefineByColour(const PosedScan& scan, const LearnedWires& wires, RunSize si
   measure_radii();
   // Nothing is to be adjusted to what is hardly a wire.
   keep_proven("evidence", "evidence_before_colour", {.usual = kHardlyAWire * min_probability});
+  const SkeletonGraph unadjusted = result.skeleton;
   std::optional<ColourAdjustment> adjusted =
       AdjustCurvesAndPoses(start, options.colour_adjustment, reporter, result);
   StartFromColourWhereDepthFails(scan, wires.colours, size, options, reporter, start, adjusted,
                                  result);
+  FitWithoutDepth(scan, unadjusted, options, reporter, start, adjusted, result);
   std::optional<StripViews> strips;
   if (adjusted) {
     strips = LookForStrips(*adjusted, reporter, result);
@@ -328,13 +375,7 @@ void RefineByColour(const PosedScan& scan, const LearnedWires& wires, RunSize si
     keep_proven("evidence again", "evidence_again", {.usual = limits.doubtful});
   }
   complete();
-  const NetCurves nets = TraceNets(wires.nets, reporter, result);
-  const int crossings = result.trust.adjusted ? SeparateCrossings(result.skeleton) : 0;
-  const bool has_contacts = !Violations(result.skeleton, kProximity).empty();
-  if (has_contacts) ResolveIntersections(result.skeleton, kProximity);
-  if (crossings > 0 || has_contacts || nets.length > 0) measure_radii();
-  MeasureNetWires(nets, result);
-  reporter.log.Count("radius", "crossings taken apart", crossings);
+  AddNets(wires, options.radius, reporter, result);
   LookForEvidence(options.evidence, reporter, result);
 }
 

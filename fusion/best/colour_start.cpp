@@ -26,6 +26,9 @@ constexpr double kShownAsWire = 0.9;  // of the images
 // .52 to .96 where they are better than others or hardly worse, .26 where they are much worse
 // (docs/lab_notebook.md).
 constexpr double kMinOnCurves = 0.5;
+// Chosen on 20 such scans: of what was looked at; two with .02 and .04 become worse by images
+// alone, those with .14 and more better (docs/lab_notebook.md).
+constexpr double kTellingShare = 0.1;
 
 // Metres of curve, and how many of them the images show as wire.
 struct ShownCurves {
@@ -216,6 +219,26 @@ std::optional<ColourCurves> StartFromColour(const Sequence& given, PoseErrors po
     return std::move(best->curves);
   }
   return std::nullopt;
+}
+
+std::optional<ColourCurves> FitToColourAlone(SkeletonGraph depth_curves, const Sequence& given,
+                                             PoseErrors pose_errors,
+                                             const std::vector<uint8_t>& colours,
+                                             const BestOptions& options,
+                                             const StageReporter& reporter,
+                                             Reconstruction& result) {
+  Reconstruction by_images;
+  by_images.sequence = given;
+  by_images.skeleton = std::move(depth_curves);
+  AdjustmentStart start = {CameraPoses(given), pose_errors, WireDepth::kNotShown, colours};
+  std::optional<ColourAdjustment> adjusted =
+      AdjustCurvesAndPoses(start, options.colour_adjustment, reporter, by_images);
+  if (!adjusted || adjusted->accepted_share < kTellingShare) return std::nullopt;
+  result.sequence = std::move(by_images.sequence);
+  result.skeleton = std::move(by_images.skeleton);
+  result.trust = by_images.trust;
+  result.trust.from_colour = true;
+  return ColourCurves{*std::move(adjusted), std::move(start)};
 }
 
 std::optional<ColourCurves> StartWithoutDepth(const Sequence& given, const BestOptions& options,

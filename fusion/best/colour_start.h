@@ -49,6 +49,18 @@ std::optional<ColourCurves> StartFromColour(const Sequence& given, PoseErrors po
                                             const BestOptions& options,
                                             const StageReporter& reporter, Reconstruction& result);
 
+/// Deviation: depth's curves (with radii, as nothing was adjusted yet) and poses fitted to the
+/// images alone. Where a camera shows wires too far away, poses bend until these agree with images
+/// and depth; from poses held to surfaces (`given`) images show where they are. Replaces curves and
+/// poses of the result; nothing where a strip is seen at less than a tenth of the places looked at.
+/// Scale is left to HoldToScaleOfDepth. `colours` as for AdjustmentStart. Throws like
+/// StartFromColour.
+std::optional<ColourCurves> FitToColourAlone(SkeletonGraph depth_curves, const Sequence& given,
+                                             PoseErrors pose_errors,
+                                             const std::vector<uint8_t>& colours,
+                                             const BestOptions& options,
+                                             const StageReporter& reporter, Reconstruction& result);
+
 /// Curves and poses from colour images and poses alone: what stands out from its surroundings,
 /// where most cameras look (RegionSeenByMost), as FitCurvesOfColour does it without depth. Scale is
 /// that of the poses. Sets curves, points, radii and poses of the result; nothing where images

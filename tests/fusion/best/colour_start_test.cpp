@@ -81,6 +81,12 @@ class ColourStart : public testing::Test {
                            depth_curves, options, StageReporter{observer_, log_}, result_);
   }
 
+  std::optional<ColourCurves> FitAlone(SkeletonGraph curves) {
+    return FitToColourAlone(std::move(curves), scan_.sequence(), PoseErrors::kJitter,
+                            ColoursOf(scan_.sequence()).posterior, DefaultBestOptions(),
+                            StageReporter{observer_, log_}, result_);
+  }
+
   // Depth shows something thin at one of the wires only.
   void AddPointsAtOneWire() {
     for (const Vec3& p : Resample(kWires[0], 0.004)) result_.points.Add(p, Vec3::UnitZ(), 1);
@@ -132,6 +138,33 @@ TEST_F(ColourStart, FindsWiresThatDepthShowsInWrongPlaces) {
   for (const Polyline& wire : kWires) length += Length(wire);
   EXPECT_NEAR(result_.skeleton.TotalLength(), length, 0.15 * length);
   EXPECT_EQ(result_.warnings.size(), 1u);
+}
+
+TEST_F(ColourStart, DepthsCurvesAreFittedToImagesAlone) {
+  SkeletonGraph curves;
+  const std::vector<double> too_far = {0.015, 0, 0.008};  // the thinner a wire the farther
+  for (size_t i = 0; i < kWires.size(); ++i) {
+    Polyline wire = kWires[i];
+    for (Vec3& p : wire) p.z() += too_far[i];
+    AddTestEdge(curves, wire);
+  }
+  ASSERT_TRUE(FitAlone(curves).has_value());
+  // All may move together with the cameras; the wires touch one another again.
+  const SkeletonGraph& fitted = result_.skeleton;
+  const std::vector<EdgeId> edges = fitted.Edges();
+  ASSERT_EQ(edges.size(), 3u);
+  const Polyline &first = fitted.edge(edges[0]).points, &second = fitted.edge(edges[1]).points;
+  EXPECT_LT(Project(first, second.front()).distance, 0.001);
+  EXPECT_LT(Project(fitted.edge(edges[2]).points, second.back()).distance, 0.002);
+  EXPECT_TRUE(result_.trust.from_colour);
+}
+
+TEST_F(ColourStart, DepthsCurvesStayWhereImagesHardlyShowThem) {
+  SkeletonGraph curves = WiresOffBy(0.015);
+  for (double x = -0.3; x < 0.3; x += 0.012)
+    AddTestEdge(curves, TestLine({x, -0.2, 0.1}, {x, 0.2, 0.1}));
+  EXPECT_FALSE(FitAlone(curves).has_value());
+  EXPECT_TRUE(result_.skeleton.empty());
 }
 
 // A few curves of which all is shown are a better start than many of which most is not.
