@@ -37,13 +37,12 @@ constexpr double kHardlyAWire = 0.4;  // times evidence.min_probability
 // Chosen: metres; curves are adjusted by some millimetres, and what is added goes on beside them.
 constexpr double kBesideDepth = 0.008;
 constexpr double kBetweenPlaces = 0.25 * kBesideDepth;
-// Measured: 1.7 to 4.7 where depth shows wires in their places, 5.7 and more with time of flight
-// (docs/wires_from_colour.md); 19 of a cable by a D400 from .3 m, where colour's curves are not
-// taken (docs/lab_notebook.md).
+// Measured: 1.7 to 4.7 where depth shows wires in their places, mostly 5.7 and more with time of
+// flight (docs/wires_from_colour.md); 19 of a cable by a D400 from .3 m, where colour's curves are
+// not taken (docs/lab_notebook.md).
 constexpr double kWrongScatter = 5;
-// Measured when curves are first adjusted: 3.9 and more with time of flight, less than 3.5 of scans
-// by other cameras; of 16 scans above it 15 are better fitted to images alone
-// (docs/lab_notebook.md).
+// Chosen: time of flight has 3.9 and more where curves are first adjusted; 23 scans by other
+// cameras do not change by it (docs/lab_notebook.md).
 constexpr double kDoubtfulScatter = 3.5;
 constexpr double kLittle = 0.01;  // of the length; less is not worth another round
 
@@ -343,12 +342,12 @@ void RefineByColour(const PosedScan& scan, const LearnedWires& wires, RunSize si
   measure_radii();
   // Nothing is to be adjusted to what is hardly a wire.
   keep_proven("evidence", "evidence_before_colour", {.usual = kHardlyAWire * min_probability});
-  const SkeletonGraph unadjusted = result.skeleton;
+  SkeletonGraph unadjusted = result.skeleton;
   std::optional<ColourAdjustment> adjusted =
       AdjustCurvesAndPoses(start, options.colour_adjustment, reporter, result);
   StartFromColourWhereDepthFails(scan, wires.colours, size, options, reporter, start, adjusted,
                                  result);
-  FitWithoutDepth(scan, unadjusted, options, reporter, start, adjusted, result);
+  FitWithoutDepth(scan, std::move(unadjusted), options, reporter, start, adjusted, result);
   std::optional<StripViews> strips;
   if (adjusted) {
     strips = LookForStrips(*adjusted, reporter, result);

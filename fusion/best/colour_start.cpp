@@ -26,8 +26,8 @@ constexpr double kShownAsWire = 0.9;  // of the images
 // .52 to .96 where they are better than others or hardly worse, .26 where they are much worse
 // (docs/lab_notebook.md).
 constexpr double kMinOnCurves = 0.5;
-// Chosen on 20 such scans: of what was looked at; two with .02 and .04 become worse by images
-// alone, those with .14 and more better (docs/lab_notebook.md).
+// Chosen on 18 such scans, 5 of them validation: of what was looked at; two with .02 and .04 become
+// worse by images alone, 15 of 16 with .14 and more better (docs/lab_notebook.md).
 constexpr double kTellingShare = 0.1;
 
 // Metres of curve, and how many of them the images show as wire.
