@@ -52,9 +52,10 @@ class ColorRenderer {
       const double sv = v + (k / kSamples + 0.5) / kSamples - 0.5;
       const size_t moment = MomentOf(k % kSamples, k / kSamples) % moments_.size();
       const SceneView& view = moments_[moment];
-      const RayHit hit = view.Trace(su, sv);
+      const SceneRay ray = view.RayThrough(su, sv);
+      const RayHit hit = view.Trace(ray);
       const bool wire = hit.primitive >= 0 && view.Surface(hit.primitive) == 0;
-      if (wire || hit.primitive != known[moment]) known_color[moment] = Color(view, hit, su, sv);
+      if (wire || hit.primitive != known[moment]) known_color[moment] = Color(view, ray, hit);
       known[moment] = wire ? -1 : hit.primitive;
       sum += known_color[moment];
     }
@@ -64,18 +65,21 @@ class ColorRenderer {
  private:
   Vec3 PlanePixel(int u, int v) const {
     Vec3 sum = Vec3::Zero();
-    for (const SceneView& view : moments_) sum += Color(view, view.Trace(u, v), u, v);
+    for (const SceneView& view : moments_) {
+      const SceneRay ray = view.RayThrough(u, v);
+      sum += Color(view, ray, view.Trace(ray));
+    }
     return sum / static_cast<double>(moments_.size());
   }
 
-  Vec3 Color(const SceneView& view, const RayHit& hit, double u, double v) const {
+  Vec3 Color(const SceneView& view, const SceneRay& ray, const RayHit& hit) const {
     if (hit.primitive < 0) return Vec3::Zero();
     const SurfaceMaterial& material = scene_.materials[view.Surface(hit.primitive)];
-    const Vec3 p = view.PointAt(u, v, hit.depth);
+    const Vec3 p = ray.At(hit.depth);
     const Vec3 normal = view.Normal(hit.primitive, p);
     Vec3 color = (1 - material.shininess) * scene_.lighting.Matt(normal) * Textured(material, p);
     if (material.shininess > 0) {
-      const Vec3 to_eye = (view.Center(v) - p).normalized();
+      const Vec3 to_eye = (ray.center - p).normalized();
       color += Vec3::Constant(material.shininess * scene_.lighting.Mirrored(normal, to_eye));
     }
     return color;

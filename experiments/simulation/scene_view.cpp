@@ -40,13 +40,10 @@ int SceneView::TileRow(double v) const {
   return std::clamp(static_cast<int>(v + 0.5) / kTile, 0, static_cast<int>(rows_.size()) - 1);
 }
 
-Vec3 SceneView::Direction(double u, double v) const {
-  return rows_[TileRow(v)].rotation *
-         Vec3((u - camera_.cx) / camera_.fx, (v - camera_.cy) / camera_.fy, 1);
-}
-
-Vec3 SceneView::PointAt(double u, double v, double depth) const {
-  return Center(v) + depth * Direction(u, v);
+SceneRay SceneView::RayThrough(double u, double v) const {
+  const int row = TileRow(v);
+  const Vec3 in_camera((u - camera_.cx) / camera_.fx, (v - camera_.cy) / camera_.fy, 1);
+  return {rows_[row].center, rows_[row].rotation * in_camera, row * columns_ + TileColumn(u)};
 }
 
 // Tiles that balls of `radius` about the points, and all between them, can touch.
@@ -85,11 +82,11 @@ std::vector<SceneView::TileRect> SceneView::PrimitiveRects() const {
 }
 
 int SceneView::NearestPlane(double u, double v) const {
-  const Vec3 direction = Direction(u, v);
+  const SceneRay ray = RayThrough(u, v);
   int nearest = -1;
   double nearest_depth = kNoHit;
   for (size_t i = 0; i < scene_.planes.size(); ++i) {
-    const double depth = HitPlane(scene_.planes[i], Center(v), direction);
+    const double depth = HitPlane(scene_.planes[i], ray.center, ray.direction);
     if (depth < nearest_depth) nearest = static_cast<int>(i);
     nearest_depth = std::min(depth, nearest_depth);
   }
@@ -135,23 +132,20 @@ void SceneView::FillTiles() {
   }
 }
 
-double SceneView::HitDepth(int primitive, const Vec3& center, const Vec3& direction) const {
+double SceneView::HitDepth(int primitive, const SceneRay& ray) const {
   const int capsules = static_cast<int>(scene_.capsules.size());
   const int planes = static_cast<int>(scene_.planes.size());
-  if (primitive < capsules) return HitCapsule(scene_.capsules[primitive], center, direction);
-  if (primitive < capsules + planes) {
-    return HitPlane(scene_.planes[primitive - capsules], center, direction);
-  }
-  return HitBox(scene_.boxes[primitive - capsules - planes], center, direction);
+  if (primitive < capsules)
+    return HitCapsule(scene_.capsules[primitive], ray.center, ray.direction);
+  if (primitive < capsules + planes)
+    return HitPlane(scene_.planes[primitive - capsules], ray.center, ray.direction);
+  return HitBox(scene_.boxes[primitive - capsules - planes], ray.center, ray.direction);
 }
 
-RayHit SceneView::Trace(double u, double v) const {
-  const Vec3 direction = Direction(u, v);
-  const Vec3& center = Center(v);
-  const int tile = TileRow(v) * columns_ + TileColumn(u);
+RayHit SceneView::Trace(const SceneRay& ray) const {
   RayHit hit{-1, kNoHit};
-  for (int k = tile_begin_[tile]; k < tile_begin_[tile + 1]; ++k) {
-    const double depth = HitDepth(tile_primitives_[k], center, direction);
+  for (int k = tile_begin_[ray.tile]; k < tile_begin_[ray.tile + 1]; ++k) {
+    const double depth = HitDepth(tile_primitives_[k], ray);
     if (depth > kNearest && depth < hit.depth) hit = {tile_primitives_[k], depth};
   }
   if (hit.primitive < 0) hit.depth = 0;
@@ -160,12 +154,10 @@ RayHit SceneView::Trace(double u, double v) const {
 
 bool SceneView::IsHidden(double u, double v, double depth) const {
   if (u < -0.5 || v < -0.5 || u > camera_.width - 0.5 || v > camera_.height - 0.5) return false;
-  const int tile = TileRow(v) * columns_ + TileColumn(u);
-  if (tile_begin_[tile + 1] - tile_begin_[tile] == 1) return false;
-  const Vec3 direction = Direction(u, v);
-  const Vec3& center = Center(v);
-  for (int k = tile_begin_[tile]; k < tile_begin_[tile + 1]; ++k) {
-    const double other = HitDepth(tile_primitives_[k], center, direction);
+  const SceneRay ray = RayThrough(u, v);
+  if (tile_begin_[ray.tile + 1] - tile_begin_[ray.tile] == 1) return false;
+  for (int k = tile_begin_[ray.tile]; k < tile_begin_[ray.tile + 1]; ++k) {
+    const double other = HitDepth(tile_primitives_[k], ray);
     if (other > kNearest && other < depth - kHiddenBy) return true;
   }
   return false;

@@ -14,6 +14,15 @@ struct RayHit {
   double depth = 0;
 };
 
+/// A ray through a pixel position, from the centre of projection while its row is read.
+struct SceneRay {
+  Vec3 center;
+  Vec3 direction;  ///< as long as the ray where it is one metre deep
+  int tile = 0;
+
+  Vec3 At(double depth) const { return center + depth * direction; }
+};
+
 /// A scene seen through one camera, with the primitives binned by tiles of 8x8 pixels. The camera
 /// may move while its rows are read (a rolling shutter): every row of tiles has its own pose. Keeps
 /// a reference to the scene. Thread-safe for concurrent queries.
@@ -23,15 +32,19 @@ class SceneView {
   SceneView(const Scene& scene, const PinholeCamera& camera, const RigidTransform& T_world_first,
             const RigidTransform& T_world_last);
 
-  /// First hit of the ray through a pixel position, which must lie in the image.
-  RayHit Trace(double u, double v) const;
+  /// The ray through a pixel position; beyond the image, in the tile nearest to it.
+  SceneRay RayThrough(double u, double v) const;
+
+  /// First hit of a ray, whose pixel position must lie in the image.
+  RayHit Trace(const SceneRay& ray) const;
+  RayHit Trace(double u, double v) const { return Trace(RayThrough(u, v)); }
 
   /// Whether something stands more than 1 mm in front of `depth` on the ray through a pixel
   /// position; nothing does outside the image.
   bool IsHidden(double u, double v, double depth) const;
 
   /// The world point on the ray through a pixel position at a depth.
-  Vec3 PointAt(double u, double v, double depth) const;
+  Vec3 PointAt(double u, double v, double depth) const { return RayThrough(u, v).At(depth); }
 
   /// Centre of projection while the row of a pixel position is read.
   const Vec3& Center(double v) const { return rows_[TileRow(v)].center; }
@@ -56,13 +69,12 @@ class SceneView {
 
   int TileColumn(double u) const;
   int TileRow(double v) const;
-  Vec3 Direction(double u, double v) const;
   TileRect RectAround(const std::vector<Vec3>& points, double radius) const;
   std::vector<TileRect> PrimitiveRects() const;
   int NearestPlane(double u, double v) const;
   std::vector<int> VisiblePlanes(int column, int row) const;
   void FillTiles();
-  double HitDepth(int primitive, const Vec3& center, const Vec3& direction) const;
+  double HitDepth(int primitive, const SceneRay& ray) const;
 
   const Scene& scene_;
   PinholeCamera camera_;

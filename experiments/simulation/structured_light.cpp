@@ -114,7 +114,8 @@ DepthRange StructuredLightSensor::Range() const { return {kNearest, kFarthest}; 
 double StructuredLightSensor::Intensity(const Scene& scene, const SceneView& view,
                                         const SceneView& projector, double u, double v,
                                         uint64_t frame) const {
-  const RayHit hit = view.Trace(u, v);
+  const SceneRay ray = view.RayThrough(u, v);
+  const RayHit hit = view.Trace(ray);
   if (hit.primitive < 0) return 0;
   const double u_projector = u - options_.camera.fx * options_.baseline / hit.depth;
   const int surface = view.Surface(hit.primitive);
@@ -123,7 +124,7 @@ double StructuredLightSensor::Intensity(const Scene& scene, const SceneView& vie
     return speckle_[bits % kSpeckleSamples];
   });
   if (light == 0) return 0;
-  const Vec3 p = view.PointAt(u, v, hit.depth);
+  const Vec3 p = ray.At(hit.depth);
   const Vec3 normal = view.Normal(hit.primitive, p);
   const Vec3 to_light = projector.Center(v) - p;
   const double distance = to_light.norm();
@@ -132,7 +133,7 @@ double StructuredLightSensor::Intensity(const Scene& scene, const SceneView& vie
   const SurfaceMaterial& material = scene.materials[surface];
   double reflected = material.infrared_albedo * (1 - material.shininess) * cosine;
   if (material.shininess > 0) {
-    const Vec3 half = (to_light / distance + (view.Center(v) - p).normalized()).normalized();
+    const Vec3 half = (to_light / distance + (ray.center - p).normalized()).normalized();
     reflected += material.infrared_albedo * material.shininess * MirrorLobe(normal.dot(half));
   }
   return options_.light_power * reflected * light * kMillimetre * kMillimetre /

@@ -23,15 +23,17 @@ using PhasorImage = Image<Phasors>;
 
 // What one ray adds: its light, with the phase of the way there and back at each frequency.
 Phasors RayPhasors(const Scene& scene, const SceneView& view, double u, double v) {
-  const RayHit hit = view.Trace(u, v);
+  const SceneRay ray = view.RayThrough(u, v);
+  const RayHit hit = view.Trace(ray);
   if (hit.primitive < 0) return {};
-  const Vec3 p = view.PointAt(u, v, hit.depth);
-  const Vec3 to_camera = view.Center(v) - p;
+  const Vec3 p = ray.At(hit.depth);
+  const Vec3 to_camera = ray.center - p;
   const double distance = to_camera.norm();
   const SurfaceMaterial& material = scene.materials[view.Surface(hit.primitive)];
   const double cosine = std::max(0.0, view.Normal(hit.primitive, p).dot(to_camera) / distance);
   double reflected = material.infrared_albedo * (1 - material.shininess) * cosine;
-  reflected += material.infrared_albedo * material.shininess * MirrorLobe(cosine);
+  if (material.shininess > 0)
+    reflected += material.infrared_albedo * material.shininess * MirrorLobe(cosine);
   const auto amplitude = static_cast<float>(reflected / (distance * distance));
   const double phase = 4 * std::numbers::pi * kCommonFrequency * distance / kLightSpeed;
   const Phasor one(static_cast<float>(std::cos(phase)), static_cast<float>(std::sin(phase)));
@@ -68,14 +70,17 @@ PhasorImage BlurredAlong(const PhasorImage& image, double sigma, int du, int dv)
     taps.push_back(static_cast<float>(std::exp(-k * k / (2 * sigma * sigma))));
     total += taps.back();
   }
+  for (float& tap : taps) tap /= total;
   PhasorImage blurred(image.width(), image.height());
   for (int v = 0; v < image.height(); ++v) {
     for (int u = 0; u < image.width(); ++u) {
+      Phasors sum{};
       for (int k = -radius; k <= radius; ++k) {
         const Phasors& other = image(std::clamp(u + k * du, 0, image.width() - 1),
                                      std::clamp(v + k * dv, 0, image.height() - 1));
-        for (int f = 0; f < 3; ++f) blurred(u, v)[f] += taps[k + radius] / total * other[f];
+        for (int f = 0; f < 3; ++f) sum[f] += taps[k + radius] * other[f];
       }
+      blurred(u, v) = sum;
     }
   }
   return blurred;
@@ -93,17 +98,20 @@ FilteredPhasors FilterPhasors(const PhasorImage& image) {
   constexpr float kMaxEdge = 2.5f;
   constexpr float kKernel[3] = {0.5f, 1.0f, 0.5f};
   FilteredPhasors filtered{image, MaskImage(image.width(), image.height(), 1)};
+  Image<std::array<float, 3>> norms(image.width(), image.height());
+  for (size_t i = 0; i < image.size(); ++i)
+    for (int f = 0; f < 3; ++f) norms.data()[i][f] = std::abs(image.data()[i][f]);
   for (int v = 1; v + 1 < image.height(); ++v) {
     for (int u = 1; u + 1 < image.width(); ++u) {
       for (int f = 0; f < 3; ++f) {
         const Phasor self = image(u, v)[f];
-        const float self_norm = std::abs(self);
         Phasor sum = 0;
         float total = 0;
         float edge = 0;
         for (int k = 0; k < 9; ++k) {
-          const Phasor other = image(u + k % 3 - 1, v + k / 3 - 1)[f];
-          const float norm = std::abs(other) * self_norm;
+          const int x = u + k % 3 - 1, y = v + k / 3 - 1;
+          const Phasor other = image(x, y)[f];
+          const float norm = norms(x, y)[f] * norms(u, v)[f];
           if (norm == 0) continue;
           const float cosine = (self.real() * other.real() + self.imag() * other.imag()) / norm;
           const float difference = 0.5f * (1 - cosine);
