@@ -56,7 +56,7 @@ std::vector<Ablation> OfSegmentation() {
        {"ghosts.tolerance_px=0"},
        "Colour edges are blurred and shifted against depth."},
       {"far parts",
-       {"ghosts.isolated_outline=2"},
+       {"ghosts.isolated_share=2"},
        "Parts of one object may be far apart, where the wires between have no depth."}};
 }
 

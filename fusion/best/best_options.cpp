@@ -25,7 +25,7 @@ BestOptions DefaultBestOptions() {
   options.segmentation.min_measured_share = 0.5;
   options.segmentation.bundle.min_frames = 3;
   options.segmentation.edge_tolerance_px = 2;
-  options.segmentation.ghosts.isolated_outline = 0.7;
+  options.segmentation.ghosts.isolated_share = 0.75;
   options.registration.max_points = 700;
   options.registration.max_iterations = 12;
   options.axis_depth = 0.8;

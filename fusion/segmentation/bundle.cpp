@@ -4,15 +4,6 @@
 
 namespace curvefusion {
 
-namespace {
-
-bool OnOutline(const MaskImage& mask, int u, int v) {
-  return u == 0 || v == 0 || u + 1 == mask.width() || v + 1 == mask.height() || !mask(u - 1, v) ||
-         !mask(u + 1, v) || !mask(u, v - 1) || !mask(u, v + 1);
-}
-
-}  // namespace
-
 void VisitOptions(BundleOptions& options, OptionVisitor& visitor) {
   visitor.Visit({"frames", "frames", 1, 100000,
                  "Consecutive frames merged before a skeleton is extracted. CurveFusion 4.1, k."},
@@ -63,10 +54,7 @@ void BundleDifferenceSet::AddFrame(const MaskImage& mask, const MaskImage& on_ed
       sighting.position_sum += p_bundle;
       sighting.ray_sum += T_bundle_camera.linear() * p_camera.normalized();
       ++sighting.pixels;
-      const int outline = OnOutline(mask, u, v);
-      voxel.evidence.edge_pixels += on_edge(u, v);
-      voxel.evidence.outline_pixels += outline;
-      voxel.evidence.outline_edge_pixels += outline & on_edge(u, v);
+      voxel.on_edge |= on_edge(u, v) != 0;
     }
   }
 }
@@ -106,7 +94,7 @@ BundlePoints BundleDifferenceSet::Points() const {
       pixels += sighting.pixels;
     }
     bundle.points.Add(position_sum / pixels, ray_sum.normalized(), static_cast<float>(pixels));
-    bundle.evidence.push_back(voxels_[i].evidence);
+    bundle.on_edge.push_back(voxels_[i].on_edge);
     bundle.voxels.push_back(static_cast<int>(i));
   }
   return bundle;

@@ -19,18 +19,11 @@ struct BundleOptions {
 };
 void VisitOptions(BundleOptions& options, OptionVisitor& visitor);
 
-/// How the colour images speak for a point: counts of the depth pixels merged into it.
-struct ColourEvidence {
-  int edge_pixels = 0;          ///< pixels on a colour edge
-  int outline_pixels = 0;       ///< pixels at the border of their image difference set
-  int outline_edge_pixels = 0;  ///< both
-};
-
-/// The bundle difference set: its points and the colour evidence of each.
+/// The bundle difference set; as many of each as points.
 struct BundlePoints {
   ObservedPoints points;
-  std::vector<ColourEvidence> evidence;  ///< as many as points
-  std::vector<int> voxels;               ///< handles of the points' voxels in their difference set
+  std::vector<char> on_edge;  ///< whether a depth pixel merged into the point lies on a colour edge
+  std::vector<int> voxels;    ///< handles of the points' voxels in their difference set
 };
 
 /// First and one past the last frame of every bundle. A last bundle of less than half the size
@@ -69,7 +62,7 @@ class BundleDifferenceSet {
   };
   struct Voxel {
     std::vector<Sighting> sightings;  // by ascending frame
-    ColourEvidence evidence;
+    bool on_edge = false;
   };
   Voxel& VoxelAt(const Vec3& p_bundle);
   // Whether the voxel and its neighbours were seen in at least so many frames; `frames` is scratch.

@@ -31,21 +31,11 @@ std::vector<Cluster> LargeClusters(const std::vector<Vec3>& points,
   return clusters;
 }
 
-// The share of a cluster's points that received a colour edge sample.
+// The share of a cluster's points that lie on colour edges.
 double VerifiedShare(const BundlePoints& bundle, const Cluster& cluster) {
   int verified = 0;
-  for (const int i : cluster) verified += bundle.evidence[i].edge_pixels > 0;
+  for (const int i : cluster) verified += bundle.on_edge[i];
   return static_cast<double>(verified) / static_cast<double>(cluster.size());
-}
-
-// The share of a cluster's outline pixels, over all frames, that lie on colour edges.
-double VerifiedOutline(const BundlePoints& bundle, const Cluster& cluster) {
-  double outline = 0, on_edge = 0;
-  for (const int i : cluster) {
-    outline += bundle.evidence[i].outline_pixels;
-    on_edge += bundle.evidence[i].outline_edge_pixels;
-  }
-  return outline > 0 ? on_edge / outline : 0;
 }
 
 std::vector<Vec3> PointsOf(const std::vector<Vec3>& points, const Cluster& cluster) {
@@ -67,7 +57,7 @@ int64_t CountPoints(const std::vector<Cluster>& clusters) {
 }
 
 // Clusters within isolation_distance of a larger cluster that stays, and large ones that colour
-// verifies all around; the largest always stays.
+// verifies best; the largest always stays.
 std::vector<Cluster> WithoutIsolated(const BundlePoints& bundle, std::vector<Cluster> clusters,
                                      const GhostRemovalOptions& options) {
   const std::vector<Vec3>& points = bundle.points.positions;
@@ -80,7 +70,7 @@ std::vector<Cluster> WithoutIsolated(const BundlePoints& bundle, std::vector<Clu
       return IsNear(of_cluster, larger, options.isolation_distance);
     };
     const bool stands_alone = static_cast<double>(cluster.size()) >= large &&
-                              VerifiedOutline(bundle, cluster) >= options.isolated_outline;
+                              VerifiedShare(bundle, cluster) >= options.isolated_share;
     if (!kept.empty() && !stands_alone &&
         std::none_of(kept_points.begin(), kept_points.end(), is_near)) {
       continue;
@@ -107,11 +97,11 @@ void VisitOptions(GhostRemovalOptions& options, OptionVisitor& visitor) {
                  "Clusters farther than this from every larger one are ghosts. CurveFusion 4.1, "
                  "read as said in ghost_removal.h."},
                 options.isolation_distance);
-  visitor.Visit({"isolated_outline", "", 0, 2,
-                 "Deviation: large clusters are no ghosts, however far away, where so much of "
-                 "their outline lies on colour edges: they are parts of one object, between which "
-                 "wires have no depth. More than 1 = never."},
-                options.isolated_outline);
+  visitor.Visit({"isolated_share", "", 0, 2,
+                 "Deviation: large clusters are no ghosts, however far away, where such a share of "
+                 "their points lies on colour edges: another object, or a part of one between "
+                 "which wires have no depth. More than 1 = never."},
+                options.isolated_share);
   visitor.Visit(
       {"verified_share", "", 0, 1,
        "Clusters with a smaller share of points on colour edges are ghosts. CurveFusion 4.1."},
@@ -140,7 +130,7 @@ BundlePoints RemoveGhosts(const BundlePoints& bundle, const GhostRemovalOptions&
   BundlePoints remaining;
   for (const int i : kept) {
     remaining.points.Add(bundle.points, static_cast<size_t>(i));
-    remaining.evidence.push_back(bundle.evidence[i]);
+    remaining.on_edge.push_back(bundle.on_edge[i]);
     remaining.voxels.push_back(bundle.voxels[i]);
   }
   return remaining;

@@ -13,7 +13,7 @@ struct GhostRemovalOptions {
   int core_points = 4;
   int min_cluster_points = 10;
   double isolation_distance = 0.1;
-  double isolated_outline = 2;
+  double isolated_share = 2;
   double verified_share = 0.2;
 };
 void VisitOptions(GhostRemovalOptions& options, OptionVisitor& visitor);
@@ -22,10 +22,9 @@ void VisitOptions(GhostRemovalOptions& options, OptionVisitor& visitor);
 ///
 /// The paper drops clusters "more than 10 cm away from any other cluster". Read literally that
 /// deletes an object that is alone because the segmentation was clean, so isolation is measured to
-/// larger clusters only: the largest one always stays, and so do parts of the same object between
-/// which wires have no depth, clusters of at least a twentieth of the largest one's points of whose
-/// outline `isolated_outline` lies on colour edges. What each rule drops is added to `funnel`, if
-/// any.
+/// larger clusters only: the largest one always stays, and so do other objects, and parts of one
+/// between which wires have no depth: clusters of at least a twentieth of the largest one's points,
+/// of which `isolated_share` lie on colour edges. What each rule drops is added to `funnel`, if any.
 BundlePoints RemoveGhosts(const BundlePoints& bundle, const GhostRemovalOptions& options,
                           PointFunnel* funnel = nullptr);
 

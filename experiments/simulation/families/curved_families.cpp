@@ -57,11 +57,14 @@ Vec3 Extreme(const Polyline& points, const Vec3& direction) {
   });
 }
 
-// A scroll whose windings keep apart, and whose collars keep apart from those that hold bars.
+// A scroll whose windings keep apart, and whose collars keep apart from those that hold bars. Where
+// the cell is too small for its wire they come nearer, step by step.
 Polyline FittedScroll(Random& random, const Eigen::AlignedBox2d& cell, double diameter,
                       const std::vector<Vec3>& held) {
-  const double gap = std::max(8.0, 2.2 * diameter);
-  while (true) {
+  constexpr int kAttempts = 1000;  // chosen: more than any cell needs that has room
+  double gap = std::max(8.0, 2.2 * diameter);
+  for (int attempt = 1;; ++attempt) {
+    if (attempt % kAttempts == 0) gap *= 0.9;
     const double turn = kPi / 2 * random.Integer(0, 3) + random.Uniform(-0.4, 0.4);
     const Polyline scroll =
         FittedTo(Scroll(random, 9, random.Uniform(14, 24)), cell, turn, random.Chance(0.5));

@@ -36,7 +36,7 @@ TEST(BundleDifferenceSet, MovesPixelsToTheBundleFrame) {
   EXPECT_LT((points.points.positions[0] - Vec3(0.1, 0, 0.5)).norm(), 1e-7);  // depth is a float
   EXPECT_LT((points.points.viewing_rays[0] - Vec3(0, 0, 1)).norm(), 1e-12);
   EXPECT_EQ(points.points.counts[0], 1);
-  EXPECT_EQ(points.evidence[0].outline_edge_pixels, 1);
+  EXPECT_TRUE(points.on_edge[0]);
 }
 
 TEST(BundleDifferenceSet, PointsSeenInTooFewFramesAreDropped) {
@@ -51,7 +51,7 @@ TEST(BundleDifferenceSet, PointsSeenInTooFewFramesAreDropped) {
   const BundlePoints points = set.Points();
   ASSERT_EQ(points.points.size(), 1u);
   EXPECT_EQ(points.points.counts[0], 3);
-  EXPECT_EQ(points.evidence[0].edge_pixels, 0);
+  EXPECT_FALSE(points.on_edge[0]);
 }
 
 TEST(BundleDifferenceSet, FramePointsAreWhatEachFrameSaw) {

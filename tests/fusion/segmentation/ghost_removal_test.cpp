@@ -10,8 +10,7 @@ namespace {
 void AddLine(BundlePoints& bundle, const Vec3& start, int n, int verified_every) {
   for (int i = 0; i < n; ++i) {
     bundle.points.Add(start + Vec3(0.002 * i, 0, 0), Vec3::UnitZ(), 1);
-    const int on_edge = verified_every > 0 && i % verified_every == 0;
-    bundle.evidence.push_back({on_edge, 1, on_edge});
+    bundle.on_edge.push_back(verified_every > 0 && i % verified_every == 0);
     bundle.voxels.push_back(static_cast<int>(bundle.voxels.size()));
   }
 }
@@ -39,7 +38,7 @@ TEST(RemoveGhosts, DropsIsolatedClustersButNotTheLargest) {
   for (const Vec3& p : points.positions) EXPECT_GE(p.y(), 0.5);
 }
 
-TEST(RemoveGhosts, KeepsFarPartsThatAreLargeAndVerifiedAllAround) {
+TEST(RemoveGhosts, KeepsFarPartsThatAreLargeAndVerified) {
   BundlePoints bundle;
   AddLine(bundle, {0, 0, 1}, 1000, 1);
   AddLine(bundle, {0, 0.5, 1}, 50, 1);
@@ -47,7 +46,7 @@ TEST(RemoveGhosts, KeepsFarPartsThatAreLargeAndVerifiedAllAround) {
   AddLine(bundle, {0, 1.5, 1}, 50, 2);  // half verified
   EXPECT_EQ(RemoveGhosts(bundle, {}).points.size(), 1000u);
   GhostRemovalOptions options;
-  options.isolated_outline = 0.7;
+  options.isolated_share = 0.75;
   EXPECT_EQ(RemoveGhosts(bundle, options).points.size(), 1050u);
 }
 
