@@ -22,9 +22,10 @@ void VisitOptions(GhostRemovalOptions& options, OptionVisitor& visitor);
 ///
 /// The paper drops clusters "more than 10 cm away from any other cluster". Read literally that
 /// deletes an object that is alone because the segmentation was clean, so isolation is measured to
-/// larger clusters only: the largest one always stays, and so do other objects, and parts of one
-/// between which wires have no depth: clusters of at least a twentieth of the largest one's points,
-/// of which `isolated_share` lie on colour edges. What each rule drops is added to `funnel`, if any.
+/// larger clusters only: the largest one always stays, and so do other objects (three tenths of the
+/// largest one's points or more, of which `isolated_share` lie on colour edges) and parts between
+/// which wires have no depth (a twentieth or more, of which nine tenths do, too). What each rule
+/// drops is added to `funnel`, if any.
 BundlePoints RemoveGhosts(const BundlePoints& bundle, const GhostRemovalOptions& options,
                           PointFunnel* funnel = nullptr);
 

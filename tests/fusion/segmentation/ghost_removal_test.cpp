@@ -42,12 +42,24 @@ TEST(RemoveGhosts, KeepsFarPartsThatAreLargeAndVerified) {
   BundlePoints bundle;
   AddLine(bundle, {0, 0, 1}, 1000, 1);
   AddLine(bundle, {0, 0.5, 1}, 50, 1);
-  AddLine(bundle, {0, 1, 1}, 49, 1);    // small
-  AddLine(bundle, {0, 1.5, 1}, 50, 2);  // half verified
+  AddLine(bundle, {0, 1, 1}, 49, 1);     // small
+  AddLine(bundle, {0, 1.5, 1}, 300, 2);  // half verified
   EXPECT_EQ(RemoveGhosts(bundle, {}).points.size(), 1000u);
   GhostRemovalOptions options;
   options.isolated_share = 0.75;
   EXPECT_EQ(RemoveGhosts(bundle, options).points.size(), 1050u);
+}
+
+TEST(RemoveGhosts, KeepsAnotherObjectThatIsVerifiedLess) {
+  BundlePoints bundle;
+  AddLine(bundle, {0, 0, 1}, 1000, 1);
+  for (const int n : {300, 299}) {
+    AddLine(bundle, {0, n == 300 ? 0.5 : 1.0, 1}, n, 1);
+    for (int i = 0; i < n; i += 5) bundle.on_edge[bundle.on_edge.size() - n + i] = 0;  // a fifth
+  }
+  GhostRemovalOptions options;
+  options.isolated_share = 0.75;
+  EXPECT_EQ(RemoveGhosts(bundle, options).points.size(), 1300u);
 }
 
 TEST(RemoveGhosts, DropsWhatColourDoesNotVerify) {
