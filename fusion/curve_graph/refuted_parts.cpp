@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "graph/edge_parts.h"
 #include "kernel/point_grid.h"
 
 namespace curvefusion {
@@ -50,7 +51,8 @@ std::vector<EdgePart> RunsKept(const SkeletonGraph& skeleton, const SkeletonEdge
                                const PointGrid& shown_by_depth) {
   std::vector<EdgePart> kept;
   size_t first = 0;
-  for (const EdgePart& run : LowRuns(shares, min_share)) {
+  const auto is_low = [&](size_t i) { return !(shares[i] >= min_share); };
+  for (const EdgePart& run : PartsWhere(shares.size(), is_low)) {
     if (!IsFalse(skeleton, edge, shares, min_share, run)) continue;
     if (IsShownByDepth(edge.points, run, shown_by_depth)) continue;
     if (run.first > first) kept.push_back({first, run.first - 1});
@@ -61,10 +63,6 @@ std::vector<EdgePart> RunsKept(const SkeletonGraph& skeleton, const SkeletonEdge
 }
 
 }  // namespace
-
-std::vector<EdgePart> LowRuns(const std::vector<double>& shares, double min_share) {
-  return PartsWhere(shares.size(), [&](size_t i) { return !(shares[i] >= min_share); });
-}
 
 double DropRefutedParts(const SharesOfCurve& shares_of, double min_share,
                         const std::vector<Vec3>& shown_by_depth, SkeletonGraph& skeleton) {

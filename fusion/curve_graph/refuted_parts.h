@@ -3,14 +3,10 @@
 #include <functional>
 #include <vector>
 
-#include "graph/edge_parts.h"
 #include "graph/skeleton_graph.h"
 #include "kernel/polyline.h"
 
 namespace curvefusion {
-
-/// The longest runs of places with a share below `min_share`.
-std::vector<EdgePart> LowRuns(const std::vector<double>& shares, double min_share);
 
 // chosen: of places of nine scans (six of training, three shared ones) that lie on their wire .984
 // have a greater share of the images with a strip that runs along the curve, of false ones .48.

@@ -3,7 +3,6 @@
 #include <optional>
 
 #include "fusion/silhouettes/wire_silhouettes.h"
-#include "graph/skeleton_graph.h"
 #include "kernel/polyline.h"
 
 namespace curvefusion {
@@ -14,10 +13,5 @@ namespace curvefusion {
 /// Costs O(length of the guide x views).
 std::optional<Polyline> PathThroughSilhouettes(const WireSilhouettes& silhouettes,
                                                const Polyline& guide, double min_share);
-
-/// Leads stretches of edges that less than min_share of the images show as wire through places near
-/// them that as many do, where there is such a path. Needs radii, which become one for each edge
-/// that is changed.
-void RerouteCurves(const WireSilhouettes& silhouettes, double min_share, SkeletonGraph& skeleton);
 
 }  // namespace curvefusion

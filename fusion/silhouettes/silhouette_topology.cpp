@@ -5,7 +5,6 @@
 
 #include "fusion/curve_graph/refuted_parts.h"
 #include "fusion/silhouettes/silhouette_continuations.h"
-#include "fusion/silhouettes/silhouette_path.h"
 #include "graph/corners.h"
 #include "kernel/quantile.h"
 
@@ -52,7 +51,6 @@ SilhouetteChanges CorrectTopology(const WireSilhouettes& silhouettes, const Shar
                                   const std::vector<Vec3>& shown_by_depth,
                                   SkeletonGraph& skeleton) {
   SilhouetteChanges changes;
-  RerouteCurves(silhouettes, options.bridges.min_share, skeleton);
   changes.removed = DropRefutedParts(strips, kMinStripShare, shown_by_depth, skeleton);
   changes.continued = ContinueWires(silhouettes, options.bridges.min_share, skeleton);
   SplitAtCorners(skeleton, kCorner);

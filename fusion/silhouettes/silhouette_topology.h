@@ -29,10 +29,10 @@ struct SilhouetteChanges {
 bool TellWires(const WireSilhouettes& silhouettes, const SkeletonGraph& skeleton);
 
 /// Makes the curves agree with the images: where hardly any shows one of the `strips` is dropped,
-/// what lies beside its wire led back to it, and ends are continued and joined where images show
-/// wire ahead of them. A stretch of which half is `shown_by_depth` stays. Needs radii. Deviation:
-/// CurveFusion uses colour for ghosts and radii only, but depth shows wires side by side as one,
-/// and none at all that run along the line of sight.
+/// and ends are continued and joined where images show wire ahead of them. A stretch of which half
+/// is `shown_by_depth` stays. Needs radii. Deviation: CurveFusion uses colour for ghosts and radii
+/// only, but depth shows wires side by side as one, and none at all that run along the line of
+/// sight.
 SilhouetteChanges CorrectTopology(const WireSilhouettes& silhouettes, const SharesOfCurve& strips,
                                   const SilhouetteOptions& options,
                                   const std::vector<Vec3>& shown_by_depth, SkeletonGraph& skeleton);

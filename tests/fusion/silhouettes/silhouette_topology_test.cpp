@@ -152,18 +152,6 @@ TEST(SilhouettePruning, CutsAStretchBetweenShortOnesThatSomeImagesOverlook) {
   EXPECT_GT(DropRefutedParts(scan.Shares(), 0.7, {}, graph), 0.01);
 }
 
-TEST(SilhouettePruning, LeadsAStretchBackToItsWire) {
-  const SilhouetteScan scan({kUpper});
-  SkeletonGraph graph;
-  Polyline bent = kUpper;
-  for (Vec3& p : bent) p.y() = std::abs(p.x()) < 0.02 ? 0.004 : 0;
-  AddTestEdge(graph, bent);
-  RerouteCurves(scan.Silhouettes(), 0.9, graph);
-  ASSERT_EQ(graph.edge_count(), 1);
-  EXPECT_LT(FarthestFrom(kUpper, graph.edge(graph.Edges()[0]).points), kTolerance);
-  EXPECT_TRUE(Faults(graph).empty());
-}
-
 TEST(SilhouetteBridges, JoinEndsThatFaceEachOther) {
   const SilhouetteScan scan(With(kBars, kAcross));
   SkeletonGraph graph = BarsWithGap(true);
