@@ -15,8 +15,8 @@ using Cluster = std::vector<int>;  // indices of points
 // What is searched first for a neighbour, metres.
 constexpr double kSearchRadius = 0.02;
 // Of the largest cluster's points: other objects are larger, parts between which wires have no
-// depth may be smaller, but nearly all of their points are verified. Chosen on 50 training scans
-// and 20 rooms without wires (docs/lab_notebook.md).
+// depth may be smaller, but nearly all of their points are verified. Chosen on 41 training scans
+// and 6 rooms without wires (docs/lab_notebook.md).
 constexpr double kObjectShare = 0.3;
 constexpr double kPartShare = 0.05;
 constexpr double kPartVerified = 0.9;
