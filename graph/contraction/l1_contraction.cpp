@@ -3,11 +3,10 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <cstdint>
 
+#include "graph/contraction/l1_neighbourhood.h"
 #include "kernel/parallel.h"
-#include "kernel/point_grid.h"
 #include "kernel/spatial_search.h"
 
 namespace curvefusion {
@@ -45,31 +44,14 @@ std::vector<Vec3> WellSpreadSubset(const std::vector<Vec3>& points, const PointI
   return subset;
 }
 
-// theta(r) = exp(-r^2 / (h/2)^2), cut off at h (Huang et al. 2013, after Eq. 1).
-class Kernel {
- public:
-  explicit Kernel(double radius)
-      : squared_radius_(radius * radius), factor_(-4 / (radius * radius)) {}
-  bool Reaches(double squared_distance) const { return squared_distance < squared_radius_; }
-  double operator()(double squared_distance) const { return std::exp(factor_ * squared_distance); }
-
- private:
-  double squared_radius_;
-  double factor_;
-};
-
 // 1 / d_j of the weighted local density (Huang et al. 2013, 3.2): dense parts do not outweigh.
-std::vector<double> InverseDensities(const std::vector<Vec3>& points, const PointIndex& index,
-                                     double radius) {
-  std::vector<double> weights(points.size());
-  const Kernel theta(radius);
+std::vector<float> InverseDensities(const std::vector<Vec3>& points, double radius) {
+  const L1Neighbourhood around(points, std::vector<float>(points.size(), 1), radius, radius);
+  std::vector<float> weights(points.size());
   ParallelChunks(0, static_cast<int64_t>(points.size()), kGrain, [&](int64_t first, int64_t last) {
-    std::vector<int> neighbours;
+    PackedPoints::Neighbours neighbours;
     for (int64_t i = first; i < last; ++i) {
-      index.WithinRadius(points[i], radius, neighbours);
-      double density = 0;
-      for (const int j : neighbours) density += theta((points[i] - points[j]).squaredNorm());
-      weights[i] = 1 / density;
+      weights[i] = static_cast<float>(1 / around.DensityAt(points[i], neighbours));
     }
   });
   return weights;
@@ -89,35 +71,25 @@ class Contraction {
   ContractedSamples Result() const;
 
  private:
-  struct Repulsion {
-    Vec3 offset = Vec3::Zero();
-    Anisotropy anisotropy;
-  };
-  void FindPoints(int64_t i, double radius);
-  Vec3 LocalMedian(int64_t i, const Kernel& theta) const;
-  Repulsion RepulsionAt(int64_t i, double radius, const PointGrid& sample_grid) const;
-  double Step(double radius);
+  double Step(double radius, const L1Neighbourhood& points);
 
   const std::vector<Vec3>& points_;
   const L1Options& options_;
   PointIndex point_index_;
-  std::vector<double> point_weights_;
+  std::vector<float> point_weights_;
   double softening_;
 
   std::vector<Vec3> samples_;
   std::vector<Vec3> moved_samples_;
   std::vector<Anisotropy> anisotropies_;
   std::vector<char> fixed_;
-  // Points within the radius plus a skin of the place where the list was made.
-  std::vector<std::vector<int>> near_points_;
-  std::vector<Vec3> list_origins_;
 };
 
 Contraction::Contraction(const std::vector<Vec3>& points, const L1Options& options)
     : points_(points), options_(options), point_index_(points) {
   const double spacing = options.sample_spacing * options.initial_radius;
   softening_ = 0.1 * spacing;  // samples start on points, where 1 / r has no value
-  point_weights_ = InverseDensities(points, point_index_, spacing);
+  point_weights_ = InverseDensities(points, spacing);
   std::vector<int> neighbours;
   for (const Vec3& p : WellSpreadSubset(points, point_index_, spacing)) {
     point_index_.WithinRadius(p, options.initial_radius, neighbours);
@@ -126,72 +98,27 @@ Contraction::Contraction(const std::vector<Vec3>& points, const L1Options& optio
   moved_samples_ = samples_;
   anisotropies_.resize(samples_.size());
   fixed_.assign(samples_.size(), 0);
-  near_points_.resize(samples_.size());
-  list_origins_.resize(samples_.size());
-}
-
-// Lists of near points hold for as long as their sample stays within this part of the radius.
-constexpr double kSkin = 0.2;
-
-void Contraction::FindPoints(int64_t i, double radius) {
-  const double skin = kSkin * radius;
-  const double moved = (samples_[i] - list_origins_[i]).squaredNorm();
-  if (!near_points_[i].empty() && moved < skin * skin) return;
-  point_index_.WithinRadius(samples_[i], radius + skin, near_points_[i]);
-  list_origins_[i] = samples_[i];
-}
-
-Vec3 Contraction::LocalMedian(int64_t i, const Kernel& theta) const {
-  Vec3 sum = Vec3::Zero();
-  double total = 0;
-  for (const int j : near_points_[i]) {
-    const double squared_distance = (points_[j] - samples_[i]).squaredNorm();
-    if (!theta.Reaches(squared_distance)) continue;
-    const double alpha = point_weights_[j] * theta(squared_distance) /
-                         std::sqrt(squared_distance + softening_ * softening_);
-    sum += alpha * points_[j];
-    total += alpha;
-  }
-  return total > 0 ? Vec3(sum / total) : samples_[i];
-}
-
-// The weighted mean of the offsets from the other samples, of which the part along the curve
-// counts: across it the median alone decides.
-Contraction::Repulsion Contraction::RepulsionAt(int64_t i, double radius,
-                                                const PointGrid& sample_grid) const {
-  const Kernel theta(radius);
-  Repulsion result;
-  Mat3 covariance = Mat3::Zero();
-  double total = 0;
-  sample_grid.ForEachWithin(samples_[i], radius, [&](int j, const Vec3& sample) {
-    if (j == i) return;
-    const Vec3 offset = samples_[i] - sample;
-    const double squared_distance = offset.squaredNorm();
-    const double weight = theta(squared_distance);
-    const double beta = weight / (squared_distance + softening_ * softening_);
-    result.offset += beta * offset;
-    total += beta;
-    covariance += weight * offset * offset.transpose();
-  });
-  if (!(total > 0)) return result;
-  result.anisotropy = AnisotropyOf(covariance);
-  const Vec3& direction = result.anisotropy.direction;
-  result.offset = direction * direction.dot(result.offset) / total;
-  return result;
 }
 
 // One fixed-point iteration; returns the mean movement of the free samples.
-double Contraction::Step(double radius) {
-  const Kernel theta(radius);
-  const PointGrid sample_grid(samples_, radius);
+double Contraction::Step(double radius, const L1Neighbourhood& points) {
+  const L1Neighbourhood others(samples_, std::vector<float>(samples_.size(), 1), radius,
+                               softening_);
   const int64_t n = static_cast<int64_t>(samples_.size());
-  ParallelFor(0, n, kGrain, [&](int64_t i) {
-    if (fixed_[i]) return;
-    FindPoints(i, radius);
-    const Repulsion repulsion = RepulsionAt(i, radius, sample_grid);
-    anisotropies_[i] = repulsion.anisotropy;
-    moved_samples_[i] = LocalMedian(i, theta) +
-                        options_.repulsion * repulsion.anisotropy.directionality * repulsion.offset;
+  ParallelChunks(0, n, kGrain, [&](int64_t first, int64_t last) {
+    PackedPoints::Neighbours near_points, near_samples;
+    for (int64_t i = first; i < last; ++i) {
+      if (fixed_[i]) continue;
+      const Vec3& sample = samples_[i];
+      const L1Neighbourhood::Repulsion repulsion = others.RepulsionAt(sample, near_samples);
+      const Anisotropy anisotropy = AnisotropyOf(repulsion.covariance);
+      // The part along the curve counts: across it the median alone decides.
+      const double along = anisotropy.direction.dot(repulsion.offset);
+      moved_samples_[i] =
+          points.StepToMedian(sample, near_points) +
+          options_.repulsion * anisotropy.directionality * along * anisotropy.direction;
+      anisotropies_[i] = anisotropy;
+    }
   });
   double movement = 0;
   int64_t free_samples = 0;
@@ -204,9 +131,9 @@ double Contraction::Step(double radius) {
 }
 
 void Contraction::Contract(double radius) {
-  for (std::vector<int>& list : near_points_) list.clear();
+  const L1Neighbourhood points(points_, point_weights_, radius, softening_);
   for (int iteration = 0; iteration < options_.maximum_iterations; ++iteration) {
-    const double movement = Step(radius);
+    const double movement = Step(radius, points);
     if (movement < options_.convergence * radius) break;
   }
 }
