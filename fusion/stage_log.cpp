@@ -13,14 +13,18 @@ StageReport& StageLog::Stage(const std::string& name) {
 }
 
 void StageLog::Count(const std::string& stage, const std::string& what, double value) {
+  CountOf(stage, what) = value;
+}
+
+void StageLog::CountMore(const std::string& stage, const std::string& what, double more) {
+  CountOf(stage, what) += more;
+}
+
+double& StageLog::CountOf(const std::string& stage, const std::string& what) {
   std::vector<std::pair<std::string, double>>& counts = Stage(stage).counts;
   const auto found = std::find_if(counts.begin(), counts.end(),
                                   [&](const auto& entry) { return entry.first == what; });
-  if (found != counts.end()) {
-    found->second = value;
-  } else {
-    counts.emplace_back(what, value);
-  }
+  return found != counts.end() ? found->second : counts.emplace_back(what, 0).second;
 }
 
 }  // namespace curvefusion

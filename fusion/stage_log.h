@@ -44,6 +44,9 @@ class StageLog {
   /// Sets a count of a stage.
   void Count(const std::string& stage, const std::string& what, double value);
 
+  /// Adds to a count of a stage that is entered several times.
+  void CountMore(const std::string& stage, const std::string& what, double more);
+
   /// Sets the remark of a stage.
   void Remark(const std::string& stage, const std::string& text) { Stage(stage).remark = text; }
 
@@ -51,6 +54,7 @@ class StageLog {
 
  private:
   StageReport& Stage(const std::string& name);
+  double& CountOf(const std::string& stage, const std::string& what);
 
   std::vector<StageReport> stages_;
 };

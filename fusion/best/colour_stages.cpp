@@ -122,10 +122,10 @@ void CorrectBySilhouettes(const ColourAdjustment& adjusted, const StripViews& st
       options.silhouettes, shown_by_depth, result.skeleton);
   TidyRidgeSkeleton(result.skeleton, options.ridge);
   result.funnel.curves.looked_past += changes.removed;
-  reporter.log.Count(stage, "removed, m", changes.removed);
-  reporter.log.Count(stage, "continued", changes.continued);
-  reporter.log.Count(stage, "bridges", changes.bridges);
-  reporter.log.Count(stage, "joins", changes.joins);
+  reporter.log.CountMore(stage, "removed, m", changes.removed);
+  reporter.log.CountMore(stage, "continued", changes.continued);
+  reporter.log.CountMore(stage, "bridges", changes.bridges);
+  reporter.log.CountMore(stage, "joins", changes.joins);
   reporter.observer.OnGraph("corrected", result.skeleton);
 }
 
@@ -145,9 +145,9 @@ double AddWiresFromColour(StripViews& views, WireDepth depth, int round,
   const AddedCurves from_candidates =
       AddCandidateCurves(result.sequence, candidates, options, radius, views, result.skeleton);
   const double added = followed + from_candidates.length;
-  reporter.log.Count(stage, "followed, m", followed);
+  reporter.log.CountMore(stage, "followed, m", followed);
   reporter.log.Count(stage, "points", static_cast<double>(candidates.size()));
-  reporter.log.Count(stage, "added, m", added);
+  reporter.log.CountMore(stage, "added, m", added);
   reporter.observer.OnPoints("colour_candidates", candidates);
   reporter.observer.OnTable(fmt::format("colour_stretches_{}", round + 1),
                             [&] { return StretchesCsv(from_candidates.stretches); });
