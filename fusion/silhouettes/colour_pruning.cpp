@@ -23,7 +23,7 @@ std::optional<double> PruneByColour(const Sequence& sequence, const WireColours&
   const WireSilhouettes silhouettes(shifted, frames, posteriors, options.max_frames);
   if (!TellWires(silhouettes, skeleton)) return std::nullopt;
   return DropRefutedParts(
-      [&silhouettes](const Polyline& points) { return silhouettes.SharesAlong(points); },
+      [&silhouettes](const Polyline& points) { return silhouettes.SharesAlong(points, 1); },
       options.min_share, {}, skeleton);
 }
 

@@ -68,16 +68,16 @@ ViewCount WireSilhouettes::Count(const Vec3& p) const {
   return count;
 }
 
-double WireSilhouettes::Share(const Vec3& p) const {
+double WireSilhouettes::Share(const Vec3& p, double untold) const {
   const ViewCount count = Count(p);
-  return count.looked < kMinLooks ? 1 : static_cast<double>(count.seen) / count.looked;
+  return count.looked < kMinLooks ? untold : static_cast<double>(count.seen) / count.looked;
 }
 
-std::vector<double> WireSilhouettes::SharesAlong(const Polyline& points) const {
+std::vector<double> WireSilhouettes::SharesAlong(const Polyline& points, double untold) const {
   constexpr int64_t kPointsPerChunk = 16;
   std::vector<double> shares(points.size());
   ParallelFor(0, static_cast<int64_t>(points.size()), kPointsPerChunk,
-              [&](int64_t i) { shares[i] = Share(points[i]); });
+              [&](int64_t i) { shares[i] = Share(points[i], untold); });
   return shares;
 }
 

@@ -25,11 +25,12 @@ class WireSilhouettes {
   /// of them whose pixel there shows wire.
   ViewCount Count(const Vec3& p) const;
 
-  /// The share of the images that show wire at a place; 1 where too few were looked at to tell.
-  double Share(const Vec3& p) const;
+  /// The share of the images that show wire at a place; `untold` where too few were looked at to
+  /// tell: nothing speaks for what is to be added, nor against what is to be taken away.
+  double Share(const Vec3& p, double untold = 0) const;
 
   /// The same for each point of a curve.
-  std::vector<double> SharesAlong(const Polyline& points) const;
+  std::vector<double> SharesAlong(const Polyline& points, double untold = 0) const;
 
  private:
   // One of the images.

@@ -42,7 +42,8 @@ TEST(WireSilhouettes, KnowNothingOutsideTheImages) {
   const SilhouetteScan scan({kWire});
   const WireSilhouettes silhouettes = scan.Silhouettes();
   EXPECT_EQ(silhouettes.Count({0, 3, 0}).looked, 0);
-  EXPECT_EQ(silhouettes.Share({0, 3, 0}), 1);  // too few looks to tell
+  EXPECT_EQ(silhouettes.Share({0, 3, 0}), 0);  // too few looks to tell
+  EXPECT_EQ(silhouettes.Share({0, 3, 0}, 1), 1);
 }
 
 }  // namespace
