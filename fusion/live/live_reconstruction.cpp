@@ -10,9 +10,10 @@ namespace curvefusion {
 
 namespace {
 
-// Of a bundle's frames every second is segmented: neighbours see the same.
+// Chosen: of a bundle's frames every second is segmented, as neighbours see the same.
 constexpr int kFrameStride = 2;
-// Frames that colours and grilles are learned from, at most; some ten are asked for each.
+// Frames that colours and grilles are learned from, at most. Chosen: some ten are asked for
+// each, and half of them are left when they are thinned.
 constexpr size_t kSample = 64;
 
 // Processor seconds of this process so far, of all its threads.

@@ -19,7 +19,7 @@ namespace {
 // looked at.
 constexpr double kEnoughFrames = 15;
 constexpr double kEnoughSpread = std::numbers::pi / 3;  // chosen: what is behind shows beside it
-constexpr double kSampleStep = 0.01;                    // that of the sightings
+constexpr double kSampleStep = 0.01;                    // derived: that of the sightings
 
 CurveSightings SightingsOn(const SkeletonEdge& edge, const SightingGrid& grid) {
   const Polyline places = Resample(edge.points, kSampleStep);

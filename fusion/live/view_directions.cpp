@@ -11,13 +11,13 @@ namespace curvefusion {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr int kLeastFrames = 2;  // one alone may be a glimpse through something else
+constexpr int kLeastFrames = 2;  // chosen: one alone may be a glimpse through something else
 // Sine of the least angle between a view and the tangent: below, a curve is a dot in the image.
-constexpr double kLeastAcross = 0.34;  // 20 degrees
+constexpr double kLeastAcross = 0.34;  // chosen: 20 degrees
 // A view beside the outermost ones: chosen, far enough to show another side, near enough to keep
 // most of what was in view.
 constexpr double kNextView = kPi / 4;
-// Of the outermost views, whose frames tell which side was seen less.
+// Of the outermost views, whose frames tell which side was seen less. Chosen: more than a bin.
 constexpr double kSide = kPi / 6;
 
 struct Angle {

@@ -11,6 +11,7 @@ namespace curvefusion {
 /// degrees apart on average.
 class ViewDirections {
  public:
+  /// Chosen: bins of 18 degrees, less than the 30 and 45 that ArcAround reckons with.
   static constexpr int kFaceSide = 5;
   static constexpr int kBins = 6 * kFaceSide * kFaceSide;
 

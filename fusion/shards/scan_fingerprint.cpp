@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kIs = " = ";
+constexpr std::string_view kIs = " = ";  // chosen: of the format (docs/formats_shard.md)
 
 template <class Value>
 void AddLine(const std::string& name, const Value& value, std::string& text) {

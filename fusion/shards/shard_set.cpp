@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* kOneProgram =
     "make all shards and the result with one program, on machines of one kind";
-constexpr int kMostListed = 10;  // of missing shards
+constexpr int kMostListed = 10;  // of missing shards; chosen: a message stays short
 
 [[noreturn]] void Refuse(const std::string& message) { throw Error(ErrorKind::kBadInput, message); }
 

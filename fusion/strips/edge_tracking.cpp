@@ -12,17 +12,19 @@ namespace curvefusion {
 
 namespace {
 
+// Chosen on ten training scans (docs/lab_notebook.md#strips-found-by-their-edges); steps, guard and
+// side are those of whole strips (strip_tracking.cpp).
 constexpr double kStep = 0.5;  // pixels, as all counts below
 constexpr int kGuard = 2;      // beside an edge: neither strip nor background
 constexpr int kSide = 8;       // of background
 constexpr int kBlur = 4;       // to either side, as far as an edge is blurred
 constexpr double kMinWidthPx = 3;
-constexpr double kMinScore = 0.35;  // as of strips
-constexpr double kMaxSecond = 0.7;  // of the best score
+constexpr double kMinScore = 0.35;  // derived: as of whole strips
+constexpr double kMaxSecond = 0.7;  // derived: likewise; of the best score
 constexpr double kMaxHalfWidthErrorPx = 1;
 constexpr double kLearnSearchPx = 3;
-constexpr size_t kMinLearned = 30;
-constexpr size_t kMaxLearned = 100;
+constexpr size_t kMinLearned = 30;   // in an image, for a median
+constexpr size_t kMaxLearned = 100;  // about; more take time
 
 // 0 to 1; beyond the image its border goes on.
 double Interpolated(const PosteriorImage& image, const Vec2& pixel) {

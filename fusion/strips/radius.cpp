@@ -18,18 +18,26 @@ namespace curvefusion {
 
 namespace {
 
+// Chosen: neighbours lie a few pixels apart in an image, and a strip of 6 px and its background fit
+// between a sample and the border.
 constexpr double kNeighbourStep = 0.002;  // metres, between points of curves kept clear of
 constexpr double kBorderPx = 8;           // samples nearer to the image border are left out
-constexpr double kCrossingPx = 8;         // farther along a wire a curve may cross it
-constexpr double kAgreement = 0.25;       // strips this near to the mode count, relative
-constexpr int kMinStrips = 5;             // chosen: an edge with fewer that agree is not measured
-constexpr int kMinOwnStrips = 20;         // to tell that a piece of a wire is thicker or thinner
-constexpr double kAlikeStrips = 3;        // so many strips err together
-constexpr double kCommonError = 0.015;    // relative; of blur and shade, in all strips of a wire
-constexpr double kStretch = 0.03;         // metres, of an edge whose radius may vary
-constexpr size_t kStretchStrips = 20;     // at least, in every stretch
-constexpr double kClearChange = 0.3;      // relative; less may come of other wires near by
-constexpr double kErrorsApart = 4;
+// Chosen: with 10, one of three chairs gains nothing
+// (docs/lab_notebook.md#wires-of-narrow-grids).
+constexpr double kCrossingPx = 8;  // farther along a wire a curve may cross it
+// Chosen: wires whose diameters differ by less pass for equal, and few strips tell no difference.
+constexpr double kAgreement = 0.25;  // strips this near to the mode count, relative
+constexpr int kMinStrips = 5;        // chosen: an edge with fewer that agree is not measured
+constexpr int kMinOwnStrips = 20;    // to tell that a piece of a wire is thicker or thinner
+// Measured: calibrated on the errors of diameters of simulated scans.
+constexpr double kAlikeStrips = 3;      // so many strips err together
+constexpr double kCommonError = 0.015;  // relative; of blur and shade, in all strips of a wire
+// Chosen: a stretch has three places of the usual step (RadiusOptions::sample_step) and enough
+// strips for a median; a change must exceed what neighbours and chance make of the diameter.
+constexpr double kStretch = 0.03;      // metres, of an edge whose radius may vary
+constexpr size_t kStretchStrips = 20;  // at least, in every stretch
+constexpr double kClearChange = 0.3;   // relative; less may come of other wires near by
+constexpr double kErrorsApart = 4;     // standard errors, of the thickest and the thinnest stretch
 
 template <class T>
 void Append(std::vector<T> more, std::vector<T>& all) {

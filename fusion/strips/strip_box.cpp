@@ -11,10 +11,13 @@ namespace curvefusion {
 
 namespace {
 
-constexpr double kCannyLow = 50;  // of a 3x3 Sobel gradient of 8-bit values
+// Of a 3x3 Sobel gradient of 8-bit values. Chosen, as CurveFusion 4.3 names no thresholds.
+constexpr double kCannyLow = 50;
 constexpr double kCannyHigh = 100;
-constexpr double kMinParallel = 0.87;  // cosine between the directions of facing edges, 30 degrees
-constexpr double kMinWidthPx = 1.5;    // the neighbour on the same edge is no facing edge
+// Cosine between the directions of facing edges. Chosen: 30 degrees.
+constexpr double kMinParallel = 0.87;
+// Derived: more than the diagonal of a pixel, as the neighbour on the same edge is no facing edge.
+constexpr double kMinWidthPx = 1.5;
 
 struct Edges {
   cv::Mat mask;  // 8-bit, 0 or 255

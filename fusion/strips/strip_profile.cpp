@@ -11,13 +11,18 @@ namespace curvefusion {
 namespace {
 
 constexpr double kStep = StripProfile::kStepPx;
-constexpr int kMaxValues = 256;  // of a profile
-constexpr int kMinWidth = 3;     // steps
-constexpr int kGuard = 2;        // steps; around an edge the blur mixes both colours
-constexpr int kSide = 7;         // steps of background compared on either side
-constexpr float kNoise = 3;      // grey levels; keeps flat regions from winning by zero noise
-constexpr double kTailPx = 3;    // the blur carries a strip's colour no farther
-constexpr double kSidePx = 2;    // background measured beyond the tail
+// Chosen: arrays of fixed size hold a profile 127 px across.
+constexpr int kMaxValues = 256;
+// Chosen: a strip is more than a pixel wide, a guard about as wide as the images' blur
+// (ImageBlur::luma_px), and a side wide enough to tell its scatter.
+constexpr int kMinWidth = 3;  // steps
+constexpr int kGuard = 2;     // steps; around an edge the blur mixes both colours
+constexpr int kSide = 7;      // steps of background compared on either side
+constexpr float kNoise = 3;   // grey levels; keeps flat regions from winning by zero noise
+// Chosen: the images' blur (ImageBlur::luma_px) carries a strip's colour no farther, three standard
+// deviations; background is averaged over four values beyond.
+constexpr double kTailPx = 3;
+constexpr double kSidePx = 2;  // of background, beyond the tail
 
 // Sums over a profile, so that the line fitted to any run of it costs a few subtractions.
 struct PrefixSums {

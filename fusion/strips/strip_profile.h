@@ -12,8 +12,8 @@ namespace curvefusion {
 /// Colours across a curve (red, green, blue, 0 to 255) at steps of half a pixel along the image
 /// normal, averaged along the curve.
 struct StripProfile {
-  static constexpr double kStepPx = 0.5;
-  double first_px = 0;  ///< offset of the first value from the projected curve
+  static constexpr double kStepPx = 0.5;  ///< chosen: strips are found to about a step
+  double first_px = 0;                    ///< offset of the first value from the projected curve
   std::vector<Eigen::Vector3f> values;
 
   double offset_px(int i) const { return first_px + i * kStepPx; }
@@ -37,7 +37,8 @@ struct StripPosition {
 std::optional<StripPosition> FindStrip(const StripProfile& profile, double search_px,
                                        double max_width_px, double min_contrast);
 
-/// How far beside a strip its profile must reach for MeasureStrip, in pixels.
+/// How far beside a strip its profile must reach for MeasureStrip, in pixels. Derived: the 3 px
+/// that blur carries its colour, and 2 px of background.
 inline constexpr double kStripMarginPx = 5;
 
 /// What the colours of a strip say of its width whatever the blur: blur moves colour across the

@@ -11,16 +11,19 @@ namespace curvefusion {
 
 namespace {
 
-constexpr double kMinDepth = 0.05;          // metres
-constexpr int64_t kGrain = 64;              // samples projected by one task
-constexpr double kMaxForeshortening = 0.9;  // beyond it curves are seen nearly end on
-constexpr double kMaxClearancePx = 40;      // a strip and its background fit in
+constexpr double kMinDepth = 0.05;  // metres; chosen: less than scans are taken from
+constexpr int64_t kGrain = 64;      // samples projected by one task; chosen, changes no result
+constexpr double kMaxForeshortening = 0.9;  // chosen: beyond it curves are seen nearly end on
+constexpr double kMaxClearancePx = 40;      // chosen: a strip and its background fit in
+// Chosen: IsClear asks for no more beside strips up to 16 px wide; what crosses farther along
+// leaves the edge beside a sample as it is.
 constexpr double kMaxSideClearancePx = 16;
 constexpr double kMaxSideAlongPx = 6;
-// Nearer to the line of a curve another curve goes on with it, or lies behind it.
+// Nearer to the line of a curve another curve goes on with it, or lies behind it. Chosen on ten
+// training scans (docs/lab_notebook.md#strips-found-by-their-edges).
 constexpr double kInLinePx = 1.5;
 constexpr double kInLineSlope = 0.25;  // of the distance along it
-constexpr double kParallel = 0.7;      // cosine
+constexpr double kParallel = 0.7;      // cosine: 45 degrees
 
 struct ImagePoint {
   Vec2 pixel;
@@ -82,7 +85,7 @@ class PointCells {
     for (int i = first_[cell]; i < first_[cell + 1]; ++i) visit(points_[i]);
   }
 
-  static constexpr double kCellPx = 8;
+  static constexpr double kCellPx = 8;  // chosen for speed: a fifth of the farthest query
 
   int border_;  // cells on every side of the image
   int columns_;

@@ -12,17 +12,20 @@ namespace curvefusion {
 
 namespace {
 
-constexpr size_t kMinStrips = 40;
+// Chosen on training scans (docs/lab_notebook.md#the-backgrounds-before-which-wires-vanish), as all
+// below.
+constexpr size_t kMinStrips = 40;   // for a line
 constexpr double kMinVariance = 1;  // grey levels squared, of backgrounds within images
 constexpr int kRounds = 4;          // of leaving out
 constexpr double kOffLine = 2.5;    // times the median distance to the line
 // Errors of the contrast of wire and background, relative. That of the vanishing colour where
 // wires mirror a tenth of their surroundings, besides so many standard errors of the slope, as
-// strips err together:
+// strips err together. Chosen: with .03 instead of .1 a cage's diameters are better, a hanger's
+// worse:
 constexpr double kMirrored = 0.1;
 constexpr double kErrors = 3;
 // That of a colour estimated from blurred strips: so large where the widest tenth of them are so
-// narrow, and falling e-fold with so much more width to what it is for wide ones.
+// narrow, and falling e-fold with so much more width to what it is for wide ones. Chosen likewise:
 constexpr double kNarrowError = 0.3;
 constexpr double kNarrowPx = 4.3;
 constexpr double kFallPx = 0.45;

@@ -13,9 +13,11 @@ namespace curvefusion {
 
 namespace {
 
-constexpr EndPiece kEndPiece{.length = 10 * kMillimetre};
-constexpr double kMaxTurn = 0.44;  // radians
-constexpr double kCorner = 1.05;   // radians; a rod bent around 10 mm turns by no more
+constexpr EndPiece kEndPiece{.length = 10 * kMillimetre};  // chosen: about two diameters
+constexpr double kMaxTurn = 0.44;                          // radians; chosen: 25 degrees
+// Radians. Derived: a rod bent around 10 mm turns by no more, 1 from the 10 mm before a place to
+// the 10 mm behind it.
+constexpr double kCorner = 1.05;
 
 // The ends at a node of the edges without a corner.
 std::vector<OpenEnd> EndsWithoutCorner(const SkeletonGraph& skeleton, NodeId node) {

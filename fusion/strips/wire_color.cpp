@@ -10,9 +10,12 @@ namespace curvefusion {
 
 namespace {
 
+// Chosen: how backgrounds vary, and shades at the least.
 constexpr double kBackgroundNoise = 1.3;  // grey levels, mean over a window: it is not straight
 constexpr double kWindowMarginPx = 5;     // of background in the window of a strip
 constexpr double kMinShadeSpread = 5;     // grey levels
+// Chosen: more than twice that of luma, as JPEG stores chroma at half resolution; looked for
+// in small steps, where two halves of 20 strips differ enough in width.
 constexpr double kMaxChromaBlurPx = 2.5;
 constexpr double kBlurStepPx = 0.05;
 constexpr size_t kMinCalibrationStrips = 40;

@@ -10,8 +10,8 @@ namespace curvefusion {
 
 namespace {
 
-constexpr double kTolerance = 0.2;  // relative: wires of one gauge, measured badly
-constexpr int kEnoughStrips = 20;
+constexpr double kTolerance = 0.2;  // chosen: relative; wires of one gauge, measured badly
+constexpr int kEnoughStrips = 20;   // chosen: fewer do not make a gauge of their own
 
 bool IsLike(double diameter, double gauge) {
   return std::abs(diameter - gauge) <= kTolerance * gauge;

@@ -17,8 +17,10 @@ namespace {
 constexpr double kVoxelSize = 0.01;
 // Curless and Levoy 1996: more than the noise, which is 2 cm at 4 m.
 constexpr int kTruncationVoxels = 4;
-constexpr double kMaxExtrapolation = 3;  // intervals: a lost camera is not followed for long
+// Chosen: a lost camera is not followed for long, and each keyframe takes a whole alignment.
+constexpr double kMaxExtrapolation = 3;  // intervals
 constexpr int kKeyframesTried = 3;
+// Chosen on fr1_rpy and simulated scans (docs/tracking.md#lost-frames).
 constexpr double kMinMeasured = 0.05;  // of the pixels
 constexpr double kMinOverlap = 0.3;    // of what was measured
 constexpr double kMinInliers = 0.55;   // of the overlap
@@ -31,6 +33,7 @@ constexpr double kMaxUncertainty = 5 * kMillimetre;
 constexpr double kGivenTranslation = 3 * kMillimetre;
 constexpr double kGivenRotation = 0.3 * M_PI / 180;
 // Where the motion is given: depth of stereo cameras lies within reach of the model here and there.
+// Chosen: less than the 14 to 25 % of a D400 (docs/lab_notebook.md#poses-held-to-surfaces).
 constexpr double kMinGivenOverlap = 0.05;
 
 TsdfOptions VolumeOptions(const TrackingOptions& options) {

@@ -13,19 +13,19 @@ namespace curvefusion {
 
 namespace {
 
-// The finest level first. KinectFusion has 10, 5 and 4 from fine to coarse; grey needs more at the
-// coarse levels, where it converges from farther off.
+// The finest level first. KinectFusion (2011) has 10, 5 and 4 from fine to coarse. Chosen: grey
+// needs more at the coarse levels, where it converges from farther off.
 constexpr std::array<int, kTrackingLevels> kIterations = {4, 5, 8, 10};
-constexpr int kCoarseLevel = 2;       // to which every guess is followed
-constexpr double kSmallTurn = 2e-5;   // radians: a hundredth of a pixel
-constexpr double kSmallShift = 2e-5;  // metres: a hundredth of the noise at 1 m
+constexpr int kCoarseLevel = 2;       // to which every guess is followed; chosen for speed
+constexpr double kSmallTurn = 2e-5;   // derived: radians, less than a hundredth of a pixel
+constexpr double kSmallShift = 2e-5;  // derived: metres, about a hundredth of the noise at 1 m
 // Errors of neighbouring pixels go together. Chosen: as many that one counts, of images so wide.
 constexpr double kCorrelatedPixels = 100;
 constexpr double kWidth = 320;
-// Standard deviations, wide: they only keep the equations solvable where grey says nothing.
+// Standard deviations, chosen wide: they only keep the equations solvable where grey says nothing.
 constexpr double kGainPrior = 1;
-constexpr double kOffsetPrior = 100;  // grey levels
-constexpr double kMinGreyPoints = 100;
+constexpr double kOffsetPrior = 100;    // grey levels
+constexpr double kMinGreyPoints = 100;  // chosen for eight unknowns
 
 using Matrix8 = Eigen::Matrix<double, 8, 8>;
 using Vector8 = Eigen::Matrix<double, 8, 1>;
@@ -201,7 +201,8 @@ Vec3 Centroid(const FrameLevel& level) {
 RigidTransform ColorFromDepth(const TrackingFrame& frame, const EarlierPose& earlier,
                               const RigidTransform& T_world_frame,
                               const RigidTransform& T_color_depth) {
-  constexpr double kMaxShare = 1;  // of the motion since the frame before
+  // Chosen: the motion since the frame before is not extrapolated by more than itself.
+  constexpr double kMaxShare = 1;
   const double elapsed = frame.timestamp - earlier.timestamp;
   if (frame.color_delay == 0 || elapsed <= 0) return T_color_depth;
   const double share = std::clamp(frame.color_delay / elapsed, -kMaxShare, kMaxShare);

@@ -11,10 +11,10 @@ namespace curvefusion {
 
 namespace {
 
-constexpr int kBandRows = 8;         // of an image, for a thread at a time
-constexpr int kFitStride = 3;        // of the pixels of which the deviation is taken
+constexpr int kBandRows = 8;   // of an image, for a thread at a time; chosen for speed
+constexpr int kFitStride = 3;  // chosen: the deviation is taken of every third pixel, for speed
 constexpr float kMaxDistance = 0.1;  // metres between paired points (KinectFusion 2011)
-constexpr float kInlier = 3;         // standard deviations
+constexpr float kInlier = 3;         // standard deviations; chosen (docs/tracking.md#lost-frames)
 // Metres. Chosen: a third of a voxel, what trilinear interpolation loses at edges; also keeps few
 // near pixels from outweighing the room.
 constexpr float kModelNoise = 0.003f;

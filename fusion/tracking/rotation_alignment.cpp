@@ -14,10 +14,11 @@ namespace curvefusion {
 
 namespace {
 
-constexpr int kMaxIterations = 12;   // chosen: a start need not be exact
-constexpr double kSmallStep = 2e-4;  // radians: a hundredth of a pixel of the coarsest level
-constexpr size_t kMinShare = 3;      // a third of the pixels must be in both images
-constexpr double kMinDeviation = 1;  // grey levels
+constexpr int kMaxIterations = 12;  // chosen: a start need not be exact
+// Radians. Derived: a hundredth of a pixel of the coarsest level.
+constexpr double kSmallStep = 2e-4;
+constexpr size_t kMinShare = 3;      // chosen: a third of the pixels must be in both images
+constexpr double kMinDeviation = 1;  // grey levels; chosen: the step of 8 bits
 
 struct Row {
   float derivatives[4];  // by rotation and by offset of grey

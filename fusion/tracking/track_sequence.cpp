@@ -11,7 +11,7 @@ namespace curvefusion {
 namespace {
 
 constexpr const char* kStage = "track camera";
-constexpr size_t kNamedFrames = 3;   // in a message
+constexpr size_t kNamedFrames = 3;   // chosen: a message stays short
 constexpr double kMinTracked = 0.5;  // chosen: of less, what was scanned is guesswork
 constexpr const char* kRemedy =
     "move the camera slower, keep it within 4 m of furniture or a textured background, or give "

@@ -9,11 +9,12 @@ namespace curvefusion {
 
 namespace {
 
-constexpr size_t kFirstLevel = 2;    // of a quarter of the size: a pose may be 10 pixels off
-constexpr int kSteps = 5;            // at each level; chosen: poses move by .01 px after four
-constexpr int kMinPoints = 100;      // of the keyframe, that the frame sees
-constexpr double kSmallStep = 2e-5;  // radians, metres: a hundredth of a pixel
-constexpr double kDamping = 1e-9;    // of the greatest information: what grey leaves open stays
+constexpr size_t kFirstLevel = 2;  // of a quarter of the size; chosen: a pose may be 10 pixels off
+constexpr int kSteps = 5;          // at each level; chosen: poses move by .01 px after four
+constexpr int kMinPoints = 100;    // of the keyframe, that the frame sees; chosen for 8 unknowns
+constexpr double kSmallStep = 2e-5;  // radians, metres; derived: a hundredth of a pixel
+// Of the greatest information: what grey leaves open stays. Chosen: far less than what it tells.
+constexpr double kDamping = 1e-9;
 
 }  // namespace
 

@@ -13,6 +13,7 @@ namespace curvefusion {
 
 namespace {
 
+// Chosen for speed; results do not depend on them.
 constexpr int kBandRows = 16;  ///< image rows drawn by one thread at a time
 constexpr int kBlocksPerChunk = 128;
 
@@ -55,7 +56,7 @@ struct VoxelCamera {
 
 // Pixels start to end, clipped to [0, size); empty (first > second) outside.
 std::pair<int, int> ClippedPixels(double start, double end, int size) {
-  constexpr double kRounding = 1e-3;  // far above what projection loses
+  constexpr double kRounding = 1e-3;  // pixels; chosen: far above what projection loses
   return {static_cast<int>(std::ceil(std::clamp(start - kRounding, 0.0, 1.0 * size))),
           static_cast<int>(std::floor(std::clamp(end + kRounding, -1.0, size - 1.0)))};
 }
@@ -63,7 +64,7 @@ std::pair<int, int> ClippedPixels(double start, double end, int size) {
 // The pixels whose rays may meet some cells of a block; empty if there are none.
 std::optional<PixelBox> FindCoveredPixels(const VoxelCamera& view, const VoxelKey& key,
                                           const CellBox& box) {
-  constexpr double kNearestProjectable = 1e-3;
+  constexpr double kNearestProjectable = 1e-3;  // metres; chosen: pixels have no bound at 0
   const PinholeCamera& camera = view.camera;
   const Vec3 cell_low(box.low[0], box.low[1], box.low[2]);
   const Vec3 cell_high(box.high[0], box.high[1], box.high[2]);
@@ -143,8 +144,8 @@ struct RaySample {
 // with halved values of an end that stays (Illinois), because the interpolant along a ray is cubic.
 float RefineCrossing(const CellCorners& corners, const BlockRay& ray, const int cell[3],
                      RaySample before, RaySample behind) {
-  constexpr int kMaxIterations = 5;
-  constexpr float kTolerance = 1e-4f;  // truncations, below a thousandth of a voxel
+  constexpr int kMaxIterations = 5;    // chosen: bounds the time of a pixel
+  constexpr float kTolerance = 1e-4f;  // truncations; derived: below a thousandth of a voxel
   float t = before.t;
   for (int i = 0; i < kMaxIterations; ++i) {
     t = before.t +
@@ -167,6 +168,7 @@ float RefineCrossing(const CellCorners& corners, const BlockRay& ray, const int 
 float CrossCell(const CellCorners& corners, const BlockRay& ray, const int cell[3], float t_enter,
                 float t_exit) {
   // A crossing on the very face between two cells may round to just below zero in both.
+  // Chosen: in truncations, far above what interpolation rounds.
   constexpr float kRounding = 1e-4f;
   const float before = Interpolate(corners, cell, ray.At(t_enter));
   const float behind = Interpolate(corners, cell, ray.At(t_exit));

@@ -7,6 +7,7 @@
 namespace curvefusion {
 
 void GatherCellCorners(const VoxelBlockGrid& grid, int block, CellCorners& corners) {
+  // Derived: a block of voxels never observed, as VoxelBlock has them.
   static constexpr auto kNothing = [] {
     std::array<float, kBlockVoxels> values{};
     values.fill(std::numeric_limits<float>::quiet_NaN());

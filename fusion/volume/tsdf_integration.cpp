@@ -11,7 +11,7 @@ namespace curvefusion {
 
 namespace {
 
-constexpr int kBlocksPerChunk = 64;
+constexpr int kBlocksPerChunk = 64;  // chosen for speed, changes no result
 
 // The affine map from a block's voxels to what projection needs: u = x / z, v = y / z in pixels of
 // the padded image plus one half, so that truncation rounds, and z the depth in metres.
@@ -63,7 +63,7 @@ class BlockVisibility {
     return depth > 0 ? static_cast<double>(depth) : kNothing;
   }
 
-  static constexpr double kNearestProjectable = 1e-3;
+  static constexpr double kNearestProjectable = 1e-3;  // metres; chosen: pixels have no bound at 0
 
   const IntegrationFrame& frame_;
   const TsdfScale& scale_;
@@ -71,6 +71,7 @@ class BlockVisibility {
 };
 
 // Four voxels of a row at once: the compiler maps these types to the SIMD registers there are.
+// Derived: the floats in 16 bytes.
 constexpr int kLanes = 4;
 typedef float Float4 __attribute__((vector_size(16)));
 typedef int32_t Int4 __attribute__((vector_size(16)));
@@ -106,7 +107,7 @@ class BlockUpdater {
 
  private:
   void UpdateVoxels(const Vec3f& start, float* tsdf, uint16_t* weight) const {
-    constexpr Float4 kSteps = {0, 1, 2, 3};
+    constexpr Float4 kSteps = {0, 1, 2, 3};  // derived: the lanes' numbers
     const Float4 z = start.z() + kSteps * step_x_.z();
     const Float4 inverse_z = 1 / z;
     Float4 u = (start.x() + kSteps * step_x_.x()) * inverse_z;
@@ -155,7 +156,7 @@ class BlockUpdater {
 // Fetching the next block while one is updated saves a tenth of the time: a frame visits more
 // blocks than the caches hold.
 void Prefetch(const VoxelBlock& block) {
-  constexpr size_t kCacheLine = 64;
+  constexpr size_t kCacheLine = 64;  // bytes; chosen: those of most processors
   const char* bytes = reinterpret_cast<const char*>(&block);
   for (size_t i = 0; i < sizeof(VoxelBlock); i += kCacheLine) __builtin_prefetch(bytes + i);
 }

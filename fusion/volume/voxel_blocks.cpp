@@ -11,11 +11,11 @@ namespace curvefusion {
 
 namespace {
 
-constexpr size_t kFirstSlotCount = 1024;
+constexpr size_t kFirstSlotCount = 1024;  // chosen: a power of two, doubled when half full
 constexpr float kUnobserved = std::numeric_limits<float>::quiet_NaN();
 
 uint64_t Pack(const VoxelKey& key) {
-  constexpr int64_t kOffset = 1 << 20;
+  constexpr int64_t kOffset = VoxelBlockGrid::kMaxKey + 1;  // no key is negative then
   return static_cast<uint64_t>(key.x + kOffset) << 42 |
          static_cast<uint64_t>(key.y + kOffset) << 21 | static_cast<uint64_t>(key.z + kOffset);
 }

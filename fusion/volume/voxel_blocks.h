@@ -9,7 +9,8 @@
 
 namespace curvefusion {
 
-/// Voxels along the side of a block and in a block.
+/// Voxels along the side of a block and in a block. Chosen: a power of two, as blocks are found by
+/// shifts, and 3 KiB a block.
 inline constexpr int kBlockSide = 8;
 inline constexpr int kBlockVoxels = kBlockSide * kBlockSide * kBlockSide;
 
@@ -45,8 +46,9 @@ BlockSigns FindSigns(const VoxelBlock& block);
 /// field at (8 k + (x, y, z)) * voxel_size.
 class VoxelBlockGrid {
  public:
-  static constexpr int kNone = -1;
-  /// Keys beyond +-kMaxKey along an axis cannot be stored.
+  static constexpr int kNone = -1;  ///< derived: no block's number
+  /// Keys beyond +-kMaxKey along an axis cannot be stored. Derived: three of them are packed into
+  /// 64 bits, 21 each.
   static constexpr int kMaxKey = (1 << 20) - 1;
 
   VoxelBlockGrid();
