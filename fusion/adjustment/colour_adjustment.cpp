@@ -31,15 +31,17 @@ struct AdjustmentRound {
   bool learns_colours;
   bool measures_depth;
 };
+// Chosen: curves start a few pixels off and end at .1 px. Colours that are learned after rounds 2
+// to 4 instead give the same within chance (docs/lab_notebook.md).
 constexpr std::array<AdjustmentRound, 6> kRounds = {{{14, 4, true, true},
                                                      {10, 2, true, false},
                                                      {7, 1, false, false},
                                                      {5, 0.4, false, true},
                                                      {4, 0.4, false, false},
                                                      {4, 0.4, false, false}}};
-constexpr double kCornerAngle = 1.0;   // the same as for smoothing
-constexpr double kMaxVertices = 5500;  // of all curves, roughly
-constexpr int kMinStrips = 300;
+constexpr double kCornerAngle = 1.0;   // radians; derived: the same as for smoothing
+constexpr double kMaxVertices = 5500;  // of all curves, roughly; chosen: 16 m in steps of 3 mm
+constexpr int kMinStrips = 300;        // chosen: an adjustment to fewer is not believed
 // Chosen: a spring whose turns hide one another (training spring 3) has .085 and comes from .64 to
 // .17 px; adjustments that do not fit have .04 and less (training rack 1 and spring 4).
 constexpr double kMinAcceptedShare = 0.05;
@@ -47,7 +49,8 @@ constexpr double kMinAcceptedShare = 0.05;
 // that fit have .33 and more, but for close coils; those that do not .05 at most
 // (docs/lab_notebook.md).
 constexpr double kMinAgreedShare = 0.25;
-// Curves that fit come to .1; more is a wire taken for the next.
+// Chosen: curves that fit come to .1, parallel wires 18 mm apart that were taken for the next to
+// .6; more is a wire taken for the next.
 constexpr double kMaxResidualPx = 0.4;
 // Chosen: above what fitted curves come to (.1 to .2). Those that lay on their strips before need
 // not come nearer.
@@ -61,9 +64,10 @@ constexpr double kMaxLoss = 1.25;
 // Chosen: less tells nothing, as depth images lie beside colour images by about as much each.
 constexpr double kDepthMiddlePx = 0.5;
 constexpr double kFarPx = 3;  // from depth; farther is another wire
-// How well an adjusted pose is known.
+// How well an adjusted pose is known. Chosen with the constants of color_shift.cpp, on the same
+// scans.
 constexpr double kPlaceSigma = 0.2 * kMillimetre;
-constexpr double kRollSigma = 0.0003;
+constexpr double kRollSigma = 0.0003;   // radians: .1 px at the border of 640 x 480 pixels
 constexpr double kShiftSigmaPx = 0.15;  // of a colour image's shift, however many edges it has
 
 // Time grows with the number of vertices; along much wire they are farther apart, which strips

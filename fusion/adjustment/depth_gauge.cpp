@@ -14,11 +14,12 @@ namespace curvefusion {
 
 namespace {
 
+// Chosen: of depth at a strip, what is this near to the curve is the wire's.
 constexpr double kMaxReach = 60 * kMillimetre;  // of the depth noise that is believed
 constexpr double kMinReach = 8 * kMillimetre;   // quantisation and start together
-constexpr double kReachSigmas = 3;
-constexpr double kMinSigma = 3 * kMillimetre;  // errors of neighbouring pixels are alike
-constexpr double kSigmaFactor = 1.5;
+constexpr double kReachSigmas = 3;              // of the scatter of depth about the curves
+constexpr double kMinSigma = 3 * kMillimetre;   // errors of neighbouring pixels are alike
+constexpr double kSigmaFactor = 1.5;            // of the scatter, for a single measurement
 
 // The depth at one strip, in terms of the curves.
 struct AxisSighting {

@@ -7,6 +7,8 @@ namespace curvefusion {
 
 namespace {
 
+// Chosen: depth reaches beyond a strip by what block matching fattens wires, and by the shift of
+// colours.
 constexpr double kStep = 0.5;          // pixels across the strip
 constexpr double kOutlineReachPx = 7;  // block matching fattens wires by up to 4 px on a side
 constexpr double kFreePx = 5;          // wires nearer to one another are fattened together

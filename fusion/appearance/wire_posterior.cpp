@@ -10,10 +10,11 @@ namespace curvefusion {
 
 namespace {
 
-constexpr int kBins = 24;  // a channel; 10.7 grey levels, three times the noise of cameras
+constexpr int kBins = 24;  // a channel; chosen: 10.7 grey levels, three times the noise of cameras
 constexpr size_t kCells = static_cast<size_t>(kBins) * kBins * kBins;
-constexpr double kBlurPx = 0.7;
-// Shares of pixels below which a colour counts as never seen.
+constexpr double kBlurPx = 0.7;  // chosen: of the posterior, over 3 x 3 pixels
+// Chosen: shares of pixels below which a colour counts as never seen. One that neither wires nor
+// background have is wire with 1/6.
 constexpr double kRareWire = 2e-6;
 constexpr double kRareBackground = 1e-5;
 

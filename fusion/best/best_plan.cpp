@@ -11,8 +11,8 @@ namespace curvefusion {
 
 namespace {
 
-// Until something was found: points a frame and metres of curve, between those of the real and the
-// simulated scans of docs/results_details.md#time-left.
+// Chosen, until something was found: points a frame and metres of curve, between those of the real
+// and the simulated scans of docs/results_details.md#time-left.
 constexpr double kPointsPerFrame = 500;
 constexpr double kLength = 3;
 // The image size that costs were measured at.

@@ -14,7 +14,8 @@ namespace curvefusion {
 
 namespace {
 
-// Bundles segmented at the same time, at most: much of a bundle is done one step after the other.
+// Chosen: bundles segmented at the same time, at most. Much of a bundle is done one step after the
+// other.
 constexpr size_t kBundlesAtOnce = 4;
 
 using FrameRanges = std::vector<std::pair<int, int>>;

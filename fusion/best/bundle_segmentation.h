@@ -72,7 +72,8 @@ void SegmentBundles(const Sequence& sequence, const TsdfVolume& volume, BundleRa
 
 /// What was found thin in all bundles, in the world frame.
 struct SegmentedScan {
-  // What frames saw takes up to 110 MB: all points of the first 100 to 400 frames.
+  // Chosen to bound memory: what frames saw takes up to 110 MB, all points of the first 100 to 400
+  // frames.
   static constexpr size_t kMaxFramePoints = 2'000'000;
 
   LearnedWires wires;

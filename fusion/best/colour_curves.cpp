@@ -23,8 +23,8 @@ constexpr int kRounds = 2;
 // Derived: pixels of the images that StripViews looks at; its strips differ from what is 8 pixels
 // to both sides.
 constexpr double kWidestStripPx = 12;
-// Without depth, poses are those of the input until curves were adjusted: in images of half the
-// size they are off by half as many pixels.
+// Chosen. Without depth, poses are those of the input until curves were adjusted: in images of half
+// the size they are off by half as many pixels.
 constexpr double kFirstScale = 0.5;
 // Derived: twice the reach of a strip. Short paths know no better how far a place is.
 constexpr double kSamePlacePx = 3;

@@ -11,24 +11,25 @@ namespace curvefusion {
 
 namespace {
 
-constexpr double kStep = 0.003;  // metres, between the places that depth is asked about
+constexpr double kStep = 0.003;  // metres; chosen: between the places that depth is asked about
 // Depth shows wires in wrong places, but in the right pixels. Chosen on four scans of wires, of
 // whose curves from colour .84 and more lie where depth shows something thin, and five rooms
 // without any, where .42 at most do (docs/lab_notebook.md).
 constexpr double kMinThinInDepth = 0.6;
-// Or depth does not show them at all, but what is behind: .95 to 1.00 of the places of a rack and a
-// wheel by a phone (training scans), .07 to .43 of what five rooms without wires give.
+// Or depth does not show them at all, but what is behind. Chosen: that holds for .95 to 1.00 of the
+// places of a rack and a wheel by a phone (training scans), and for .07 to .43 of what five rooms
+// without wires give.
 constexpr double kMinFreeInDepth = 0.9;
-// Or depth has holes there, as of a thin wire by an SR300: .01 to .03 of the places measured, .63
-// to .69 of all with depth that lies behind on both sides (a cage, a cube frame and a dome,
-// training scans). Rooms without wires have .49 and more of the places measured.
+// Or depth has holes there, as of a thin wire by an SR300. Chosen: .01 to .03 of the places of a
+// cage, a cube frame and a dome (training scans) are measured, and .63 to .69 of all have depth
+// that lies behind on both sides. Rooms without wires have .49 and more of the places measured.
 constexpr double kMaxMeasuredInHoles = 0.1;
 constexpr double kMinOpenInHoles = 0.55;
 constexpr double kReach = 0.05;   // chosen: of the width of images, from a place to depth beside it
 constexpr int kThinImages = 20;   // chosen: enough for a share
 constexpr double kBehind = 0.03;  // metres; likewise what hides it: that of StripViews
-// Images tell no size: of that which depth will tell in the end, of the distance
-// (HoldToScaleOfDepth tries as much). Without it the frame of a monitor, too near by 43 mm, lay
+// Images tell no size: of that which depth will tell in the end, of the distance. Derived:
+// HoldToScaleOfDepth tries as much. Without it the frame of a monitor, too near by 43 mm, lies
 // before its own depth.
 constexpr double kScaleError = 0.06;
 constexpr double kThinCellPx = 8;  // chosen: of images 640 pixels wide

@@ -12,8 +12,8 @@ namespace curvefusion {
 
 namespace {
 
-// Metres along a curve for which a strip speaks: half of RadiusOptions::sample_step to both sides,
-// and as much for the samples that other wires hide.
+// Metres along a curve, to both sides, for which a strip speaks. Derived: half of
+// RadiusOptions::sample_step, and one step for the samples that other wires hide.
 constexpr double kStripReach = 0.015;
 
 using PlacesOfEdge = std::map<EdgeId, std::vector<double>>;

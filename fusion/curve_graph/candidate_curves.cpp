@@ -18,13 +18,15 @@ namespace curvefusion {
 
 namespace {
 
+// Chosen like those of colour_candidates.cpp.
 constexpr double kBeside = 0.004;  // metres; nearer to a curve a candidate is the curve itself
 constexpr double kSame = 0.0002;   // metres; a curve is where it was
-// Strips are not told within some pixels of known curves, nor where wires cross in many images.
-constexpr double kJoin = 0.004;   // metres; points of curves are nearer to each other
-constexpr double kStep = 0.0015;  // metres
-constexpr double kMaxGap = 0.06;  // metres
-constexpr double kMaxGapPerLength = 1.2;
+// Chosen likewise, for gaps: strips are not told within some pixels of known curves, nor where
+// wires cross in many images.
+constexpr double kJoin = 0.004;           // metres; points of curves are nearer to each other
+constexpr double kStep = 0.0015;          // metres
+constexpr double kMaxGap = 0.06;          // metres
+constexpr double kMaxGapPerLength = 1.2;  // of the curve that ends
 
 std::vector<Vec3> PointsOf(const SkeletonGraph& skeleton) {
   std::vector<Vec3> points;

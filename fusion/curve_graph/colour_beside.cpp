@@ -13,7 +13,7 @@ namespace curvefusion {
 
 namespace {
 
-constexpr size_t kPlaceStride = 2;
+constexpr size_t kPlaceStride = 2;  // chosen: places of stretches are 4 mm apart
 // Chosen: metres beyond the curve's radius, out of its blur and mostly before the next wire.
 constexpr double kDistance[] = {0.004, 0.007, 0.010};
 constexpr double kBlurPx = 1.5;  // around a curve its own colour shows
@@ -27,6 +27,7 @@ constexpr double kNearest = 0.05;      // metres before a camera
 constexpr double kAhead = 1e-3;        // metres, between which a direction is projected
 constexpr double kFromItsEnd = 1e-3;   // pixels that kAhead covers, at most
 
+// Chosen: lines on surfaces that are looked at like stretches of curves.
 constexpr int kSurfaceImages = 8;          // chosen: some hundred lines
 constexpr int kLinesAcross = 16;           // of an image
 constexpr double kHalfLine = 0.016;        // metres
@@ -34,7 +35,7 @@ constexpr double kLineStep = 0.004;        // metres
 constexpr double kLineRadius = 0.003;      // metres, as of a wire
 constexpr double kSurfaceReach = 0.025;    // metres to all sides, beyond what is beside the line
 constexpr double kSurfaceFlatness = 0.02;  // of the distance; noise is less
-constexpr int kMinReachPx = 4;
+constexpr int kMinReachPx = 4;             // of kSurfaceReach on far surfaces
 
 using Colour = Eigen::Array3d;
 

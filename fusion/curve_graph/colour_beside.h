@@ -53,8 +53,8 @@ class ColourBeside {
   ColourChange Change() const;
 
  private:
-  static constexpr int kDirections = 12;  // around the curve
-  static constexpr int kDistances = 3;
+  static constexpr int kDirections = 12;  // around the curve; chosen: steps of 30 degrees
+  static constexpr int kDistances = 3;    // derived: those of kDistance
 
   struct Point {
     Vec3 position;

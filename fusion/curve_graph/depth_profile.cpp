@@ -134,7 +134,7 @@ bool CurveMap::IsOther(int u, int v, const CurvePlace& place, double distance) c
   const int index = nearest_(u, v);
   if (index < 0) return false;
   const CurvePlace& other = places_[index];
-  // What is nearer than a wire is wide is the same wire.
+  // Metres; chosen: what is nearer than a wire is wide is the same wire.
   constexpr double kSameWire = 0.004;
   if (distance < kSameWire) return false;
   if (other.edge != place.edge) return true;

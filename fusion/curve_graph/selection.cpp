@@ -13,7 +13,7 @@ namespace curvefusion {
 
 namespace {
 
-constexpr double kMaxScore = 4;          // of one stretch: no more of it is calibrated
+constexpr double kMaxScore = 4;          // chosen: of one stretch; no more of it is calibrated
 constexpr double kChangeCost = 2;        // chosen: a change along an edge needs a stretch of 88 %
 constexpr double kPartCost = kMaxScore;  // chosen: a part of its own needs a certain stretch
 // Chosen: a doubtful one and one where no image shows a strip need .2 m that are certain. Of 44

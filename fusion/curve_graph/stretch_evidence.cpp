@@ -19,17 +19,20 @@ namespace curvefusion {
 
 namespace {
 
+// Chosen where nothing else is said. The coefficients of wire_proof.cpp are fitted to what comes of
+// these.
 constexpr double kStretch = 0.04;         // metres; chosen: some diameters of wires, and their blur
 constexpr double kPlaceStep = 0.004;      // metres along a stretch
-constexpr double kMapStep = 0.0005;       // metres: below a pixel from .3 m on
+constexpr double kMapStep = 0.0005;       // metres; derived: below a pixel from .3 m on
 constexpr double kUnknownRadius = 0.002;  // metres
-constexpr int kDirections = 36;
-constexpr int kColourImages = 30;      // chosen: a second of the parallax of 60 adds little
-constexpr size_t kMinLines = 10;       // on surfaces, for a median
-constexpr double kMinLooked = 0.3;     // share of a stretch that an image must show
-constexpr double kEnoughImages = 3;    // from one direction: more of them tell the same
-constexpr double kAgreement = 0.25;    // strips this near to the edge's diameter count
-constexpr double kStripReach = 0.006;  // metres; half of RadiusOptions::sample_step, and a little
+constexpr int kDirections = 36;           // steps of 10 degrees
+constexpr int kColourImages = 30;         // chosen: a second of the parallax of 60 adds little
+constexpr size_t kMinLines = 10;          // on surfaces, for a median
+constexpr double kMinLooked = 0.3;        // share of a stretch that an image must show
+constexpr double kEnoughImages = 3;       // from one direction: more of them tell the same
+constexpr double kAgreement = 0.25;       // strips this near to the edge's diameter count
+// Metres; derived: half of RadiusOptions::sample_step, and a little.
+constexpr double kStripReach = 0.006;
 
 // What images showed from one direction.
 struct DirectionCounts {
@@ -158,7 +161,7 @@ StretchEvidence SummaryOf(const Stretch& stretch) {
     weight += w;
     evidence.seen += w * counts.seen / counts.images;
     evidence.past += w * counts.past / counts.images;
-    constexpr double kFewProfiles = 0.3;
+    constexpr double kFewProfiles = 0.3;  // chosen: of the places of one image
     if (counts.profiles < kFewProfiles) continue;
     const double pw = w * std::min(1.0, counts.profiles / counts.images);
     profile_weight += pw;
@@ -187,7 +190,7 @@ void LookBeside(const Sequence& sequence, std::vector<Stretch>& stretches,
   const auto look = [&](const DecodedFrame& frame) {
     const ColorImage smoothed = Smoothed(frame.color);
     const RigidTransform T_color_world = sequence.T_color_world(frame.index);
-    constexpr int64_t kGrain = 16;
+    constexpr int64_t kGrain = 16;  // chosen: stretches of one task
     ParallelFor(0, static_cast<int64_t>(stretches.size()), kGrain,
                 [&](int64_t i) { stretches[i].colours->Look(smoothed, camera, T_color_world); });
     ParallelFor(0, static_cast<int64_t>(on_surfaces.size()), kGrain,
@@ -245,7 +248,7 @@ std::vector<StretchEvidence> CollectEvidence(const SkeletonGraph& skeleton,
   ForEachFrame(sequence, frames, {.depth = true, .color = false}, [&](const DecodedFrame& frame) {
     const RigidTransform& T_world_camera = sequence.frames[frame.index].T_world_camera;
     const CurveMap map(curves, sequence.depth_camera, T_world_camera.inverse());
-    constexpr int64_t kGrain = 16;
+    constexpr int64_t kGrain = 16;  // chosen: stretches of one task
     ParallelFor(0, static_cast<int64_t>(stretches.size()), kGrain, [&](int64_t i) {
       LookAtStretch(frame, sequence.depth_camera, T_world_camera, map, stretches[i]);
     });

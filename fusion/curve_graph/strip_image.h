@@ -16,7 +16,7 @@ class StripImage {
  public:
   /// How near the middle of a strip must be in a look, pixels.
   enum Look { kFirstLook, kCloseLook };
-  static constexpr double kReachPx[2] = {3.5, 1.4};
+  static constexpr double kReachPx[2] = {3.5, 1.4};  // chosen like those of strip_image.cpp
 
   StripImage() = default;
 
@@ -49,9 +49,9 @@ class StripImage {
   void DropExplained();
 
  private:
-  static constexpr double kDistanceUnits = 16;  // in a pixel
-  static constexpr uint8_t kExplained = 255;    // in place of a distance
-  static constexpr int kCellPx = 4;
+  static constexpr double kDistanceUnits = 16;  // in a pixel; derived: 15 pixels fit into a byte
+  static constexpr uint8_t kExplained = 255;  // in place of a distance; derived: the greatest byte
+  static constexpr int kCellPx = 4;           // chosen: chance is averaged over several cells
 
   void SetStrips(const StripPixels& strips);
   void SetNearest(const StripPixels& strips);

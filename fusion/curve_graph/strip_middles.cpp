@@ -102,7 +102,7 @@ float Outstanding(const Image<float>& response) {
 }
 
 MaskImage StripMiddles(const Planes& planes, const PosteriorImage& posterior) {
-  // Across strips and along them.
+  // Derived: the four directions between neighbouring pixels, across strips and along them.
   constexpr std::pair<std::pair<int, int>, std::pair<int, int>> kDirections[] = {
       {{1, 0}, {0, 1}}, {{0, 1}, {1, 0}}, {{1, 1}, {-1, 1}}, {{1, -1}, {1, 1}}};
   const int width = posterior.width(), height = posterior.height();

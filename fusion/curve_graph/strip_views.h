@@ -30,7 +30,8 @@ struct StripAgreement {
 /// the space in front of them. Where images are full of strips one more tells little.
 class StripViews {
  public:
-  static constexpr int kMaxViews = 90;  ///< images that are asked, at most
+  /// Images that are asked, at most. Chosen: time grows with them.
+  static constexpr int kMaxViews = 90;
   /// Chosen: what an image tells counts so much, as neighbouring ones tell the same.
   static constexpr double kCorrelation = 0.3;
 
@@ -107,7 +108,7 @@ class StripViews {
     bool IsHidden(double distance) const;
 
    private:
-    static constexpr size_t kFew = 5;  // every so many-th image
+    static constexpr size_t kFew = 5;  // chosen: every so many-th image
 
     // Pixels times depth, and depth: of the start, and what a metre adds.
     struct Line {

@@ -21,11 +21,11 @@ constexpr double kPast = -1.97;
 constexpr double kMostlyPast = -2.98;
 constexpr double kCovered = 3.29;
 constexpr double kThick = -3.0;
-// with what colour shows beside it, as far as that tells,
+// with what colour shows beside it, as far as that tells, fitted to 31 training scans,
 constexpr double kToldByColour = 0.18;
 constexpr double kOpenInColour = 2.53;
 constexpr double kLessOfTheRest = 0.58;  // of the terms above, thickness aside
-// then with those around it.
+// then with those around it, fitted to log-odds of models that had not seen the scan's family.
 constexpr double kAroundBias = -1.17;
 constexpr double kOwn = 0.34;
 constexpr double kAround = 1.8;
@@ -33,12 +33,12 @@ constexpr double kAround = 1.8;
 constexpr double kFewImages = 5;       // chosen: so many images count as much as knowing nothing
 constexpr double kSameFloor = 0.03;    // chosen: so much of a wire's surroundings goes on by chance
 constexpr double kWidestWire = 0.012;  // metres, CurveFusion 5
-constexpr double kNeighbourhood = 0.25;  // metres
+constexpr double kNeighbourhood = 0.25;  // metres; chosen: few wires end within centimetres
 constexpr double kTellingChange = 5;     // grey levels; chosen: noise of smoothed pixels is 1 to 2
 constexpr double kOpenRatio = 0.7;       // chosen: log of most over least change, so much is open
 constexpr double kOverSurfaces = 2;      // chosen: weight of the change over that on surfaces
 constexpr double kLeastOpen = -1.3;      // chosen: less tells no more
-constexpr double kMaxLogOdds = 4;        // of one stretch for those around it
+constexpr double kMaxLogOdds = 4;        // chosen: of one stretch for those around it
 // Of the length. Chosen: results of 18 scans of wires have .63 and more, what is left of two rooms
 // .32 and .57 (docs/lab_notebook.md).
 constexpr double kMinWireShare = 0.55;
@@ -84,7 +84,7 @@ Terms OwnTerms(const StretchEvidence& e) {
 }
 
 Doubt LargestDoubt(const Terms& terms) {
-  constexpr double kClear = -1;  // less may be a wire's
+  constexpr double kClear = -1;  // chosen: less may be a wire's
   const double surface = terms.surface + std::min(0.0, terms.colour);
   const double least = std::min({surface, terms.thick, terms.past});
   if (least > kClear) return Doubt::kUnproven;

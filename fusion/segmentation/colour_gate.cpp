@@ -14,15 +14,16 @@ namespace curvefusion {
 
 namespace {
 
-// Background is learned this far from masks: beyond block matching's fattening and blur, near
-// enough to be what also shows through gaps.
+// Chosen: background is learned this far from masks, beyond block matching's fattening and blur,
+// near enough to be what also shows through gaps.
 constexpr int kFromMask_px = 5;
 constexpr int kToMask_px = 20;
-// Colour and depth images of one device are registered to within so many pixels.
+// Chosen: colour and depth images of one device are registered to within so many pixels.
 constexpr int kMaxShift_px = 3;
-// The paraboloid through the scores overshoots a top off the middle; each round brings it nearer.
+// Chosen. The paraboloid through the scores overshoots a top off the middle; each round brings it
+// nearer.
 constexpr int kShiftRounds = 4;
-// The likeliest pixel is looked for within so many.
+// Chosen: the likeliest pixel is looked for within so many.
 constexpr int kPeakReach_px = 2;
 // Pixels less likely to be wire are dropped. Chosen below one half, so that nothing goes where
 // wires and background look the same.
@@ -30,10 +31,10 @@ constexpr double kMinPosterior = 0.4;
 // Chosen: nor are those kept that are less likely than so much of the likeliest one around: blur
 // raises narrow gaps.
 constexpr double kMinOfPeak = 0.6;
-// Of 255: surely wire, as no background that was seen has that colour.
+// Chosen, of 255: surely wire, as no background that was seen has that colour.
 constexpr int kSurePosterior = 200;
-// Colours that blur mixes of wire and background are of neither in the end: each round takes the
-// half that lies in valleys for background.
+// Chosen. Colours that blur mixes of wire and background are of neither in the end: each round
+// takes the half that lies in valleys for background.
 constexpr int kSharpeningRounds = 4;
 
 // The greatest value within a square around each pixel.

@@ -10,7 +10,7 @@ namespace curvefusion {
 
 namespace {
 
-constexpr int64_t kRowsPerChunk = 16;
+constexpr int64_t kRowsPerChunk = 16;  // chosen: a task of some 10,000 pixels
 
 // For every pixel the Sobel gradient of the channel in which it is strongest.
 void StrongestGradient(const cv::Mat& rgb, cv::Mat& dx, cv::Mat& dy) {

@@ -31,7 +31,8 @@ void VisitOptions(DepthOpeningOptions& options, OptionVisitor& visitor) {
 
 namespace {
 
-// A surface seen at more than 85 degrees from its normal cannot be told from a discontinuity.
+// Derived, the tangent of 85 degrees: a surface seen at more from its normal cannot be told from a
+// discontinuity.
 constexpr float kSteepestSlope = 11.4f;
 constexpr auto kStepNoise = static_cast<float>(kStepPerSquaredDepth);
 // What is less solid was seen through: 1 = solid, 0 and less = mostly seen through. Chosen not far
@@ -266,7 +267,8 @@ MaskImage Erode(const DepthImage& depth, const DepthImage& solidity, const Image
 // The pixels of the rendering within the discs around what erosion left.
 DepthImage DilateBack(const DepthImage& depth, const Image<uint8_t>& links,
                       const MetricScale& scale, double radius, const MaskImage& eroded) {
-  // Erosion and dilation together round by up to one pixel where an edge runs obliquely.
+  // Pixels; derived: erosion and dilation together round by up to one pixel where an edge runs
+  // obliquely.
   constexpr float kRounding = 1;
   SurfaceDistance to_eroded(links);
   for (int v = 0; v < depth.height(); ++v) {

@@ -11,18 +11,22 @@ namespace curvefusion {
 
 namespace {
 
-// Metres. A step of depth between neighbours up to which a surface goes on: that of OpenDepth.
+// Metres. A step of depth between neighbours up to which a surface goes on; derived: that of
+// DepthOpeningOptions.
 constexpr float kStep = 0.015f;
-// What is so far behind an outline is another surface, with free space before it.
+// Metres; chosen: what is so far behind an outline is another surface, with free space before it.
 constexpr float kBehind = 0.03f;
-// Of the outline: so much may hang together with what lies beside it, and so much must be free. The
-// rest is hidden by something nearer, or lies at the image's border.
+// Chosen, of the outline: so much may hang together with what lies beside it, and so much must be
+// free. The rest is hidden by something nearer, or lies at the image's border.
 constexpr double kMaxAttached = 0.2;
 constexpr double kMinFree = 0.6;
-// Parts of which more would fit into the image are specks: at .7 m so large is a wire 40 mm long.
+// Chosen: parts of which more would fit into the image are specks. At .7 m so large is a wire 40 mm
+// long.
 constexpr size_t kMaxPartsInImage = 768;
-// Of a cell's pixels in all renderings.
+// Chosen, of a cell's pixels in all renderings: in some views a sheet lies before something at its
+// own distance.
 constexpr double kMinSheetShare = 0.1;
+// Derived: from a pixel to its neighbours.
 constexpr std::array<std::pair<int, int>, 4> kBeside = {{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
 
 using Pixel = std::pair<int, int>;

@@ -38,7 +38,7 @@ class SheetGrid {
                  const RigidTransform& T_world_camera) const;
 
  private:
-  static constexpr double kCell = 0.02;  // metres: holds two wires that depth does not resolve
+  static constexpr double kCell = 0.02;  // metres; chosen: two wires that depth does not resolve
   struct Counts {
     int floating = 0;
     int all = 0;

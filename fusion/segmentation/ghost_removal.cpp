@@ -12,7 +12,7 @@ namespace curvefusion {
 namespace {
 
 using Cluster = std::vector<int>;  // indices of points
-// What is searched first for a neighbour, metres.
+// Metres; chosen: what is searched first for a neighbour.
 constexpr double kSearchRadius = 0.02;
 // Of the largest cluster's points: other objects are larger, parts between which wires have no
 // depth may be smaller, but nearly all of their points are verified. Chosen on 41 training scans

@@ -12,7 +12,7 @@ namespace curvefusion {
 
 namespace {
 
-// The rendering for counting needs no more detail than a cell.
+// Chosen: the rendering for counting needs no more detail than a cell.
 constexpr int kRenderDivisor = 4;
 // Metres. Chosen: a cell and its neighbours hold several wires and the gaps between them.
 constexpr double kCellSize = 0.02;
@@ -22,14 +22,14 @@ constexpr double kPassingDepth =
 // the cells of real surfaces stay below .017 (noise, drift); rows of 5 mm wires show .02 to .2,
 // those 8 mm apart less.
 constexpr double kMaxShare = 0.025;
-// Pixels of the rendering from a silhouette within which nothing is counted: 12 pixels of the depth
-// image, more than block matching fattens and poses drift.
+// Chosen: pixels of the rendering from a silhouette within which nothing is counted. They are 12
+// pixels of the depth image, more than block matching fattens and poses drift.
 constexpr int kMargin = 3;
-// Over this distance a surface seen at 80 degrees from its normal rises by so many pixels; more is
-// a silhouette.
+// Derived, the tangent of 80 degrees: a surface seen at this angle from its normal rises over the
+// margin by so many times its width; more is a silhouette.
 constexpr double kSteepestSlope = 5.7;
-// Fewer pixels tell no share: they are the fringes of what a few frames saw at grazing angles. A
-// frame has about so many in a cell and its neighbours at 0.7 m.
+// Fewer pixels tell no share: they are the fringes of what a few frames saw at grazing angles.
+// Derived: a frame has about so many in a cell and its neighbours at 0.7 m.
 constexpr int kMinPixels = 2000;
 
 // The farthest rendered depth around a pixel; infinite where nothing is rendered.

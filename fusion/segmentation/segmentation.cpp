@@ -16,16 +16,19 @@ namespace curvefusion {
 
 namespace {
 
-// From so many frames it is told whether depth shows a background.
+// Chosen: from so many frames it is told whether depth shows a background.
 constexpr int kBackgroundFrames = 10;
-// Frames segmented at the same time: enough to keep the cores busy, few enough to bound memory.
+// Chosen: frames segmented at the same time, enough to keep the cores busy, few enough to bound
+// memory.
 constexpr size_t kFramesAtOnce = 8;
-// Of floating sheets: wire arrays have stripes on more of their area.
+// Of floating sheets. Chosen: arrays of parallel wires have stripes on .86 and more of their area,
+// shelves of a rack on .47, a cage on .20 (docs/close_wires.md#what-it-does).
 constexpr double kMinStripedShare = 0.7;
-// Pixels: the outermost wires of a wire array, and what block matching fattens them by, lie so far
-// beyond what the volume shows of it.
+// Chosen, in pixels: the outermost wires of a wire array, and what block matching fattens them by,
+// lie so far beyond what the volume shows of it.
 constexpr int kWireArrayMargin = 16;
-// Where frames show very many points.
+// Chosen, where frames show very many points: five chairs take four fifths of the time and lose
+// .001 of F2 (docs/lab_notebook.md#time-and-frames-left-out).
 constexpr int kCrowdedStride = 2;
 
 struct SegmentedFrame {
@@ -40,7 +43,7 @@ int64_t CountSet(const MaskImage& mask) {
 
 // Mean of the largest less the least of R, G and B, of every 64th pixel.
 double Chroma(const ColorImage& color) {
-  constexpr int kStep = 8;
+  constexpr int kStep = 8;  // chosen: enough for a mean
   int64_t sum = 0, count = 0;
   for (int v = 0; v < color.height(); v += kStep) {
     for (int u = 0; u < color.width(); u += kStep) {

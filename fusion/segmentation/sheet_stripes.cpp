@@ -11,12 +11,12 @@ namespace curvefusion {
 
 namespace {
 
-// A stripe goes on straight for so many pixels either way, its normal within 18 degrees.
+// Chosen: a stripe goes on straight for so many pixels either way, its normal within 18 degrees.
 constexpr int kStraightPx = 6;
 constexpr double kParallel = 0.95;
-// Nearer crests are one.
+// Chosen, in pixels: nearer crests are one.
 constexpr int kNearestPx = 3;
-// Of 255: more likely wire than not.
+// Derived, of 255: more likely wire than not.
 constexpr int kLikely = 128;
 
 bool IsCrest(const StripeField& stripes, const PosteriorImage& image, const Vec2& pixel,

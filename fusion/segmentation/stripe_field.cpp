@@ -9,13 +9,14 @@ namespace curvefusion {
 
 namespace {
 
-// Of the derivatives: above pixels' noise, and below half the distance of the nearest stripes.
+// Chosen, of the derivatives: above pixels' noise, and below half the distance of the nearest
+// stripes.
 constexpr double kSigmaPx = 1.2;
-// Of the extremum from the pixel's middle: a bit more than half, so that oblique lines hold
+// Chosen, of the extremum from the pixel's middle: a bit more than half, so that oblique lines hold
 // together.
 constexpr float kReachPx = 0.7f;
-// Second derivative, 1/px^2, from which a stripe stands out. That of a line with a contrast of 1 is
-// about 0.3.
+// Chosen: second derivative, 1/px^2, from which a stripe stands out. That of a line with a contrast
+// of 1 is about 0.3.
 constexpr float kLeastCurvature = 0.02f;
 
 }  // namespace

@@ -17,7 +17,8 @@ namespace curvefusion {
 
 namespace {
 
-constexpr EndPiece kEndPiece{.length = 0.015};
+// Chosen: depth draws curves up to 6 mm beside their wires (docs/lab_notebook.md).
+constexpr EndPiece kEndPiece{.length = 0.015};  // metres
 constexpr double kFacingCosine = 0.6;
 constexpr double kStep = 0.002;          // metres
 constexpr double kEndReach = 0.008;      // metres; so near to its ends a bridge lies beside curves

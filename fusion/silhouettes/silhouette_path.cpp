@@ -15,11 +15,12 @@ namespace curvefusion {
 
 namespace {
 
+// Chosen: depth draws curves up to 6 mm beside their wires (docs/lab_notebook.md).
 constexpr double kGrid = 0.0015;         // metres
 constexpr double kMiddleRadius = 0.003;  // metres; about that of a wire
 constexpr double kStep = 0.003;          // metres
 constexpr double kCorridor = 0.006;      // metres beside the guide
-constexpr double kMaxDetour = 1.3;
+constexpr double kMaxDetour = 1.3;       // of the guide's length
 
 using Cell = std::array<int, 3>;
 

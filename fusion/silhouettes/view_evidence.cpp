@@ -13,9 +13,9 @@ namespace curvefusion {
 
 namespace {
 
-constexpr double kBesidePx = 1;           // block matching widens outlines
-constexpr double kUnknownRadius = 0.002;  // metres
-constexpr double kSampling = 0.003;       // metres; of curves that may lie near a place
+constexpr double kBesidePx = 1;           // chosen: block matching widens outlines
+constexpr double kUnknownRadius = 0.002;  // metres; chosen: of a thin wire
+constexpr double kSampling = 0.003;       // metres; chosen: of curves that may lie near a place
 // chosen (lampshade, basket, umbrella, of white wires): at half of the images, or 20 mm clear of
 // others, wires in the shade are cut that depth shows; at a tenth nothing more is kept.
 constexpr double kShownShare = 0.25;

@@ -11,9 +11,9 @@ namespace curvefusion {
 
 namespace {
 
-constexpr float kHidingDistance = 0.03F;  // metres; noise and drift of depth come to less
-constexpr int kMinLooks = 8;
-constexpr uint8_t kWire = 128;  // least posterior of a pixel that shows wire
+constexpr float kHidingDistance = 0.03F;  // metres; chosen: noise and drift of depth come to less
+constexpr int kMinLooks = 8;              // chosen: fewer images tell no share
+constexpr uint8_t kWire = 128;  // derived, half of 255: least posterior of a pixel that shows wire
 
 // The greatest depth within the 3 x 3 cells around each cell: block matching widens thin things.
 Image<float> FarthestAround(const DepthImage& depth) {
@@ -74,7 +74,7 @@ double WireSilhouettes::Share(const Vec3& p, double untold) const {
 }
 
 std::vector<double> WireSilhouettes::SharesAlong(const Polyline& points, double untold) const {
-  constexpr int64_t kPointsPerChunk = 16;
+  constexpr int64_t kPointsPerChunk = 16;  // chosen: of one task
   std::vector<double> shares(points.size());
   ParallelFor(0, static_cast<int64_t>(points.size()), kPointsPerChunk,
               [&](int64_t i) { shares[i] = Share(points[i], untold); });
