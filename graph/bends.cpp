@@ -10,7 +10,8 @@ namespace curvefusion {
 namespace {
 
 const double kSameAxis = std::cos(20 * M_PI / 180);  // chosen: a helix of less pitch is a bend
-// Chords of an arc lie within a tolerance of it; those of unlike lengths seem to lie farther off.
+// Chosen: chords of an arc lie within a tolerance of it; those of unlike lengths seem to lie
+// farther off.
 constexpr double kMaxSagittas = 2;
 
 // A corner of the simplified curve.

@@ -19,18 +19,18 @@ namespace {
 // Chosen, in metres unless said; a shorter gap is left to the closing of free ends.
 constexpr double kMaxGap = 0.060;
 constexpr double kMinGap = 0.010;
-// So near to a curve the path ahead meets it, and so much farther for each metre: directions are
-// not exact.
+// So near to a curve the path ahead meets it, and so much farther for each metre. Chosen:
+// directions are not exact.
 constexpr double kBaseMiss = 0.004;
-constexpr double kMissPerGap = 0.15;
+constexpr double kMissPerGap = 0.15;     // 9 degrees
 constexpr double kFitLength = 0.020;     // of the end piece that gives the direction
 constexpr double kSnapDistance = 0.006;  // a curve that is met so near to its end is met there
 constexpr double kStep = 0.0015;
-// Curves that run along the path do not cross it.
-constexpr double kParallelCosine = 0.8;
-constexpr double kFacingCosine = 0.85;
-constexpr double kLeastBranch = 0.012;
-// At the very end of a branch the ridges of other wires draw it sideways.
+// Chosen: curves that run along the path do not cross it.
+constexpr double kParallelCosine = 0.8;  // of 37 degrees
+constexpr double kFacingCosine = 0.85;   // of 32 degrees, for ends that look at each other
+constexpr double kLeastBranch = 0.012;   // shorter ones are not continued
+// Chosen: at the very end of a branch the ridges of other wires draw it sideways.
 constexpr double kBlurred = 0.006;
 constexpr std::array<double, 6> kShifts = {0.003, -0.003, 0.006, -0.006, 0.009, -0.009};
 

@@ -14,7 +14,8 @@ namespace curvefusion {
 
 namespace {
 
-// Nodes of overlaps that are joined in one go keep so many thresholds from each other.
+// Nodes of overlaps that are joined in one go keep so many thresholds from each other. Chosen: more
+// than the one within which they would become one.
 constexpr double kClearance = 2;
 
 // Parts of edges, none of which meet.

@@ -13,9 +13,11 @@ namespace curvefusion {
 
 namespace {
 
-// Stretches of contact with less than so many thresholds between them along both edges are one.
+// Stretches of contact with less than so many thresholds between them along both edges are one
+// (chosen).
 constexpr double kStretchGap = 3;
-// Lines that are within rounding of each other for so many times its size lie on one another.
+// Lines that are within rounding of each other for so many times its size lie on one another
+// (chosen).
 constexpr double kCollinearExtent = 1e6;
 constexpr double kFar = std::numeric_limits<double>::infinity();
 

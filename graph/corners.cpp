@@ -7,7 +7,7 @@ namespace curvefusion {
 
 namespace {
 
-constexpr double kReach = 10 * kMillimetre;
+constexpr double kReach = 10 * kMillimetre;  // along the curve to either side; chosen
 
 }  // namespace
 

@@ -27,8 +27,8 @@ constexpr double kFitted = 25 * kMillimetre;  // of each branch beyond that
 constexpr double kLeastFitted = 2.5 * kMillimetre;  // likewise; shorter branches tell nothing
 constexpr double kMaxResidual = 0.8 * kMillimetre;
 constexpr double kMaxTurn = 0.35;  // radians, from branch to branch; wires that meet turn by more
-// Of the sum of the radii: axes that meet have .14 and less in the median of a scan, cables that
-// touch .9 to 1.2.
+// Of the sum of the radii. Chosen from what was measured: axes that meet have .14 and less in the
+// median of a scan, cables that touch .9 to 1.2.
 constexpr double kMinApart = 0.6;
 constexpr double kMaxApart = 1.5;
 constexpr double kMinApartShare = 0.5;       // of the crossings of a connected part

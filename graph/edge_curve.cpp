@@ -10,7 +10,7 @@ namespace curvefusion {
 namespace {
 
 // A vertex no farther from a cut than this part of its segment is replaced by the cut, so that no
-// splinter of a segment is left.
+// splinter of a segment is left. Chosen.
 constexpr double kSplinter = 1e-3;
 
 // A place on a polyline: between the points `index` and `index + 1`, at `fraction` of the segment.

@@ -3,7 +3,7 @@
 namespace curvefusion {
 
 Polyline HermiteBridge(const Vec3& a, const Vec3& leaving, const Vec3& b, const Vec3& arriving) {
-  constexpr int kSegments = 12;
+  constexpr int kSegments = 12;  // chosen: few degrees from one to the next
   const double length = (b - a).norm();
   const Vec3 start = length * leaving.normalized();
   const Vec3 end = length * arriving.normalized();

@@ -21,13 +21,14 @@ namespace curvefusion {
 
 namespace {
 
-// Real and simulated skeletons need two to five rounds.
+// Chosen: far above the two to five rounds that real and simulated skeletons need.
 constexpr int kMaxJoiningRounds = 30;
-// So often may joining leave the numbers of nodes, edges and contacts as they were.
+// Chosen: so often may joining leave the numbers of nodes, edges and contacts as they were.
 constexpr int kMaxStalls = 2;
-// A loop of this many thresholds is nowhere wider than the threshold.
+// Derived: the widest loop, a circle, of so many thresholds is 3 / pi of a threshold wide.
 constexpr double kLoop = 3;
-// Curves that were joined at both ends of a stretch within the threshold may part a little between.
+// Chosen: curves that were joined at both ends of a stretch within the threshold may part a little
+// between.
 constexpr double kParallelSlack = 1.5;
 
 // What every step of tidying makes less of.

@@ -15,13 +15,15 @@ namespace curvefusion {
 
 namespace {
 
-// The displacement of a merged node fades over this many times its length: bends of at most 14
-// degrees.
+// The displacement of a merged node fades over this many times its length. Chosen: bends of at most
+// 14 degrees.
 constexpr double kReach = 4;
+// Chosen: an edge between nodes that become one goes with them up to so many snap distances.
 constexpr double kLinkInSnaps = 3;
-// Displacements below this many times the longest link are rounding: no bend.
+// Chosen: displacements below this many times the longest link are rounding: no bend.
 constexpr double kBendInLinks = 1e-3;
-// What merging nodes needs is fetched from memory so many nodes ahead, step by step.
+// What merging nodes needs is fetched from memory so many nodes ahead, step by step. Chosen:
+// only the time depends on it.
 constexpr size_t kLookahead = 6;
 
 // Nodes that places on edges have become.

@@ -11,7 +11,7 @@ namespace curvefusion {
 namespace {
 
 // Sums of arc lengths are compared exactly where rounding might matter, so shortcuts that round
-// leave this margin.
+// leave this margin. Chosen: far above the rounding of such sums.
 constexpr double kMargin = 1e-9;
 
 double LeastOf(const LinearGap& path) {
@@ -151,7 +151,7 @@ std::vector<SegmentPair> PairsOfSegments(const BoxTree::Pairs& boxes, const std:
 }
 
 // Pairs of boxes come in no order of memory: what is needed of the table so many pairs later is
-// fetched in time.
+// fetched in time. Chosen: only the time depends on it.
 constexpr size_t kLookahead = 8;
 
 void FetchPoints(const SegmentTable& table, int s) {

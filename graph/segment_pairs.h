@@ -8,7 +8,8 @@
 namespace curvefusion {
 
 /// Arc length in thresholds over which two parts of the graph that hang together may stay near each
-/// other: arms of a fork of more than 20 degrees have parted by then.
+/// other. Chosen: straight arms of a fork of more than 2 asin(1/6), 19 degrees, have parted by
+/// then.
 inline constexpr double kConnectedReach = 6;
 
 /// Two segments of a table, s < t.

@@ -8,12 +8,15 @@ namespace curvefusion {
 
 namespace {
 
-// Points of edges are fetched from memory so many edges ahead.
+// Points of edges are fetched from memory so many edges ahead. Chosen: only the time depends on
+// it.
 constexpr size_t kLookahead = 8;
 
 }  // namespace
 
 double ResolutionAt(double largest_coordinate) {
+  // Chosen: well above the 4 ulps by which places of a common point are apart
+  // (docs/graph.md#how-far-resolving-with-threshold-0-moves-points).
   constexpr double kUlps = 64;
   if (largest_coordinate == 0) return 0;
   return std::ldexp(kUlps * std::numeric_limits<double>::epsilon(), std::ilogb(largest_coordinate));

@@ -26,7 +26,8 @@ struct SegmentTable {
   /// Of some edges.
   SegmentTable(const SkeletonGraph& graph, const std::vector<EdgeId>& some) { Append(graph, some); }
 
-  /// Adds edges behind those that are there. There is room for kRoom of the points first added.
+  /// Adds edges behind those that are there. There is room for kRoom of the points first added
+  /// (chosen).
   static constexpr double kRoom = 0.25;
   void Append(const SkeletonGraph& graph, const std::vector<EdgeId>& added);
 

@@ -152,9 +152,9 @@ class SkeletonGraph {
     std::vector<int> ChangedSince(int version, int live_count) const;
 
    private:
-    static constexpr int kBlock = 64;
-    std::vector<int> of_items_;   // 0 where the item is no more
-    std::vector<int> of_blocks_;  // of so many items, no earlier than any of them
+    static constexpr int kBlock = 64;  // items that are looked at together; chosen
+    std::vector<int> of_items_;        // 0 where the item is no more
+    std::vector<int> of_blocks_;       // of so many items, no earlier than any of them
   };
 
   void TouchNode(NodeId node) { node_versions_.Set(node, ++version_); }

@@ -16,8 +16,8 @@ namespace curvefusion {
 
 namespace {
 
-// Directions before and behind a corner are measured over this many steps: longer than the noise,
-// shorter than the bends of wires.
+// Directions before and behind a corner are taken over this many steps. Chosen: longer than the
+// noise, shorter than the bends of wires.
 constexpr double kCornerWindow = 8;
 
 // Twice what a file of curves may hold (kMaxTextBytes); measured: 840,000 take .6 s and 540 MB.
@@ -130,7 +130,7 @@ class NormalEquations {
 
   // lambda |a - 2 b + c|^2. All held vertices must be known.
   void AddSmoothnessTerm(const std::array<int, 3>& vertices, double lambda) {
-    constexpr std::array<double, 3> kStencil = {1, -2, 1};
+    constexpr std::array<double, 3> kStencil = {1, -2, 1};  // derived: the second difference
     for (int i = 0; i < 3; ++i) {
       if (held_[vertices[i]]) continue;
       for (int j = 0; j < 3; ++j) {

@@ -14,7 +14,7 @@ namespace curvefusion {
 
 namespace {
 
-constexpr size_t kListedViolations = 5;
+constexpr size_t kListedViolations = 5;  // chosen: what a message has room for
 constexpr const char* kNotComputable = "is not finite, or too far from the origin to compute with";
 
 // The first point that is not within bounds, or the end.

@@ -224,7 +224,7 @@ class LineTracer {
 }  // namespace
 
 double AngleAt(const ImageLine& line, size_t i) {
-  constexpr size_t kBeside = 3;  // pixels
+  constexpr size_t kBeside = 3;  // points to either side; chosen
   const Vec2 ahead =
       line[std::min(line.size() - 1, i + kBeside)] - line[i < kBeside ? 0 : i - kBeside];
   return std::atan2(ahead.y(), ahead.x());

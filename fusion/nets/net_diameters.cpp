@@ -10,12 +10,13 @@ namespace curvefusion {
 
 namespace {
 
-constexpr int kParts = 2;          // of a pixel, from sample to sample; chosen
-constexpr int kProfile = 20;       // samples to either side: 6 mm
-constexpr int kPeakReach = 2;      // likewise, by which one image is displaced
-constexpr size_t kStride = 3;      // pixels from place to place
-constexpr double kMinClear = 8;    // times noise; chosen
-constexpr size_t kMinWidths = 20;  // chosen
+// Chosen. Pixels are those of the sheet.
+constexpr int kParts = 2;        // of a pixel, from sample to sample
+constexpr int kProfile = 20;     // samples to either side: 6 mm
+constexpr int kPeakReach = 2;    // likewise, by which one image is displaced
+constexpr size_t kStride = 3;    // pixels from place to place
+constexpr double kMinClear = 8;  // times noise
+constexpr size_t kMinWidths = 20;
 // Sine of the angle between a sheet and the line of sight, as seen along the wire; chosen: what is
 // seen at a slant is blurred by more.
 constexpr double kMinSlant = 0.7;

@@ -11,7 +11,7 @@ namespace curvefusion {
 
 /// A smooth surface in which the wires of a net lie: heights above a plane.
 struct NetSheet {
-  static constexpr double kStep = 0.003;  ///< metres from height to height
+  static constexpr double kStep = 0.003;  ///< metres from height to height; chosen
 
   Vec3 origin;           ///< in the world: of the plane's rows and columns
   Mat3 axes;             ///< columns: along rows, along columns, upwards

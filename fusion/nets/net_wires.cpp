@@ -16,6 +16,7 @@ namespace curvefusion {
 
 namespace {
 
+// Chosen: few frames and pixels, as every scan is looked at for nets.
 constexpr int kFrames = 6;          // looked at: of a scan to find nets, of a bundle to find wires
 constexpr int kCoarse = 2;          // pixels that are one where nets are looked for
 constexpr int kMinFrames = 2;       // of the scan that must show a net in a cell
@@ -111,6 +112,7 @@ MaskImage PatchesOfNets(const SurfaceViews& surface, const Parts& parts) {
 }
 
 using Pixel = std::pair<int, int>;
+// Derived: the pixels that share a side with one.
 constexpr std::array<Pixel, 4> kBeside = {{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
 
 // The pixels that hang together with a first one on one surface, as far as `may` allows; taken out

@@ -10,9 +10,10 @@ namespace curvefusion {
 
 /// Where in space wires stand so close that depth shows one surface: nets, grilles, woven seats.
 struct Nets {
-  static constexpr double kCell = 0.015;  ///< metres
-  std::vector<VoxelKey> cells;            ///< that hold net, and those beside them, ascending
-  double spacing = 0;                     ///< of their wires, metres, roughly
+  /// Metres; chosen: more than the gaps of up to 12 mm that depth closes.
+  static constexpr double kCell = 0.015;
+  std::vector<VoxelKey> cells;  ///< that hold net, and those beside them, ascending
+  double spacing = 0;           ///< of their wires, metres, roughly
   double noise = 0;  ///< grey levels: the change of colours on surfaces (SurfaceViews::noise)
 
   bool empty() const { return cells.empty(); }

@@ -71,7 +71,7 @@ Terms TermsAt(const Image<float>& image, int u, int v) {
 
 // The polynomial that fits best.
 Image<float> TrendOf(const Image<float>& image, const Image<float>& weight) {
-  constexpr double kAlmostNothing = 1e-6;  // holds terms that nothing tells
+  constexpr double kAlmostNothing = 1e-6;  // holds terms that nothing tells; chosen
   Eigen::Matrix<double, kTerms, kTerms> squares =
       kAlmostNothing * Eigen::Matrix<double, kTerms, kTerms>::Identity();
   Terms products = Terms::Zero();

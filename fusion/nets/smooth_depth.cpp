@@ -13,11 +13,11 @@ namespace curvefusion {
 namespace {
 
 constexpr int kSquare = SmoothDepth::kSquare;
-constexpr int kMinSquares = 6;  // of nine, with a depth: a plane is well determined
+constexpr int kMinSquares = 6;  // of nine, with a depth; chosen: a plane is well determined
 // Metres from the plane of a surface: noise of a net, whose wires and gaps depth mixes. Wires 20 mm
 // before a surface are no part of it (CurveFusion 4).
 constexpr double kRoughness = 0.01;
-constexpr int kRows = 8;  // for a thread at a time
+constexpr int kRows = 8;  // for a thread at a time; chosen
 
 // The median of the depths in a square; 0 where most of it measured nothing.
 float MedianDepth(const DepthImage& depth, int first_u, int first_v) {

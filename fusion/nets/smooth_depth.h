@@ -11,8 +11,10 @@ DepthImage SquareMedians(const DepthImage& depth);
 /// Depth of the smooth surfaces of a depth image, from planes through 3 x 3 squares.
 class SmoothDepth {
  public:
-  static constexpr int kSquare = 4;       ///< pixels of the depth image along a side
-  static constexpr double kMaxDepth = 3;  ///< metres: gaps of 10 mm are two pixels wide there
+  /// Chosen: pixels of the depth image along a side, and metres, as gaps of 10 mm are two pixels
+  /// wide there.
+  static constexpr int kSquare = 4;
+  static constexpr double kMaxDepth = 3;
 
   explicit SmoothDepth(const DepthImage& depth);
 

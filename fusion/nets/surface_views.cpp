@@ -19,19 +19,22 @@ namespace curvefusion {
 
 namespace {
 
-constexpr size_t kViews = 8;     // images beside a frame; chosen
+// Chosen.
+constexpr size_t kViews = 8;     // images beside a frame
 constexpr size_t kMinViews = 4;  // of them, to tell what changes from noise
-// Of the distance: how far beside a frame they are taken. Nearer ones show the same part of the
-// background through a gap of 5 mm, farther ones see other surfaces.
+// Of the distance: how far beside a frame they are taken. Chosen: nearer ones show the same part of
+// the background through a gap of 5 mm, farther ones see other surfaces.
 constexpr double kMinBaseline = 0.025;
 constexpr double kMaxBaseline = 0.2;
 // Of the colours at a place the rest is left out: a thin thing before a wall is seen in few images.
+// Chosen: with two thirds more is taken for nets (docs/lab_notebook.md#nets-kept).
 constexpr double kCountedShare = 0.5;
-constexpr double kNearer = 0.02;  // metres: what is so much nearer hides a surface
-// Metres from the smoothed depth to those tried: a Kinect's is some millimetres off, and 2 mm are a
-// third of a pixel at .6 m between images .1 m apart.
+constexpr double kNearer = 0.02;  // metres; chosen: what is so much nearer hides a surface
+// Metres from the smoothed depth to those tried. Chosen: a Kinect's is some millimetres off, and 2
+// mm are a third of a pixel at .6 m between images .1 m apart.
 constexpr std::array<float, 6> kOffsets = {0, -0.004f, -0.002f, 0.002f, 0.004f, 0.006f};
-constexpr int kAgreeing = 4;          // pixels to either side over which a depth is chosen
+// Chosen.
+constexpr int kAgreeing = 4;          // pixels to either side over which a depth is looked for
 constexpr int kRows = 8;              // for a thread at a time
 constexpr int kTrackingWidth = 640;   // pixels of the grey images by which poses are aligned
 constexpr double kMaxDeviation = 12;  // grey levels: images that differ more are of something else

@@ -10,7 +10,8 @@ namespace curvefusion {
 
 namespace {
 
-// Directions are measured over this many steps either way: raw skeletons zigzag by about a step.
+// Directions are taken over this many steps either way. Chosen: raw skeletons zigzag by about a
+// step.
 constexpr int kDirectionSteps = 5;
 // Curves cross rather than overlap where their directions differ by more than 0.6 rad. Chosen: the
 // paper has no such limit, but curves that meet in a junction are near one another too.

@@ -14,7 +14,7 @@ namespace {
 
 using Clusters = std::vector<ObservedPoints>;
 
-// What is searched first for a neighbour, metres.
+// What is searched first for a neighbour, metres. Chosen: only the time depends on it.
 constexpr double kSearchRadius = 0.02;
 
 Clusters SplitIntoClusters(const ObservedPoints& points, const GhostClusterOptions& options) {

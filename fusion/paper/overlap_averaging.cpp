@@ -11,7 +11,8 @@ namespace curvefusion {
 
 namespace {
 
-// A run ends where the matches of neighbouring points jump by more points than this.
+// A run ends where the matches of neighbouring points jump by more points than this. Chosen: 10
+// points of 1 mm are the 1 cm within which curves overlap (CurveFusion 4.3).
 constexpr double kMaxJump = 10;
 
 // Consecutive points of one bundle edge that match one edge of the partial skeleton.

@@ -11,11 +11,12 @@ namespace curvefusion {
 
 namespace {
 
-// What is searched first around a sample, metres: most find their partner there.
+// What is searched first around a sample, metres. Chosen: most find their partner there.
 constexpr double kSearchRadius = 10 * kMillimetre;
-// At rest: samples moved by less than this on average, metres; far below what skeletons resolve.
+// Chosen. At rest: samples moved by less than this on average, metres; far below what skeletons
+// resolve.
 constexpr double kAtRest = 1e-6;
-constexpr int64_t kGrain = 256;
+constexpr int64_t kGrain = 256;  // samples for a thread at a time
 
 // The best motion between pairs (Umeyama 1991, which solves what Besl and McKay solve with
 // quaternions).

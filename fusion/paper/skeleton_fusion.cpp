@@ -18,7 +18,7 @@ namespace curvefusion {
 
 namespace {
 
-constexpr int kMaxCleaningRounds = 10;
+constexpr int kMaxCleaningRounds = 10;  // chosen: one is the rule
 
 // "We represent each curve as a polyline whose vertex positions are uniformly sampled."
 SkeletonGraph Prepared(const SkeletonGraph& graph, double step) {

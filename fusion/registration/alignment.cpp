@@ -18,22 +18,22 @@ namespace {
 using Vec6 = Eigen::Matrix<double, 6, 1>;
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 
-// Fewer pairs than this determine nothing.
+// Chosen: fewer pairs than this, the degrees of freedom of a rigid motion, determine nothing.
 constexpr int kMinPairs = 6;
 // Chosen: points farther from the target pair with nothing, the largest drift between neighbouring
 // bundles.
 constexpr double kMaxDistance = 30 * kMillimetre;
 // Chosen: the gate for pairs never gets narrower, the noise of a skeleton.
 constexpr double kInlierDistance = 4 * kMillimetre;
-// Motions along which the residuals vary this much less than along the best determined one are left
-// alone: about the square of the angle by which noise turns tangents.
+// Chosen: motions along which the residuals vary this much less than along the best determined one
+// are left alone: about the square of the angle by which noise turns tangents.
 constexpr double kObservable = 0.01;
 // The gate in medians of the distances: 3 sigma of a normal distribution.
 constexpr double kGateInMedians = 3 * kGaussianMad;
-// At rest: a motion of the samples by less than this, in metres.
+// Chosen. At rest: a motion of the samples by less than this, in metres.
 constexpr double kAtRest = 2e-6;
-constexpr int64_t kGrain = 64;
-// What is searched first around a point, in metres: most find their target there.
+constexpr int64_t kGrain = 64;  // points for a thread at a time
+// What is searched first around a point, in metres. Chosen: most find their target there.
 constexpr double kSearchRadius = 0.010;
 
 // What a source point is paired with; target < 0: nothing.

@@ -7,8 +7,8 @@ namespace curvefusion {
 
 namespace {
 
-constexpr int64_t kPointsPerChunk = 256;
-// Within this distance, metres, nearly all points have their curve.
+constexpr int64_t kPointsPerChunk = 256;  // for a thread at a time; chosen
+// Chosen: within this distance, metres, nearly all points have their curve.
 constexpr double kUsualDistance = 0.01;
 constexpr double kCellSize = 0.004;  // most have it within this
 

@@ -9,7 +9,7 @@ namespace curvefusion {
 
 namespace {
 
-// Bundles are few: what a limit on iterations saves for single frames is nothing here.
+// Chosen: bundles are few, what a limit on iterations saves for single frames is nothing here.
 constexpr int kIterations = 40;
 
 }  // namespace

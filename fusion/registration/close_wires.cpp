@@ -7,10 +7,14 @@ namespace curvefusion {
 
 namespace {
 
+// Chosen: so arrays of 7 mm get the 14 mm that contraction resolves; those of 8 mm are the closest
+// that were measured (docs/close_wires.md).
 constexpr double kMaxMagnification = 2;
-// Of the wire array's spacing: points this near to the curves agree with them.
+// Of the wire array's spacing: points this near to the curves agree with them. Chosen: less than
+// the half at which the next wire is as near.
 constexpr double kAgreeing = 1.0 / 3;
-// Of all points: so many more must agree to leave the nearest start. One wire of ten.
+// Of all points: so many more must agree to leave the nearest start. Chosen: less than one wire of
+// ten.
 constexpr double kClearlyMore = 0.05;
 
 Vec3 PrincipalDirection(const Mat3& moments) {

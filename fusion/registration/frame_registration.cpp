@@ -10,16 +10,18 @@ namespace curvefusion {
 
 namespace {
 
-// So many points of a frame are looked at for one that is aligned: most may lie between wires.
+// So many points of a frame are looked at for one that is aligned. Chosen: most may lie between
+// wires.
 constexpr size_t kCandidatesPerPoint = 4;
 // Chosen: a frame of which a smaller share fits the curves, or with fewer points near them, is not
 // moved by itself;
 constexpr double kMinInliers = 0.5;
 constexpr int kMinPoints = 100;
-// nor one that would move farther, metres: the largest drift within a bundle.
+// nor one that would move farther, metres; chosen: the largest drift within a bundle.
 constexpr double kMaxMotion = 0.01;
 
-constexpr double kVoxelSize = 0.0025;  // metres, of the grid on which points are merged
+// Metres, of the grid on which points are merged; chosen: as carried_voxel_size.
+constexpr double kVoxelSize = 0.0025;
 
 // The points of a frame, moved, that lie near the curves. Where wires are dense, block matching
 // makes one sheet of them, and most points lie between them and say nothing.

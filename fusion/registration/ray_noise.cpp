@@ -11,13 +11,15 @@ namespace curvefusion {
 
 namespace {
 
-// Places at which a cloud is looked at; more change the median by less than its own use needs.
+// Chosen. More places at which a cloud is looked at change the median by less than its own use
+// needs.
 constexpr size_t kPlaces = 1000;
-constexpr double kNeighbourhood = 0.010;
-constexpr size_t kMinNeighbours = 8;
-constexpr double kMaxRatio = 8;
-// Compression makes noise along the rays 2.0 to 3.2 times as curve-like (the real cable in bundles
-// of 16 to 48 frames); structures that are dense, thick or smeared by drift gain 1.4 times at most.
+constexpr double kNeighbourhood = 0.010;  // metres around each
+constexpr size_t kMinNeighbours = 8;      // places with fewer are left out
+constexpr double kMaxRatio = 8;           // of compression
+// Chosen between what was measured: compression makes noise along the rays 2.0 to 3.2 times as
+// curve-like (the real cable in bundles of 16 to 48 frames); structures that are dense, thick or
+// smeared by drift gain 1.4 times at most.
 constexpr double kLeastGain = 1.7;
 
 double LinearityAt(const std::vector<Vec3>& points, const std::vector<int>& neighbours) {

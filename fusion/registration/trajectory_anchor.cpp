@@ -11,12 +11,14 @@ namespace curvefusion {
 
 namespace {
 
-constexpr double kTranslationStep = 0.00033;  // drift along an axis from frame to frame, metres
+// Derived: the drift and walk of ORB-SLAM2 from frame to frame at 30 Hz, by the model of
+// docs/simulator.md#pose-sources: the root of 2 sigma^2 / (30 tau) + walk^2 / 30.
+constexpr double kTranslationStep = 0.00033;  // along an axis, metres
 constexpr double kRotationStep = 0.00036;     // about an axis, radians
-// The weight of later frames falls exponentially, by e within sigma / step frames: nothing is left
-// of it after so many, whatever the model.
+// Chosen: the weight of later frames falls exponentially, by e within sigma / step frames: nothing
+// is left of it after so many, whatever the model.
 constexpr size_t kMaxFrames = 60;
-constexpr int kIterations = 3;  // corrections are small: the second changes the last digits
+constexpr int kIterations = 3;  // chosen: corrections are small, the second changes the last digits
 
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 

@@ -8,7 +8,7 @@ namespace curvefusion {
 
 namespace {
 
-// A wire's last piece has an end's noise: its direction is that of so much before it.
+// Chosen: a wire's last piece has an end's noise, its direction is that of so much before it.
 constexpr double kTangentLength = 15 * kMillimetre;
 // Where the straight way misses the surface, within this of it: what a mug's handle turns by in
 // `reach`. Cosine of 60 degrees, chosen.

@@ -14,7 +14,7 @@ namespace curvefusion {
 
 namespace {
 
-constexpr double kAxisStep = 2 * kMillimetre;  // below what a volume resolves
+constexpr double kAxisStep = 2 * kMillimetre;  // chosen: below what a volume resolves
 constexpr double kTurnedAway = 0.5;            // cosine; chosen: 60 degrees
 
 // How a triangle lies to the nearest tube.

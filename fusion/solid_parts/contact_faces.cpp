@@ -7,7 +7,8 @@ namespace curvefusion {
 
 namespace {
 
-// Share of a piece's triangles that may lie behind a plane it stands on, as noise puts them there.
+// Share of a piece's triangles that may lie behind a plane it stands on. Chosen: noise puts some
+// there.
 constexpr double kMaxBehind = 0.02;
 
 double Cross(const Vec2& a, const Vec2& b, const Vec2& c) {

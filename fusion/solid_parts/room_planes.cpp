@@ -14,7 +14,8 @@ namespace {
 // Chosen: smaller planes are faces of things, not of a room (half a sheet of paper).
 constexpr double kMinArea = 0.03;
 constexpr double kMinCosine = 0.87;  // of 30 degrees
-// One draw in (share of the plane)^3 hits; of a plane of a fifth of the surface one in 125.
+// Chosen. A share of (share of the plane)^3 of the draws hits: of a plane of a fifth of the surface
+// one in 125.
 constexpr int kDraws = 1000;
 constexpr int kMaxPlanes = 12;
 constexpr size_t kScored = 4000;  // triangles: enough to tell a share of a few percent

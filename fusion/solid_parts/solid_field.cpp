@@ -15,7 +15,7 @@ namespace curvefusion {
 
 namespace {
 
-// Voxels: a vertex keeps so far from the samples on either side, which avoids slivers.
+// Chosen. Voxels: a vertex keeps so far from the samples on either side, which avoids slivers.
 constexpr double kLeastValue = 0.1;
 constexpr int kGap = 2;             // voxels, of the ball that closes hidden gaps
 constexpr double kGroupVoxels = 8;  // of triangles whose winding is taken together

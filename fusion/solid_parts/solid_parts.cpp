@@ -18,7 +18,7 @@ namespace {
 // Half of what is thin to segmentation (segmentation.opening_radius; CurveFusion 4.1): a volume's
 // surface so near to a wire is the wire's, what is no wider is no surface.
 constexpr double kReach = 20 * kMillimetre;
-// A volume smears a surface by about as much; planes and tubes hold what is within.
+// Chosen: a volume smears a surface by about as much; planes and tubes hold what is within.
 constexpr double kBlurVoxels = 2;
 constexpr int kStride = 2;            // every second frame, as of the best profile's volume
 constexpr double kVoxelSize = 0.005;  // metres; chosen: a Kinect's noise at .7 m is 1 to 2 mm

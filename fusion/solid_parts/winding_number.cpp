@@ -11,7 +11,8 @@ namespace curvefusion {
 
 namespace {
 
-// In radii of a group: farther away the dipole is off by some percent of its share (Barill et al.).
+// In radii of a group. Chosen: farther away the dipole is off by some percent of its share (Barill
+// et al. 2018).
 constexpr double kFar = 2.5;
 
 }  // namespace

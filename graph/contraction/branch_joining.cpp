@@ -14,27 +14,28 @@ namespace curvefusion {
 
 namespace {
 
+// Derived: indices are not negative, and a branch has two ends.
 constexpr int kNone = -1;
 constexpr size_t kFront = 0;
 constexpr size_t kBack = 1;
 
-// A junction lies ahead of an end when it is seen within 60 degrees of the end's heading: the mean
-// of a cluster strays from the branches' lines by about as much.
+// A junction lies ahead of an end when it is seen within 60 degrees of the end's heading. Chosen:
+// the mean of a cluster strays from the branches' lines by about as much.
 constexpr double kJunctionCosine = 0.5;
 
-// How many vertices back the heading of an end is measured from: the last ones may already be drawn
-// into the junction.
+// How many vertices back the heading of an end is taken from. Chosen: the last ones may already be
+// drawn into the junction.
 constexpr size_t kHeadingVertices = 5;
 
-// What the mean of a junction's samples weighs against one branch that points past it. Where three
-// and more branches meet it decides only along the branches, should those be collinear; where two
-// meet, a round bend is as likely as a sharp corner, and half-way between mean and corner errs
-// least.
+// Chosen: what the mean of a junction's samples weighs against one branch that points past it.
+// Where three and more branches meet it decides only along the branches, should those be collinear;
+// where two meet, a round bend is as likely as a sharp corner, and half-way between mean and corner
+// errs least.
 constexpr double kMeanWeight = 0.1;
 constexpr double kMeanWeightInBend = 1;
 
-// A loop shorter than so many times the reach is a fold of the samples in a junction: a ring that
-// small would have contracted to a point.
+// Chosen: a loop shorter than so many times the reach is a fold of the samples in a junction: a
+// ring that small would have contracted to a point.
 constexpr double kLeastLoop = 3;
 
 struct Junctions {

@@ -13,7 +13,8 @@ namespace curvefusion {
 namespace {
 
 // The ridge kernel is made for wires of 2 to 12 mm, whose suggested neighbourhood is about 15 mm;
-// the L1 axis adapts to clouds that are this many times larger or smaller.
+// the L1 axis adapts to clouds that are this many times larger or smaller. Chosen: 2 and 12 mm are
+// 2.4 times below and above their geometric mean.
 constexpr double kRidgeNeighbourhood = 0.015;
 constexpr double kRidgeSizeRange = 2.5;
 

@@ -9,7 +9,8 @@ namespace curvefusion {
 namespace {
 
 // Neighbours do for kernels so far from where they were gathered, in sigma, and turned by an angle
-// of this cosine at most: what is then missed lies at the kernel's edge, where it weighs nothing.
+// of this cosine at most. Chosen: what is then missed lies at the kernel's edge, where it weighs
+// nothing.
 constexpr double kSlack = 0.5;
 constexpr double kLeastCosine = 0.9;
 

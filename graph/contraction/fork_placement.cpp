@@ -10,10 +10,12 @@ namespace curvefusion {
 
 namespace {
 
-constexpr double kMaxAngle = 0.7;
-constexpr double kMaxRms = 0.002;
-constexpr double kLeastFit = 0.015;
-constexpr double kStep = 0.0005;
+// Chosen: lines fitted to wires that part at 25 degrees meet 10 to 20 mm too far out. Parabolas
+// take their place at angles up to 40 degrees, where they fit and the stretches are long enough.
+constexpr double kMaxAngle = 0.7;    // radians
+constexpr double kMaxRms = 0.002;    // metres
+constexpr double kLeastFit = 0.015;  // metres
+constexpr double kStep = 0.0005;     // metres along parabolas
 
 // A parabola by arc length over kScale, fitted to points.
 struct Parabola {
@@ -21,7 +23,7 @@ struct Parabola {
   double rms = 0;
 
   static Vec3 Powers(double arc_length) {
-    constexpr double kScale = 0.05;
+    constexpr double kScale = 0.05;  // metres; derived: fork_fit_length
     const double t = arc_length / kScale;
     return {1, t, t * t};
   }

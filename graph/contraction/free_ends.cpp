@@ -19,9 +19,10 @@ namespace curvefusion {
 
 namespace {
 
-// A piece that hangs at a junction is less likely to be noise than one on its own.
+// Chosen: a piece that hangs at a junction is less likely to be noise than one on its own.
 constexpr double kAttachedFactor = 2;
-// Where two ends continue each other this well the longer of their edges vouches for both.
+// Chosen: where two ends continue each other this well, within 26 degrees, the longer of their
+// edges vouches for both.
 constexpr double kContinuing = 0.9;
 // All chosen.
 constexpr double kMaxAngle = 1.1;        // radians, at which an end reaches nothing any more

@@ -4,8 +4,8 @@ namespace curvefusion {
 
 namespace {
 
-constexpr double kStep = 0.001;
-// Nearer than this a thin density kernel blends curves.
+constexpr double kStep = 0.001;  // metres; chosen: well below the distances that are looked at
+// Chosen, metres: nearer than this a thin density kernel blends curves.
 constexpr double kCrossing = 0.005;
 
 std::vector<Vec3> PointsOfCurves(const SkeletonGraph& graph, std::vector<EdgeId>& edges) {

@@ -10,7 +10,8 @@ namespace curvefusion {
 
 namespace {
 
-// Keeps the fit where all lines are nearly parallel; a full line pulls with weight 1.
+// Keeps the fit where all lines are nearly parallel. Chosen: little, as a full line pulls with
+// weight 1.
 constexpr double kPriorWeight = 0.02;
 
 // A branch as a straight line near its junction.

@@ -13,7 +13,7 @@ namespace curvefusion {
 
 namespace {
 
-constexpr int kRounds = 2;
+constexpr int kRounds = 2;  // chosen: once placed, junctions may lie side by side
 // With four lines, a point that three nodes share by chance is told from a junction; and chosen:
 // on training scans umbrella 1, the shared umbrella and wheel 1, parts of a hub meet to .7 to 1.5
 // mm, junctions next to each other to 3.5 and more.

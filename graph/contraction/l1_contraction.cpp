@@ -13,7 +13,7 @@ namespace curvefusion {
 
 namespace {
 
-constexpr int64_t kGrain = 64;
+constexpr int64_t kGrain = 64;  // points for a thread at a time; chosen
 
 // The principal direction of a covariance and its share of the variance; 1/3 for no variance.
 struct Anisotropy {

@@ -9,6 +9,8 @@ namespace curvefusion {
 
 namespace {
 
+// Chosen: places at which balls of ball_radius, 4 mm, overlap, and do not reach into those of other
+// edges.
 constexpr double kStep = 0.003;           // metres, between the places of an edge
 constexpr double kNodeClearance = 0.008;  // metres; nearer it lies in the points of other edges
 // Chosen on racks of wires some 20 mm apart: noise has less of what was seen of the best places

@@ -9,7 +9,7 @@
 
 namespace curvefusion {
 
-/// So many points are summed at a time.
+/// So many points are summed at a time. Derived: the floats that a register of AVX2 holds.
 inline constexpr int kLanes = 8;
 using Lanes [[gnu::vector_size(kLanes * sizeof(float))]] = float;
 
@@ -97,7 +97,7 @@ class PackedPoints {
 };
 
 [[gnu::always_inline]] inline PackedArrays::Packet PackedArrays::Load(int first, int last) const {
-  // From so many on, ones for so many lanes less.
+  // From so many on, ones for so many lanes less. Derived: kLanes ones.
   static constexpr float kOnesThenZeros[2 * kLanes] = {1, 1, 1, 1, 1, 1, 1, 1};
   Packet packet;
   __builtin_memcpy(&packet.x, &x[first], sizeof(Lanes));

@@ -12,9 +12,11 @@ namespace curvefusion {
 
 namespace {
 
-constexpr int kGrain = 32;
-constexpr int kDirectionsAcross = 4;
-// Rays of points agree where their mean, without its part along the ridge, is longer than this.
+// Chosen.
+constexpr int kGrain = 32;            // places for a thread at a time
+constexpr int kDirectionsAcross = 4;  // 45 degrees apart
+// Chosen: rays of points agree where their mean, without its part along the ridge, is longer than
+// this.
 constexpr double kLeastRay = 0.5;
 // Chosen: a weak ridge of which both sides hold more than this part of its own points is noise.
 constexpr double kMaxFlank = 0.3;

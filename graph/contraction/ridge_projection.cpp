@@ -21,18 +21,21 @@ namespace curvefusion {
 
 namespace {
 
-// A tenth of the noise of ridges or less.
+// Chosen: a tenth of the noise of ridges or less.
 constexpr double kConvergedStep = 0.02 * kMillimetre;
-constexpr int kGrain = 256;
-// Kernel widths grow by this factor from one level to the next.
+constexpr int kGrain = 256;  // for a thread at a time
+// Kernel widths grow by this factor from one level to the next. Chosen: the square root of 2, so
+// that they double in two.
 constexpr double kLevelRatio = 1.4142135623730951;
-// A density is smooth enough for points and seeds this far apart, in kernel widths.
+// Chosen: a density is smooth enough for points and seeds this far apart, in kernel widths.
 constexpr double kCellPerSigma = 0.7;
-// A ridge point comes from several seeds, so these may be farther apart than the ridge points.
+// Chosen: a ridge point comes from several seeds, so these may be farther apart than the ridge
+// points.
 constexpr double kCellPerSpacing = 1.6;
-// What is usual nearby hardly changes within this part of the radius in which it is.
+// Chosen: what is usual nearby hardly changes within this part of the radius in which it is.
 constexpr double kCellPerRadius = 0.35;
-// After so many steps most seeds have come together and need not all be followed to the end.
+// Chosen: after so many steps most seeds have come together and need not all be followed to the
+// end.
 constexpr int kGatheringIterations = 3;
 constexpr int kIterations = 30;  // chosen: most mean-shift steps of a point
 // Chosen: what is seen less often than this part of the median stays weak: it is outliers.
@@ -150,6 +153,8 @@ Mat3 KernelCovariance(double sigma, const Vec3& direction, double stretch) {
 // confirm whatever direction it has.
 void UpdateDirection(const Mat3& spread, const Mat3& kernel, double variance_across,
                      RidgeSeed& seed) {
+  // Chosen: so that points on a line have a spread across that can be inverted, and flatness stays
+  // finite where the precision is negative.
   constexpr double kRegularization = 1e-4;
   constexpr double kLeast = -0.9;
   const Mat3 regular = spread + kRegularization * variance_across * Mat3::Identity();

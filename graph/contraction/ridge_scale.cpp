@@ -13,7 +13,7 @@ namespace curvefusion {
 
 namespace {
 
-constexpr int kGrain = 256;
+constexpr int kGrain = 256;  // places for a thread at a time; chosen
 
 // A spread s seen through a kernel of variance v has variance s^2 v / (s^2 + v).
 double SpreadBehindKernel(double variance, double kernel_variance) {

@@ -20,7 +20,7 @@ namespace {
 Polyline Smoothed(const Polyline& points, double weight, bool closed) {
   const int n = static_cast<int>(points.size()) - (closed ? 1 : 0);
   if (n < 4) return points;
-  constexpr double kHeld = 1e6;
+  constexpr double kHeld = 1e6;  // chosen: far above the weight of a point that may move, 1
   std::vector<Eigen::Triplet<double>> entries;
   Eigen::MatrixX3d target(n, 3);
   for (int i = 0; i < n; ++i) {

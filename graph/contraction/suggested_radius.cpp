@@ -14,7 +14,9 @@ namespace curvefusion {
 
 namespace {
 
-constexpr int64_t kGrain = 32;
+// Chosen. Elongation is radius over thickness: at 2.5 a neighbourhood is five times as long as
+// thick.
+constexpr int64_t kGrain = 32;        // for a thread at a time
 constexpr size_t kProbes = 400;       // as many points are asked; the median settles long before
 constexpr int kLeastNeighbours = 16;  // fewer are elongated by chance
 constexpr double kRadiusStep = 1.15;  // finer than the result needs to be

@@ -12,8 +12,8 @@ namespace curvefusion {
 
 namespace {
 
-// Group codes and values of the DXF reference, release 12: later ones have no 3D polyline that
-// dxflib writes.
+// Group codes and values of the DXF reference, release 12 (Autodesk 1992): later ones have no 3D
+// polyline that dxflib writes.
 constexpr int kHeaderVariable = 9;
 constexpr int kFlagsCode = 70;
 constexpr int kMillimetreUnits = 4;
@@ -39,7 +39,7 @@ void WritePolyline(const SkeletonEdge& edge, DL_Dxf& dxf, DL_WriterA& writer) {
 
 // dxflib does not tell whether the disk was full.
 void RequireWhole(const std::filesystem::path& path) {
-  constexpr std::string_view kEnd = "EOF\n";
+  constexpr std::string_view kEnd = "EOF\n";  // of every DXF file (Autodesk 1992)
   std::string end(kEnd.size(), ' ');
   std::ifstream stream(path, std::ios::binary);
   stream.seekg(-static_cast<std::streamoff>(kEnd.size()), std::ios::end);

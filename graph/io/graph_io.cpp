@@ -30,6 +30,7 @@ FormatLosses WriteJson(const std::filesystem::path& path, const SkeletonGraph& g
   return {};
 }
 
+// Chosen. By extension: what writes curves, what reads them, what writes splines.
 constexpr GraphFormat kFormats[] = {
     {".json", WriteJson, SkeletonFromJson},
     {".graphml", WriteGraphml, ReadGraphml},
@@ -55,7 +56,7 @@ const GraphFormat* FormatOf(const std::filesystem::path& path) {
 
 // In the smallest unit that is written, too: a value near the end of the range may not fit.
 void RequireFiniteValues(const SkeletonGraph& graph, const std::string& target) {
-  constexpr double kSmallestUnit = 1e-6;
+  constexpr double kSmallestUnit = 1e-6;  // derived: the micrometres of SWC
   const auto finite = [](double value) { return std::isfinite(value / kSmallestUnit); };
   bool sound = true;
   for (const NodeId node : graph.Nodes())

@@ -19,8 +19,8 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr const char* kFormat = "curvefusion-skeleton";
-constexpr int kVersion = 1;
-constexpr size_t kMaxListed = 1000;  // defects that one message names
+constexpr int kVersion = 1;          // chosen: that of docs/formats_output.md
+constexpr size_t kMaxListed = 1000;  // defects that one message names; chosen
 
 double Finite(double value) {
   if (!std::isfinite(value))

@@ -26,7 +26,7 @@ constexpr const char* kProduct =
     "#12=UNCERTAINTY_MEASURE_WITH_UNIT(LENGTH_MEASURE(1.E-6),#9,'distance_accuracy_value','');\n"
     "#13=(GEOMETRIC_REPRESENTATION_CONTEXT(3)GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT((#12))"
     "GLOBAL_UNIT_ASSIGNED_CONTEXT((#9,#10,#11))REPRESENTATION_CONTEXT('',''));\n";
-constexpr int kFirstFree = 14;
+constexpr int kFirstFree = 14;  // derived: #13 is the last of kProduct
 
 // A real of STEP has a decimal point.
 std::string Real(double value) { return fmt::format("{:#.15G}", value); }

@@ -17,6 +17,7 @@ namespace curvefusion {
 
 namespace {
 
+// SWC (Cannon et al. 1998).
 constexpr double kMicrometre = 1e-6;
 constexpr int kNoParent = -1;
 constexpr int kUndefinedType = 0;
