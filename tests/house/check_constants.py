@@ -10,7 +10,7 @@ import sys
 FOLDERS = ("fusion", "graph")
 DECLARATION = re.compile(r"\s*(?:static |inline )*constexpr [\w:<>, ]+ k[A-Z]\w*\s*(?:=|\[|\{)")
 ORIGIN = re.compile(r"\b(chosen|derived|measured|fitted|curvefusion|(?:19|20)\d\d)\b", re.IGNORECASE)
-COMPUTED = re.compile(r"=.*(\bk[A-Z]\w*|sizeof|numeric_limits|numbers::)")
+COMPUTED = re.compile(r"=.*(\bk(?!Millimetre\b)[A-Z]\w*|sizeof|numeric_limits|numbers::)")
 
 
 def constants_without_origin(text):

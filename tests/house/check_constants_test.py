@@ -26,6 +26,7 @@ class CheckConstants(unittest.TestCase):
 
     def test_computed(self):
         self.expect("constexpr double kA = 2 * kB;\nconstexpr size_t kC = sizeof(float);\n")
+        self.expect("constexpr double kA = 2 * kMillimetre;\n", 1)
 
     def test_declaration_of_several_lines(self):
         self.expect("constexpr std::array<int, 2> kA = {\n    1,\n    2};\nconstexpr int kB = 2;\n", 1, 4)
