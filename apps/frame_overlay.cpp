@@ -15,9 +15,8 @@ namespace curvefusion {
 namespace {
 
 constexpr double kSampleStep = 0.005;  // metres between the samples that decide what is seen
-constexpr double kNearest = 0.05;    // metres in front of the camera, below which nothing is drawn
-constexpr double kAlmostAll = 0.98;  // of the best count of samples: as good as the best
-constexpr double kMargin = 0.12;     // of the cut-out's size, around the graph
+constexpr double kAlmostAll = 0.98;    // of the best count of samples: as good as the best
+constexpr double kMargin = 0.12;       // of the cut-out's size, around the graph
 constexpr double kOpacity = 0.5;
 constexpr int kShift = 4;
 
@@ -32,7 +31,8 @@ Visibility SeenBy(const PinholeCamera& camera, const RigidTransform& T_camera_wo
   Visibility seen;
   for (const Vec3& sample : samples) {
     const Vec3 p_camera = T_camera_world * sample;
-    if (p_camera.z() < kNearest || !camera.Contains(camera.Project(p_camera))) continue;
+    if (p_camera.z() < PinholeCamera::kNearest || !camera.Contains(camera.Project(p_camera)))
+      continue;
     ++seen.count;
     seen.size += 1 / p_camera.z();
   }
@@ -44,7 +44,7 @@ Eigen::AlignedBox2d ProjectedBounds(const Polyline& samples, const PinholeCamera
   Eigen::AlignedBox2d bounds;
   for (const Vec3& sample : samples) {
     const Vec3 p_camera = T_camera_world * sample;
-    if (p_camera.z() < kNearest) continue;
+    if (p_camera.z() < PinholeCamera::kNearest) continue;
     const Vec2 pixel = camera.Project(p_camera);
     if (camera.Contains(pixel)) bounds.extend(pixel);
   }
@@ -88,7 +88,7 @@ struct TubePainter {
                     int extra_px) const {
     const Vec3 a = T_camera_world * edge.points[i];
     const Vec3 b = T_camera_world * edge.points[i + 1];
-    if (a.z() < kNearest || b.z() < kNearest) return;
+    if (a.z() < PinholeCamera::kNearest || b.z() < PinholeCamera::kNearest) return;
     const double radius = edge.radii.empty() ? 0 : edge.radii[i];
     const double width_px = 2 * radius * camera.fx / a.z() * map.scale;
     const int thickness = std::max(kSupersampling, static_cast<int>(std::lround(width_px)));

@@ -10,6 +10,9 @@ inline constexpr double kNoisePerSquaredDepth = 1.425e-3;
 /// standard deviations.
 inline constexpr double kStepPerSquaredDepth = 0.005;
 
+/// Pixels beside an outline that may have the depth within: block matching widens outlines. Chosen.
+inline constexpr double kBesidePx = 1;
+
 /// What lies so many standard deviations before a surface is none of it, CurveFusion 4.1.
 inline constexpr double kClearDeviations = 3;
 

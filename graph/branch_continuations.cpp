@@ -22,9 +22,8 @@ constexpr double kMinGap = 0.010;
 // So near to a curve the path ahead meets it, and so much farther for each metre. Chosen:
 // directions are not exact.
 constexpr double kBaseMiss = 0.004;
-constexpr double kMissPerGap = 0.15;     // 9 degrees
-constexpr double kFitLength = 0.020;     // of the end piece that gives the direction
-constexpr double kSnapDistance = 0.006;  // a curve that is met so near to its end is met there
+constexpr double kMissPerGap = 0.15;  // 9 degrees
+constexpr double kFitLength = 0.020;  // of the end piece that gives the direction
 constexpr double kStep = 0.0015;
 // Chosen: curves that run along the path do not cross it.
 constexpr double kParallelCosine = 0.8;  // of 37 degrees

@@ -38,6 +38,9 @@ std::vector<EdgePart> PartsWhere(size_t count, const Holds& holds) {
 /// Metres along a curve from the first to the last point of a part.
 double Length(const Polyline& points, const EdgePart& part);
 
+/// Metres of a curve that is left, at least; derived: the shortest spur.
+inline constexpr double kMinPiece = 0.012;
+
 /// Leaves of an edge only these parts (ascending, apart), and of them those at least `min_length`
 /// metres long. Parts that begin or end at a node of the edge stay there; free nodes are made at
 /// all other ends. Nodes that lose their last edge stay.

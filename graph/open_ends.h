@@ -21,6 +21,10 @@ struct EndPiece {
   double length = 0;   ///< metres
 };
 
+/// A curve that is met so near to its end is met there, metres. Chosen: depth draws curves up to 6
+/// mm beside their wires.
+inline constexpr double kSnapDistance = 0.006;
+
 /// The ends of all edges at a node, whether open or not; a self-loop has two.
 std::vector<OpenEnd> EndsAt(const SkeletonGraph& graph, NodeId node, const EndPiece& piece);
 

@@ -130,11 +130,10 @@ class NormalEquations {
 
   // lambda |a - 2 b + c|^2. All held vertices must be known.
   void AddSmoothnessTerm(const std::array<int, 3>& vertices, double lambda) {
-    constexpr std::array<double, 3> kStencil = {1, -2, 1};  // derived: the second difference
     for (int i = 0; i < 3; ++i) {
       if (held_[vertices[i]]) continue;
       for (int j = 0; j < 3; ++j) {
-        const double entry = lambda * kStencil[i] * kStencil[j];
+        const double entry = lambda * kSecondDifference[i] * kSecondDifference[j];
         if (held_[vertices[j]]) {
           to_held_.emplace_back(vertices[i], vertices[j], entry);
         } else if (vertices[j] <= vertices[i]) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "graph/skeleton_graph.h"
 
 namespace curvefusion {
@@ -16,6 +18,9 @@ struct SmoothingOptions {
   /// Smooths what smoothing took away and adds it again (Tukey's twicing): bends shrink less.
   bool keep_curvature = true;
 };
+
+/// Of three vertices in a row, as Eq. 1 has it. Derived.
+inline constexpr std::array<double, 3> kSecondDifference = {1, -2, 1};
 
 /// Eq. 1 and nothing else.
 SmoothingOptions PaperSmoothingOptions();

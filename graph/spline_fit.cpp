@@ -14,7 +14,6 @@ namespace {
 
 using Vec4 = Eigen::Vector4d;  // position and radius
 
-constexpr int kSplineDegree = 3;       // chosen: the least without jumps of curvature
 constexpr double kMaxSamples = 20000;  // chosen: 10 m at .5 mm, a second of fitting
 constexpr size_t kMinSpanSamples = 4;  // of a span that is halved; chosen: each half keeps two
 

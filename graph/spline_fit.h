@@ -7,6 +7,8 @@
 
 namespace curvefusion {
 
+inline constexpr int kSplineDegree = 3;  ///< chosen: the least without jumps of curvature
+
 /// A cubic B-spline with clamped ends: it begins at its first control point and ends at its last.
 struct CubicSpline {
   std::vector<double> knots;  ///< ascending, the ends four times; as many as points, and four more

@@ -9,6 +9,11 @@ namespace curvefusion {
 /// A pinhole camera looking along +z, x right, y down. Pixel (0, 0) is the centre of the top-left
 /// pixel. Focal lengths and principal point in pixels.
 struct PinholeCamera {
+  /// Metres along z. Chosen: scans are taken from farther away, so nothing nearer is projected.
+  static constexpr double kNearest = 0.05;
+  /// Likewise of a box of which bounds are asked. Chosen: at 0 pixels have none.
+  static constexpr double kNearestBox = 1e-3;
+
   int width = 0;
   int height = 0;
   double fx = 0;

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace curvefusion {
@@ -48,6 +49,10 @@ using Rgb = std::array<uint8_t, 3>;
 using ColorImage = Image<Rgb>;
 /// 0 or 1 per pixel.
 using MaskImage = Image<uint8_t>;
+
+/// From a pixel to those that share a side with it.
+inline constexpr std::array<std::pair<int, int>, 4> kPixelsBeside = {
+    {{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
 
 /// By how much an image was divided to get another: a whole number, whereas sizes are rounded
 /// (PinholeCamera::Scaled). Pixel u of the first is in pixel u / Divisor of the other, or in its

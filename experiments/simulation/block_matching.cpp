@@ -221,11 +221,10 @@ void BlockMatcher::Grow(const IntensityImage& image, const BlockMoments& moments
       if (disparities(u, v) > 0) queue.emplace_back(u, v);
     }
   }
-  constexpr int kNeighbors[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
   for (size_t next = 0; next < queue.size(); ++next) {
     const auto [from_u, from_v] = queue[next];
     const int disparity = disparities(from_u, from_v);
-    for (const auto& [du, dv] : kNeighbors) {
+    for (const auto& [du, dv] : kPixelsBeside) {
       const int u = from_u + du;
       const int v = from_v + dv;
       if (u < kHalf || v < kHalf || u >= width_ - kHalf || v >= height_ - kHalf) continue;

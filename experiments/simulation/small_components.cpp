@@ -1,7 +1,6 @@
 #include "experiments/simulation/small_components.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -14,12 +13,11 @@ using Pixel = std::pair<int, int>;
 // The component of the pixel that `component` holds; gives all of it a size other than 0.
 void Flood(const Image<float>& image, const ComponentStep& step, Image<int>& sizes,
            std::vector<Pixel>& component) {
-  constexpr std::array<Pixel, 4> kNeighbors = {{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
   sizes(component.front().first, component.front().second) = 1;
   for (size_t next = 0; next < component.size(); ++next) {
     const auto [from_u, from_v] = component[next];
     const float value = image(from_u, from_v);
-    for (const auto& [du, dv] : kNeighbors) {
+    for (const auto& [du, dv] : kPixelsBeside) {
       const int u = from_u + du;
       const int v = from_v + dv;
       if (!image.Contains(u, v) || sizes(u, v) > 0 || !(image(u, v) > 0)) continue;

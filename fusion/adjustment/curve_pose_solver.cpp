@@ -38,7 +38,6 @@ constexpr double kSharp = 0.3;
 // chosen: .3 holds wrong spacings of the start (test OutliersAreHeldOff).
 constexpr double kStretchSigma = 1 * kMillimetre;  // of a step's length
 constexpr double kVertexSigma = 12 * kMillimetre;
-constexpr double kMinDepth = 0.05;
 
 // Standard deviations of translation and rotation.
 struct PoseSigma {
@@ -196,7 +195,7 @@ double ResidualIn(const StripCamera& by, const CurvePoseState& state,
                   const StripObservation& strip) {
   const Vec3 p =
       by.T_camera_depth * (state.T_camera_world[strip.frame] * state.positions[strip.vertex]);
-  if (p.z() < kMinDepth) return std::numeric_limits<double>::quiet_NaN();
+  if (p.z() < PinholeCamera::kNearest) return std::numeric_limits<double>::quiet_NaN();
   return strip.normal.dot(strip.pixel - by.camera.Project(p));
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capture/farthest_depth.h"
 #include "capture/frame_stream.h"
 #include "kernel/parallel.h"
 #include "kernel/polyline.h"
@@ -25,9 +26,9 @@ constexpr double kMinFreeInDepth = 0.9;
 // that lies behind on both sides. Rooms without wires have .49 and more of the places measured.
 constexpr double kMaxMeasuredInHoles = 0.1;
 constexpr double kMinOpenInHoles = 0.55;
-constexpr double kReach = 0.05;   // chosen: of the width of images, from a place to depth beside it
-constexpr int kThinImages = 20;   // chosen: enough for a share
-constexpr double kBehind = 0.03;  // metres; likewise what hides it: that of StripViews
+constexpr double kReach = 0.05;  // chosen: of the width of images, from a place to depth beside it
+constexpr int kThinImages = 20;  // chosen: enough for a share
+constexpr double kBehind = kHidingDistance;  // likewise what hides it
 // Images tell no size: of that which depth will tell in the end, of the distance. Derived:
 // HoldToScaleOfDepth tries as much. Without it the frame of a monitor, too near by 43 mm, lies
 // before its own depth.

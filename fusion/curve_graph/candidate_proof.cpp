@@ -19,7 +19,7 @@ namespace curvefusion {
 
 namespace {
 
-// Measured: logistic regression over 2,461 stretches that lines of sight proposed in 24 training
+// Fitted: logistic regression over 2,461 stretches that lines of sight proposed in 24 training
 // scans, 23 m of them wires and 58 m none (docs/wires_from_colour.md#coefficients).
 constexpr double kBias = -1.76;
 constexpr double kMiddles = 4.2;      // of how near strips' middles are, an image that shows one
@@ -31,8 +31,7 @@ constexpr double kNearPlace = 0.003;  // chosen: metres; what snapping moves cur
 // What is painted on a surface has sharp middles too. Chosen on training scans chair (the paper's,
 // seed 4) and rack 2 (docs/lab_notebook.md): true stretches have .5 in the median, false ones 0.
 constexpr double kMinColourLogOdds = 0.2;
-constexpr double kMinLooks = 8;      // images that no other curve explains, in the mean
-constexpr double kMinSupport = 0.6;  // share of these that show a strip
+constexpr double kMinSupport = 0.6;  // share of images that show a strip
 // Of a wire that hangs together with no other: its places with free space behind them, and
 // evidence of middles times metres. Chosen on 25 training scans (docs/lab_notebook.md).
 constexpr double kMinFreeAlone = 0.9;
@@ -139,9 +138,9 @@ std::vector<Vec3> ExplainAway(double radius, StripViews& views, SkeletonGraph& c
   for (const auto& [evidence, id] : by_evidence) {
     const Support support = support_of(id);
     const Polyline& points = curves.edge(id).points;
-    const bool is_supported = support.looked >= kMinLooks * static_cast<double>(points.size()) &&
-                              support.seen >= kMinSupport * support.looked &&
-                              support.middle_evidence > 0;
+    const bool is_supported =
+        support.looked >= StripAgreement::kMinLooks * static_cast<double>(points.size()) &&
+        support.seen >= kMinSupport * support.looked && support.middle_evidence > 0;
     if (is_supported) {
       if (StandsAlone(support, views, points))
         alone.insert(alone.end(), points.begin(), points.end());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 #include <optional>
@@ -13,7 +14,7 @@ namespace curvefusion {
 
 namespace {
 
-constexpr size_t kPlaceStride = 2;  // chosen: places of stretches are 4 mm apart
+constexpr size_t kPlaceStride = 2;  // chosen: of places kPlaceStep apart
 // Chosen: metres beyond the curve's radius, out of its blur and mostly before the next wire.
 constexpr double kDistance[] = {0.004, 0.007, 0.010};
 constexpr double kBlurPx = 1.5;  // around a curve its own colour shows
@@ -23,7 +24,6 @@ constexpr size_t kMinLooks = 6;  // chosen: images of a point, for a median and 
 constexpr double kEven = 4;
 constexpr double kAnotherColour = 20;  // and from the curve's own colour.
 constexpr size_t kMinDirections = 4;   // chosen: with known points on half of them or more
-constexpr double kNearest = 0.05;      // metres before a camera
 constexpr double kAhead = 1e-3;        // metres, between which a direction is projected
 constexpr double kFromItsEnd = 1e-3;   // pixels that kAhead covers, at most
 
@@ -31,7 +31,6 @@ constexpr double kFromItsEnd = 1e-3;   // pixels that kAhead covers, at most
 constexpr int kSurfaceImages = 8;          // chosen: some hundred lines
 constexpr int kLinesAcross = 16;           // of an image
 constexpr double kHalfLine = 0.016;        // metres
-constexpr double kLineStep = 0.004;        // metres
 constexpr double kLineRadius = 0.003;      // metres, as of a wire
 constexpr double kSurfaceReach = 0.025;    // metres to all sides, beyond what is beside the line
 constexpr double kSurfaceFlatness = 0.02;  // of the distance; noise is less
@@ -89,7 +88,7 @@ struct LineInImage {
 std::optional<LineInImage> SeenIn(const PinholeCamera& camera, const RigidTransform& T_camera_world,
                                   const CurvePlace& place) {
   const Vec3 p = T_camera_world * place.position;
-  if (p.z() < kNearest) return std::nullopt;
+  if (p.z() < PinholeCamera::kNearest) return std::nullopt;
   const Vec3 ahead = p + kAhead * (T_camera_world.linear() * place.tangent);
   const Vec2 pixel = camera.Project(p);
   const Vec2 along = camera.Project(ahead) - pixel;
@@ -128,7 +127,8 @@ std::optional<SurfacePatch> PatchAt(const DepthImage& depth, const PinholeCamera
 
 std::vector<CurvePlace> LineAt(const Vec3& middle, const Vec3& tangent) {
   std::vector<CurvePlace> places;
-  for (double at = -kHalfLine; at <= kHalfLine + kLineStep / 2; at += kLineStep)
+  for (double at = -kHalfLine; at <= kHalfLine + ColourBeside::kPlaceStep / 2;
+       at += ColourBeside::kPlaceStep)
     places.push_back({0, at, kLineRadius, middle + at * tangent, tangent});
   return places;
 }
@@ -147,6 +147,7 @@ bool OnCurves::Contains(const Vec3& point) const {
 }
 
 ColourBeside::ColourBeside(const std::vector<CurvePlace>& places) {
+  static_assert(std::size(kDistance) == kDistances);
   for (size_t i = 0; i < places.size(); i += kPlaceStride) {
     Place& place = places_.emplace_back();
     place.on_curve = places[i];

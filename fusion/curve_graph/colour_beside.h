@@ -40,6 +40,8 @@ class OnCurves {
 /// part of what is behind.
 class ColourBeside {
  public:
+  static constexpr double kPlaceStep = 0.004;  ///< metres from place to place; chosen
+
   /// `places` of the curve (world frame), of which every second one is looked at.
   explicit ColourBeside(const std::vector<CurvePlace>& places);
 

@@ -29,9 +29,7 @@ constexpr double kSupportReach = 0.004;  // metres across lines of sight
 constexpr double kUncertainPx = 2;       // chosen: of parallax along them; strips err by 1.4
 constexpr int kMinFirstLooks = 2;
 constexpr int kMinFullLooks = 4;  // where all of them show a strip
-constexpr int kMinLooks = 8;
-constexpr double kNearest = 0.05;  // metres before a camera
-constexpr int64_t kReports = 50;   // chosen: of progress
+constexpr int64_t kReports = 50;  // chosen: of progress
 // Wires are followed along their strips from places found. Chosen, not varied; what following
 // brings was measured on 27 training scans (docs/lab_notebook.md).
 constexpr int kFollowPx = 5;            // to the next pixel, at most
@@ -236,7 +234,8 @@ class CandidateSearch {
     for (double at = from; at <= to; at += step) {
       if (sight.QuickLook(at).evidence < 0) continue;
       const StripAgreement agreement = sight.CloseLook(at);
-      if (agreement.evidence < kFineEvidence || agreement.looked < kMinLooks) continue;
+      if (agreement.evidence < kFineEvidence || agreement.looked < StripAgreement::kMinLooks)
+        continue;
       places.push_back({sight.At(at), at, agreement});
     }
   }
@@ -284,7 +283,7 @@ class CandidateSearch {
 
   // Where a line enters and leaves the bounds, metres from its start.
   std::optional<std::pair<double, double>> RangeWithin(const Vec3& start, const Vec3& ray) const {
-    double from = kNearest, to = 1e9;
+    double from = PinholeCamera::kNearest, to = 1e9;
     for (int axis = 0; axis < 3; ++axis) {
       if (std::abs(ray[axis]) < 1e-9) continue;
       double a = (views_.bounds().min()[axis] - start[axis]) / ray[axis];

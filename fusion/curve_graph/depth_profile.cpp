@@ -12,7 +12,6 @@ namespace {
 
 // Chosen: poses registered to the curves leave them so far beside their images.
 constexpr double kMaxShift = 0.003;  // metres
-constexpr double kBesidePx = 1;      // block matching widens outlines
 // Measured on simulated scans: drift along the viewing ray, and three standard deviations of
 // Khoshelham's 1.425 mm z^2, at depth z in metres.
 constexpr double kToleranceNear = 0.015;
@@ -50,7 +49,7 @@ struct Line {
 std::optional<Line> LineAcross(const DepthImage& depth, const PinholeCamera& camera,
                                const Vec3& p_camera, const Vec3& tangent_camera) {
   const double z = p_camera.z();
-  if (z < 0.05) return std::nullopt;
+  if (z < PinholeCamera::kNearest) return std::nullopt;
   const Vec2 center = camera.Project(p_camera);
   if (!camera.Contains(center)) return std::nullopt;
   Vec2 along(camera.fx * (tangent_camera.x() - tangent_camera.z() * p_camera.x() / z),

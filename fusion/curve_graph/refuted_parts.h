@@ -12,8 +12,6 @@ namespace curvefusion {
 // have a greater share of the images with a strip that runs along the curve, of false ones .48.
 constexpr double kMinStripShare = 0.4;
 
-inline constexpr double kMinPiece = 0.012;  ///< metres, at least; derived: the shortest spur
-
 /// Which share of the images shows wire at each place of a curve.
 using SharesOfCurve = std::function<std::vector<double>(const Polyline&)>;
 

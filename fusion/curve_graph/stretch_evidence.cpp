@@ -21,16 +21,14 @@ namespace {
 
 // Chosen where nothing else is said. The coefficients of wire_proof.cpp are fitted to what comes of
 // these.
-constexpr double kStretch = 0.04;         // metres; chosen: some diameters of wires, and their blur
-constexpr double kPlaceStep = 0.004;      // metres along a stretch
-constexpr double kMapStep = 0.0005;       // metres; derived: below a pixel from .3 m on
-constexpr double kUnknownRadius = 0.002;  // metres
-constexpr int kDirections = 36;           // steps of 10 degrees
-constexpr int kColourImages = 30;         // chosen: a second of the parallax of 60 adds little
-constexpr size_t kMinLines = 10;          // on surfaces, for a median
-constexpr double kMinLooked = 0.3;        // share of a stretch that an image must show
-constexpr double kEnoughImages = 3;       // from one direction: more of them tell the same
-constexpr double kAgreement = 0.25;       // strips this near to the edge's diameter count
+constexpr double kStretch = 0.04;    // metres; chosen: some diameters of wires, and their blur
+constexpr double kMapStep = 0.0005;  // metres; derived: below a pixel from .3 m on
+constexpr int kDirections = 36;      // steps of 10 degrees
+constexpr int kColourImages = 30;    // chosen: a second of the parallax of 60 adds little
+constexpr size_t kMinLines = 10;     // on surfaces, for a median
+constexpr double kMinLooked = 0.3;   // share of a stretch that an image must show
+constexpr double kEnoughImages = 3;  // from one direction: more of them tell the same
+constexpr double kAgreement = 0.25;  // strips this near to the edge's diameter count
 // Metres; derived: half of RadiusOptions::sample_step, and a little.
 constexpr double kStripReach = 0.006;
 
@@ -93,7 +91,8 @@ std::vector<Stretch> StretchesOf(EdgeId id, const SkeletonEdge& edge) {
     const size_t last =
         k == count ? arc.size() - 1 : PointNear(arc, arc.back() * k / count, first + 1);
     Stretch stretch{id, {first, last}, arc[first], arc[last]};
-    stretch.places = PlacesAlong(id, edge, arc, stretch.begin, stretch.end, kPlaceStep);
+    stretch.places =
+        PlacesAlong(id, edge, arc, stretch.begin, stretch.end, ColourBeside::kPlaceStep);
     const Vec3 chord = edge.points[last] - edge.points[first];
     stretch.tangent = chord.isZero() ? stretch.places.front().tangent : chord.normalized();
     stretch.across = stretch.tangent.unitOrthogonal();

@@ -21,18 +21,16 @@ constexpr double kLargestFocal = 900;  // pixels; images beyond it are halved
 constexpr double kMiddlePx = 0.7;      // standard deviation of where strips have their middle
 // derived: log of the density of middles at zero over that of chance, even within reach
 constexpr double kAtMiddle = 0.47;
-constexpr double kMargin = 0.05;          // metres around what is known of the object
-constexpr double kMarginShare = 0.25;     // likewise, of its size
-constexpr int kRegionMarginPx = 16;       // strips' sides and what is averaged along them
-constexpr double kNearest = 0.05;         // metres before a camera
-constexpr float kHidingDistance = 0.03F;  // metres; noise and drift of depth come to less
-constexpr float kFreeDistance = 0.02F;    // metres behind a wire; CurveFusion 4, assumption (i)
-constexpr double kFreeShare = 0.8;        // of the images whose depth tells
-constexpr double kFromTheSide = 0.15;     // sine of the angle between a curve and the line of sight
-constexpr double kUsualSine = M_PI / 4;   // derived: of that angle, in the mean over directions
-constexpr int kSameDirection = 43;        // 30 degrees, see DirectionUnits
-constexpr int kMinLooks = 8;              // images that tell
-constexpr double kAhead = 1e-3;           // metres, between which a direction is projected
+constexpr double kMargin = 0.05;       // metres around what is known of the object
+constexpr double kMarginShare = 0.25;  // likewise, of its size
+constexpr int kRegionMarginPx = 16;    // strips' sides and what is averaged along them
+constexpr auto kHiding = static_cast<float>(kHidingDistance);
+constexpr float kFreeDistance = 0.02F;   // metres behind a wire; CurveFusion 4, assumption (i)
+constexpr double kFreeShare = 0.8;       // of the images whose depth tells
+constexpr double kFromTheSide = 0.15;    // sine of the angle between a curve and the line of sight
+constexpr double kUsualSine = M_PI / 4;  // derived: of that angle, in the mean over directions
+constexpr int kSameDirection = 43;       // 30 degrees, see DirectionUnits
+constexpr double kAhead = 1e-3;          // metres, between which a direction is projected
 
 template <typename Pixel>
 Image<Pixel> Crop(const Image<Pixel>& image, const cv::Rect& region) {
@@ -129,7 +127,7 @@ cv::Rect StripViews::RegionIn(const RigidTransform& T_color_world) const {
   for (int corner = 0; corner < 8; ++corner) {
     const Vec3 p =
         T_color_world * bounds_.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner));
-    if (p.z() < kNearest) return whole;
+    if (p.z() < PinholeCamera::kNearest) return whole;
     box.extend(color_camera_.Project(p));
   }
   const cv::Point first(cvFloor(box.min().x()) - kRegionMarginPx,
@@ -159,7 +157,7 @@ void StripViews::ExplainIn(View& view, const Polyline& points,
   bool has_before = false;
   for (size_t i = 0; i < points.size(); ++i) {
     const Vec3 p = view.T_color_world * points[i];
-    if (p.z() < kNearest) {
+    if (p.z() < PinholeCamera::kNearest) {
       has_before = false;
       continue;
     }
@@ -197,7 +195,7 @@ bool StripViews::IsFree(const Vec3& p) const {
   int told = 0, free = 0;
   for (const View& view : views_) {
     const float behind = Behind(view, view.depth_from_world * p.cast<float>().homogeneous());
-    told += behind != 0 && behind >= -kHidingDistance;
+    told += behind != 0 && behind >= -kHiding;
     free += behind > kFreeDistance;
   }
   return told > 0 && free >= kFreeShare * told;
@@ -206,10 +204,10 @@ bool StripViews::IsFree(const Vec3& p) const {
 // Nothing where a curve explains what is seen there, or depth shows only what is nearer.
 inline std::optional<StripViews::Sight> StripViews::SightOf(const View& view, const Vec3f& in_color,
                                                             const Vec3f& in_depth) const {
-  if (in_color.z() < kNearest) return std::nullopt;
+  if (in_color.z() < PinholeCamera::kNearest) return std::nullopt;
   const std::optional<Sight> sight = RoundedIn(color_camera_, in_color);
   if (!sight || view.strips.IsExplained(sight->u, sight->v)) return std::nullopt;
-  if (Behind(view, in_depth) < -kHidingDistance) return std::nullopt;
+  if (Behind(view, in_depth) < -kHiding) return std::nullopt;
   return sight;
 }
 
@@ -275,7 +273,7 @@ StripAgreement StripViews::LineOfSight::Look(double distance, StripImage::Look l
 bool StripViews::LineOfSight::IsHidden(double distance) const {
   const Line& line = lines_[view_];
   const auto at = static_cast<float>(distance);
-  return views_.Behind(views_.views_[view_], line.depth + at * line.depth_step) < -kHidingDistance;
+  return views_.Behind(views_.views_[view_], line.depth + at * line.depth_step) < -kHiding;
 }
 
 std::vector<StripAgreement> StripViews::AgreementsAlong(const Polyline& points) const {
@@ -289,7 +287,7 @@ std::vector<StripAgreement> StripViews::AgreementsAlong(const Polyline& points) 
 std::vector<double> StripViews::SharesAlong(const Polyline& points) const {
   std::vector<double> shares;
   for (const StripAgreement& look : AgreementsAlong(points)) {
-    const bool is_told = look.looked >= kMinLooks;
+    const bool is_told = look.looked >= StripAgreement::kMinLooks;
     shares.push_back(is_told ? static_cast<double>(look.seen) / look.looked : 1);
   }
   return shares;

@@ -18,6 +18,8 @@ namespace curvefusion {
 
 /// How many images look at a place, and how many of them show the middle of a strip there.
 struct StripAgreement {
+  static constexpr int kMinLooks = 8;  ///< images; chosen: fewer tell no share
+
   int looked = 0;
   int seen = 0;
   double evidence = 0;         // logarithm of how much likelier that is for a wire than by chance

@@ -11,7 +11,7 @@ namespace curvefusion {
 
 namespace {
 
-// Measured: logistic regression over the stretches of training scans and real rooms
+// Fitted: logistic regression over the stretches of training scans and real rooms
 // (docs/proof.md#coefficients). First a stretch by itself,
 constexpr double kBias = 0.59;
 constexpr double kSame = -1.71;

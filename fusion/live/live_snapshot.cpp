@@ -19,10 +19,9 @@ namespace {
 // looked at.
 constexpr double kEnoughFrames = 15;
 constexpr double kEnoughSpread = std::numbers::pi / 3;  // chosen: what is behind shows beside it
-constexpr double kSampleStep = 0.01;                    // derived: that of the sightings
 
 CurveSightings SightingsOn(const SkeletonEdge& edge, const SightingGrid& grid) {
-  const Polyline places = Resample(edge.points, kSampleStep);
+  const Polyline places = Resample(edge.points, SightingGrid::kCell);
   const std::vector<Vec3> tangents = Tangents(places);
   std::vector<double> frames, spreads;
   CurveSightings seen;

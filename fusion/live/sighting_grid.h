@@ -19,6 +19,9 @@ struct Sightings {
 /// were seen, however many frames saw them.
 class SightingGrid {
  public:
+  /// Metres. Chosen: a curve lies before or behind the points of its wire by less than half of it.
+  static constexpr double kCell = 0.01;
+
   /// Counts a frame for every cell in which it saw a point (world frame).
   void AddFrame(const ObservedPoints& points);
 
@@ -28,9 +31,6 @@ class SightingGrid {
   int cell_count() const { return cells_.size(); }
 
  private:
-  // Metres. Chosen: a curve lies before or behind the points of its wire by less than half of it.
-  static constexpr double kCell = 0.01;
-
   VoxelNumbers cells_;
   std::vector<Sightings> sightings_;
   std::vector<int> last_frame_;  ///< that was counted for the cell

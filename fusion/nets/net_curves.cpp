@@ -30,7 +30,6 @@ constexpr double kMaxSpacing = 0.05;   // metres of a wire for each that crosses
 constexpr double kHalfGap = 0.012;     // metres; gaps between wires are no wider than twice that
 constexpr double kSameCosine = 0.85;   // of the angle between curves that are one wire
 constexpr double kOnSheet = 0.006;     // metres
-constexpr double kMinPiece = 0.012;    // metres of a curve that is left: that of refuted_parts.h
 constexpr double kOvershoot = 0.005;   // metres: by which lines go on beyond those they end at
 constexpr double kMeet = 0.0015;       // metres between wires that cross on one sheet
 constexpr double kPointStep = 0.0018;  // metres

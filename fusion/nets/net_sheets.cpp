@@ -24,7 +24,6 @@ constexpr double kApart = 0.005;    // metres between the points that tell plane
 constexpr int kTries = 300;         // planes through three points
 constexpr double kOnPlane = 0.008;  // metres
 constexpr double kOnSheet = 0.02;   // metres from its plane, so far as it bends
-constexpr double kMinArea = 2e-3;   // square metres: that of FindNets
 constexpr double kBlur = 0.008;     // metres, standard deviation
 constexpr double kMinDensity = 0.15;  // of points, times what is usual
 
@@ -117,7 +116,7 @@ void DropSmallParts(NetSheet& sheet) {
   for (int v = 0; v < sheet.known.height(); ++v) {
     for (int u = 0; u < sheet.known.width(); ++u) {
       const int pixels = figures.at<int>(labels.at<int>(v, u), cv::CC_STAT_AREA);
-      if (pixels * NetSheet::kStep * NetSheet::kStep < kMinArea) sheet.known(u, v) = 0;
+      if (pixels * NetSheet::kStep * NetSheet::kStep < Nets::kMinArea) sheet.known(u, v) = 0;
     }
   }
 }
@@ -179,7 +178,7 @@ std::vector<NetSheet> SheetsOf(const Sequence& sequence, const Nets& nets) {
   if (nets.empty()) return sheets;
   std::vector<Vec3> points = PointsOnNets(sequence, nets);
   const auto is_enough = [](const std::vector<Vec3>& some) {
-    return static_cast<double>(some.size()) * kApart * kApart >= kMinArea;
+    return static_cast<double>(some.size()) * kApart * kApart >= Nets::kMinArea;
   };
   for (std::vector<Vec3> some = OneInEachCell(points); is_enough(some);
        some = OneInEachCell(points)) {

@@ -1,7 +1,6 @@
 #include "fusion/nets/net_wires.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -33,7 +32,6 @@ constexpr float kMinGaps = 0.1f;   // of each quarter of a patch of a net
 constexpr float kMinWires = 0.1f;  // of the patch
 constexpr float kStep = 0.015f;    // metres from pixel to pixel: that of OpenDepth
 constexpr float kMinPatches = 0.5f;  // of what is twice as wide
-constexpr double kMinArea = 2e-3;    // square metres of such patches in an image, or of cells
 
 int Pixels(const SurfaceViews& surface, int u, int v, double length) {
   return std::max(1,
@@ -108,12 +106,10 @@ MaskImage PatchesOfNets(const SurfaceViews& surface, const Parts& parts) {
       area += side * side;
     }
   }
-  return area < kMinArea ? MaskImage(width, height, 0) : net;
+  return area < Nets::kMinArea ? MaskImage(width, height, 0) : net;
 }
 
 using Pixel = std::pair<int, int>;
-// Derived: the pixels that share a side with one.
-constexpr std::array<Pixel, 4> kBeside = {{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
 
 // The pixels that hang together with a first one on one surface, as far as `may` allows; taken out
 // of `may`.
@@ -122,7 +118,7 @@ std::vector<Pixel> TakePart(Pixel first, const DepthImage& depth, MaskImage& may
   may(first.first, first.second) = 0;
   for (size_t i = 0; i < part.size(); ++i) {
     const auto [u, v] = part[i];
-    for (const auto& [du, dv] : kBeside) {
+    for (const auto& [du, dv] : kPixelsBeside) {
       if (!may.Contains(u + du, v + dv) || !may(u + du, v + dv) ||
           std::abs(depth(u + du, v + dv) - depth(u, v)) > kStep) {
         continue;
@@ -235,7 +231,7 @@ Nets NetsIn(const std::vector<SurfaceViews>& surfaces, int min_frames) {
   std::vector<VoxelKey> cells;
   for (const auto& [cell, frames] : counts)
     if (frames.net >= min_frames && 2 * frames.net > frames.seen) cells.push_back(cell);
-  if (static_cast<double>(cells.size()) * Nets::kCell * Nets::kCell < kMinArea) return nets;
+  if (static_cast<double>(cells.size()) * Nets::kCell * Nets::kCell < Nets::kMinArea) return nets;
   nets.cells = WithThoseBeside(cells);
   nets.spacing = Median(spacings);
   return nets;

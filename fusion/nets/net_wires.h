@@ -12,6 +12,8 @@ namespace curvefusion {
 struct Nets {
   /// Metres; chosen: more than the gaps of up to 12 mm that depth closes.
   static constexpr double kCell = 0.015;
+  /// Square metres of a net, at least, in an image or in space; chosen.
+  static constexpr double kMinArea = 2e-3;
   std::vector<VoxelKey> cells;  ///< that hold net, and those beside them, ascending
   double spacing = 0;           ///< of their wires, metres, roughly
   double noise = 0;  ///< grey levels: the change of colours on surfaces (SurfaceViews::noise)

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "capture/frame_stream.h"
+#include "fusion/nets/surface_views.h"
 #include "kernel/bilinear.h"
 #include "kernel/parallel.h"
 
@@ -15,8 +16,6 @@ namespace {
 constexpr int kViews = 40;
 constexpr size_t kMinLooks = 5;     // of a pixel
 constexpr double kMinCosine = 0.3;  // of the angle between a line of sight and the upright
-constexpr float kNearer = 0.02F;    // metres: what is so much nearer hides a place
-constexpr float kNearest = 0.05F;   // metres before a camera
 constexpr int kRows = 8;            // for a thread at a time
 
 using Colour = std::array<float, 3>;
@@ -33,7 +32,7 @@ class Eye {
 
   bool See(const Vec3f& p, std::array<uint8_t, 4>& colour) const {
     const Vec3f q = T_color_world_ * p;
-    if (!(q.z() > kNearest)) return false;
+    if (!(q.z() > static_cast<float>(PinholeCamera::kNearest))) return false;
     const auto u = static_cast<float>(color_.fx * q.x() / q.z() + color_.cx);
     const auto v = static_cast<float>(color_.fy * q.y() / q.z() + color_.cy);
     const bool is_inside = u >= 0 && v >= 0 && u < static_cast<float>(view_.color.width() - 1) &&
@@ -50,7 +49,7 @@ class Eye {
     const Eigen::Vector2i at = PinholeCamera::Rounded(depth_.Project(p.cast<double>()));
     if (!view_.depth.Contains(at.x(), at.y())) return false;
     const float z = view_.depth(at.x(), at.y());
-    return z > 0 && z < p.z() - kNearer;
+    return z > 0 && z < p.z() - static_cast<float>(SurfaceViews::kNearer);
   }
 
   const SheetView& view_;

@@ -14,8 +14,8 @@ namespace {
 
 constexpr int kSquare = SmoothDepth::kSquare;
 constexpr int kMinSquares = 6;  // of nine, with a depth; chosen: a plane is well determined
-// Metres from the plane of a surface: noise of a net, whose wires and gaps depth mixes. Wires 20 mm
-// before a surface are no part of it (CurveFusion 4).
+// Metres from the plane of a surface. Chosen, instead of three standard deviations of noise: depth
+// mixes the wires and gaps of a net (docs/lab_notebook.md#nets-kept).
 constexpr double kRoughness = 0.01;
 constexpr int kRows = 8;  // for a thread at a time; chosen
 

@@ -29,7 +29,6 @@ constexpr double kMaxBaseline = 0.2;
 // Of the colours at a place the rest is left out: a thin thing before a wall is seen in few images.
 // Chosen: with two thirds more is taken for nets (docs/lab_notebook.md#nets-kept).
 constexpr double kCountedShare = 0.5;
-constexpr double kNearer = 0.02;  // metres; chosen: what is so much nearer hides a surface
 // Metres from the smoothed depth to those tried. Chosen: a Kinect's is some millimetres off, and 2
 // mm are a third of a pixel at .6 m between images .1 m apart.
 constexpr std::array<float, 6> kOffsets = {0, -0.004f, -0.002f, 0.002f, 0.004f, 0.006f};
@@ -62,7 +61,8 @@ MaskImage HiddenSquares(const DepthImage& surface, const DepthImage& other,
   const auto is_nearer = [&](const Eigen::Vector2i& pixel, double z) {
     for (int v = pixel.y() - 1; v <= pixel.y() + 1; ++v)
       for (int u = pixel.x() - 1; u <= pixel.x() + 1; ++u)
-        if (other.Contains(u, v) && other(u, v) > 0 && other(u, v) < z - kNearer) return true;
+        if (other.Contains(u, v) && other(u, v) > 0 && other(u, v) < z - SurfaceViews::kNearer)
+          return true;
     return false;
   };
   for (int v = 0; v < surface.height(); ++v) {

@@ -12,6 +12,9 @@ namespace curvefusion {
 /// of what is behind it. All images have the same size, that of the depth image over a whole
 /// number.
 struct SurfaceViews {
+  /// Metres; chosen: what is so much nearer hides a surface.
+  static constexpr double kNearer = 0.02;
+
   PinholeCamera camera;
   RigidTransform T_world_camera;  ///< as aligned
   DepthImage depth;     ///< metres, where the surface is smooth, moved to where colours agree best

@@ -1,10 +1,10 @@
 #include "fusion/segmentation/floating_sheets.h"
 
-#include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
 
+#include "fusion/segmentation/depth_opening.h"
 #include "fusion/segmentation/rendered_points.h"
 
 namespace curvefusion {
@@ -13,7 +13,7 @@ namespace {
 
 // Metres. A step of depth between neighbours up to which a surface goes on; derived: that of
 // DepthOpeningOptions.
-constexpr float kStep = 0.015f;
+constexpr auto kStep = static_cast<float>(DepthOpeningOptions().discontinuity);
 // Metres; chosen: what is so far behind an outline is another surface, with free space before it.
 constexpr float kBehind = 0.03f;
 // Chosen, of the outline: so much may hang together with what lies beside it, and so much must be
@@ -26,8 +26,6 @@ constexpr size_t kMaxPartsInImage = 768;
 // Chosen, of a cell's pixels in all renderings: in some views a sheet lies before something at its
 // own distance.
 constexpr double kMinSheetShare = 0.1;
-// Derived: from a pixel to its neighbours.
-constexpr std::array<std::pair<int, int>, 4> kBeside = {{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
 
 using Pixel = std::pair<int, int>;
 
@@ -51,7 +49,7 @@ std::vector<Pixel> TakePart(const DepthImage& kept, const DepthImage& rendering,
   visited(first.first, first.second) = 1;
   for (size_t i = 0; i < part.size(); ++i) {
     const auto [u, v] = part[i];
-    for (const auto& [du, dv] : kBeside) {
+    for (const auto& [du, dv] : kPixelsBeside) {
       if (!kept.Contains(u + du, v + dv)) {
         ++outline.all;
         continue;

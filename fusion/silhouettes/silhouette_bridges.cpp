@@ -20,10 +20,9 @@ namespace {
 // Chosen: depth draws curves up to 6 mm beside their wires (docs/lab_notebook.md).
 constexpr EndPiece kEndPiece{.length = 0.015};  // metres
 constexpr double kFacingCosine = 0.6;
-constexpr double kStep = 0.002;          // metres
-constexpr double kEndReach = 0.008;      // metres; so near to its ends a bridge lies beside curves
-constexpr double kClearance = 0.004;     // metres
-constexpr double kSnapDistance = 0.006;  // metres
+constexpr double kStep = 0.002;       // metres
+constexpr double kEndReach = 0.008;   // metres; so near to its ends a bridge lies beside curves
+constexpr double kClearance = 0.004;  // metres
 constexpr double kNear = 0.012;  // metres; so near, an end beside its place looks past its curve
 
 struct Bridge {

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capture/depth_noise.h"
 #include "capture/frame_stream.h"
+#include "fusion/curve_graph/strip_views.h"
+#include "fusion/strips/radius.h"
 #include "graph/sampled_curves.h"
 #include "kernel/point_grid.h"
 #include "kernel/polyline.h"
@@ -13,14 +16,12 @@ namespace curvefusion {
 
 namespace {
 
-constexpr double kBesidePx = 1;           // chosen: block matching widens outlines
-constexpr double kUnknownRadius = 0.002;  // metres; chosen: of a thin wire
-constexpr double kSampling = 0.003;       // metres; chosen: of curves that may lie near a place
+constexpr double kSampling = 0.003;  // metres; chosen: of curves that may lie near a place
 // chosen (lampshade, basket, umbrella, of white wires): at half of the images, or 20 mm clear of
 // others, wires in the shade are cut that depth shows; at a tenth nothing more is kept.
 constexpr double kShownShare = 0.25;
 constexpr double kClear = 0.01;  // metres
-constexpr int kMinSeen = 8;      // as many as silhouettes ask for
+constexpr int kMinSeen = StripAgreement::kMinLooks;
 
 enum class Sight { kOutside, kHidden, kMissed, kSeen };
 

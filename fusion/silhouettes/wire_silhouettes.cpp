@@ -5,14 +5,13 @@
 
 #include "capture/farthest_depth.h"
 #include "capture/frame_stream.h"
+#include "fusion/curve_graph/strip_views.h"
 #include "kernel/parallel.h"
 
 namespace curvefusion {
 
 namespace {
 
-constexpr float kHidingDistance = 0.03F;  // metres; chosen: noise and drift of depth come to less
-constexpr int kMinLooks = 8;              // chosen: fewer images tell no share
 constexpr uint8_t kWire = 128;  // derived, half of 255: least posterior of a pixel that shows wire
 
 // The greatest depth within the 3 x 3 cells around each cell: block matching widens thin things.
@@ -49,7 +48,8 @@ bool WireSilhouettes::IsHidden(const View& view, const Vec3& p_depth) const {
   if (!depth_camera_.Contains(pixel)) return false;
   const Eigen::Vector2i at = PinholeCamera::Rounded(pixel);
   const float farthest = view.farthest(at.x() / kDepthCellPx, at.y() / kDepthCellPx);
-  return farthest > 0 && farthest < static_cast<float>(p_depth.z()) - kHidingDistance;
+  return farthest > 0 &&
+         farthest < static_cast<float>(p_depth.z()) - static_cast<float>(kHidingDistance);
 }
 
 ViewCount WireSilhouettes::Count(const Vec3& p) const {
@@ -70,7 +70,8 @@ ViewCount WireSilhouettes::Count(const Vec3& p) const {
 
 double WireSilhouettes::Share(const Vec3& p, double untold) const {
   const ViewCount count = Count(p);
-  return count.looked < kMinLooks ? untold : static_cast<double>(count.seen) / count.looked;
+  return count.looked < StripAgreement::kMinLooks ? untold
+                                                  : static_cast<double>(count.seen) / count.looked;
 }
 
 std::vector<double> WireSilhouettes::SharesAlong(const Polyline& points, double untold) const {

@@ -12,15 +12,12 @@ namespace curvefusion {
 
 namespace {
 
-// Chosen on ten training scans (docs/lab_notebook.md#strips-found-by-their-edges); steps, guard and
-// side are those of whole strips (strip_tracking.cpp).
-constexpr double kStep = 0.5;  // pixels, as all counts below
-constexpr int kGuard = 2;      // beside an edge: neither strip nor background
-constexpr int kSide = 8;       // of background
-constexpr int kBlur = 4;       // to either side, as far as an edge is blurred
+constexpr double kStep = StripContrast::kStepPx;
+constexpr int kGuard = StripContrast::kGuard;
+constexpr int kSide = StripContrast::kSide;
+// Chosen on ten training scans (docs/lab_notebook.md#strips-found-by-their-edges).
+constexpr int kBlur = 4;  // steps to either side, as far as an edge is blurred
 constexpr double kMinWidthPx = 3;
-constexpr double kMinScore = 0.35;  // derived: as of whole strips
-constexpr double kMaxSecond = 0.7;  // derived: likewise; of the best score
 constexpr double kMaxHalfWidthErrorPx = 1;
 constexpr double kLearnSearchPx = 3;
 constexpr size_t kMinLearned = 30;   // in an image, for a median
@@ -70,10 +67,11 @@ std::optional<double> FindEdge(const PosteriorImage& image, const Vec2& centre, 
   for (int k = 0; k < edges; ++k) scores[k] = inside(k) - outside(k);
   const auto best = std::max_element(scores.begin(), scores.end());
   const int k = static_cast<int>(best - scores.begin());
-  if (*best < kMinScore || k == 0 || k == edges - 1) return {};
+  if (*best < StripContrast::kMinScore || k == 0 || k == edges - 1) return {};
   for (int other = 1; other + 1 < edges; ++other) {
     const bool is_peak = scores[other] >= scores[other - 1] && scores[other] >= scores[other + 1];
-    if (is_peak && std::abs(other - k) > kBlur && scores[other] > kMaxSecond * *best) return {};
+    if (is_peak && std::abs(other - k) > kBlur && scores[other] > StripContrast::kMaxSecond * *best)
+      return {};
   }
   // Where a sharp edge would leave as much of the strip around it.
   const int blur = 2 * kBlur + 1;

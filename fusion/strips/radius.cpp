@@ -25,19 +25,17 @@ constexpr double kBorderPx = 8;           // samples nearer to the image border 
 // Chosen: with 10, one of three chairs gains nothing
 // (docs/lab_notebook.md#wires-of-narrow-grids).
 constexpr double kCrossingPx = 8;  // farther along a wire a curve may cross it
-// Chosen: wires whose diameters differ by less pass for equal, and few strips tell no difference.
+// Chosen: wires whose diameters differ by less pass for equal.
 constexpr double kAgreement = 0.25;  // strips this near to the mode count, relative
 constexpr int kMinStrips = 5;        // chosen: an edge with fewer that agree is not measured
-constexpr int kMinOwnStrips = 20;    // to tell that a piece of a wire is thicker or thinner
 // Measured: calibrated on the errors of diameters of simulated scans.
 constexpr double kAlikeStrips = 3;      // so many strips err together
 constexpr double kCommonError = 0.015;  // relative; of blur and shade, in all strips of a wire
 // Chosen: a stretch has three places of the usual step (RadiusOptions::sample_step) and enough
 // strips for a median; a change must exceed what neighbours and chance make of the diameter.
-constexpr double kStretch = 0.03;      // metres, of an edge whose radius may vary
-constexpr size_t kStretchStrips = 20;  // at least, in every stretch
-constexpr double kClearChange = 0.3;   // relative; less may come of other wires near by
-constexpr double kErrorsApart = 4;     // standard errors, of the thickest and the thinnest stretch
+constexpr double kStretch = 0.03;     // metres, of an edge whose radius may vary
+constexpr double kClearChange = 0.3;  // relative; less may come of other wires near by
+constexpr double kErrorsApart = 4;    // standard errors, of the thickest and the thinnest stretch
 
 template <class T>
 void Append(std::vector<T> more, std::vector<T>& all) {
@@ -128,7 +126,7 @@ Agreement Agree(const std::vector<double>& diameters, const RadiusOptions& optio
 // The diameter of an edge: that of its wire, unless the edge's own strips clearly tell another.
 Agreement ChooseAgreement(const Agreement& own, const Agreement& wire) {
   const bool differs = std::abs(own.diameter - wire.diameter) > kAgreement * wire.diameter;
-  return differs && own.count >= kMinOwnStrips ? own : wire;
+  return differs && own.count >= MeasuredDiameter::kEnoughStrips ? own : wire;
 }
 
 // The standard error of a diameter, as calibrated on simulated scans.
@@ -169,12 +167,13 @@ std::vector<RadiusAt> RadiiAlong(std::vector<StripWidth> strips, const RadiusOpt
     std::vector<double> diameters, places;
     for (; end < strips.size(); ++end) {
       const double place = strips[end].arc_length;
-      if (diameters.size() >= kStretchStrips && place > places.front() + kStretch) break;
+      if (diameters.size() >= MeasuredDiameter::kEnoughStrips && place > places.front() + kStretch)
+        break;
       diameters.push_back(strips[end].diameter);
       places.push_back(place);
     }
     const Agreement agreed = Agree(diameters, options);
-    if (agreed.count < static_cast<int>(kStretchStrips)) continue;
+    if (agreed.count < MeasuredDiameter::kEnoughStrips) continue;
     along.push_back({Median(std::move(places)), 0.5 * agreed.diameter});
     if (least.count == 0 || agreed.diameter < least.diameter) least = agreed;
     if (most.count == 0 || agreed.diameter > most.diameter) most = agreed;

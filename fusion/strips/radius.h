@@ -28,6 +28,9 @@ struct StripWidth {
   double diameter = 0;    ///< metres
 };
 
+/// Metres, of a curve whose radius was not measured; chosen: of a thin wire.
+inline constexpr double kUnknownRadius = 0.002;
+
 /// The radius at one place of an edge.
 struct RadiusAt {
   double arc_length = 0;  ///< metres from the front of the edge

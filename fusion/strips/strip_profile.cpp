@@ -23,6 +23,7 @@ constexpr float kNoise = 3;   // grey levels; keeps flat regions from winning by
 // deviations; background is averaged over four values beyond.
 constexpr double kTailPx = 3;
 constexpr double kSidePx = 2;  // of background, beyond the tail
+static_assert(kStripMarginPx == kTailPx + kSidePx);
 
 // Sums over a profile, so that the line fitted to any run of it costs a few subtractions.
 struct PrefixSums {

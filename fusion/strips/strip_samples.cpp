@@ -11,8 +11,7 @@ namespace curvefusion {
 
 namespace {
 
-constexpr double kMinDepth = 0.05;  // metres; chosen: less than scans are taken from
-constexpr int64_t kGrain = 64;      // samples projected by one task; chosen, changes no result
+constexpr int64_t kGrain = 64;  // samples projected by one task; chosen, changes no result
 constexpr double kMaxForeshortening = 0.9;  // chosen: beyond it curves are seen nearly end on
 constexpr double kMaxClearancePx = 40;      // chosen: a strip and its background fit in
 // Chosen: IsClear asks for no more beside strips up to 16 px wide; what crosses farther along
@@ -101,7 +100,7 @@ PointCells ProjectNeighbours(const std::vector<CurveSample>& neighbours,
   points.reserve(neighbours.size());
   for (const CurveSample& sample : neighbours) {
     const Vec3 p = T_camera_world * sample.position;
-    if (p.z() < kMinDepth) continue;
+    if (p.z() < PinholeCamera::kNearest) continue;
     points.push_back({camera.Project(p), sample.edge, sample.arc_length, camera.fx / p.z(), p.z(),
                       Vec2::Zero()});
     if (!with_tangents) continue;
@@ -158,7 +157,7 @@ bool ProjectSample(const CurveSample& sample, const PinholeCamera& camera,
                    const RigidTransform& T_camera_world, double border_px,
                    ProjectedSample& projected) {
   const Vec3 p = T_camera_world * sample.position;
-  if (p.z() < kMinDepth) return false;
+  if (p.z() < PinholeCamera::kNearest) return false;
   const Vec2 pixel = camera.Project(p);
   if (pixel.x() < border_px || pixel.y() < border_px || pixel.x() > camera.width - 1 - border_px ||
       pixel.y() > camera.height - 1 - border_px) {

@@ -10,19 +10,19 @@ namespace curvefusion {
 
 namespace {
 
-// Chosen: centres half a pixel apart, which the centroid refines, and widths a fifth apart.
-constexpr double kStep = 0.5;   // pixels, between centres
-constexpr double kGuardPx = 1;  // blurred edge between strip and side
-constexpr double kSidePx = 4;   // of background compared on either side
+constexpr double kStep = StripContrast::kStepPx;  // between centres, which the centroid refines
+constexpr int kGuard = StripContrast::kGuard;
+constexpr int kSide = StripContrast::kSide;
+constexpr auto kMinScore = static_cast<float>(StripContrast::kMinScore);
+constexpr auto kMaxSecond = static_cast<float>(StripContrast::kMaxSecond);
+// Chosen: widths a fifth apart.
 constexpr double kMinWidthPx = 2;
 constexpr std::array<double, 5> kWidths = {0.7, 0.85, 1, 1.2, 1.45};  // of the expected
 constexpr int kMaxJump = 3;                                           // steps between neighbours
 // By jumps from -kMaxJump to kMaxJump. Chosen: .02 times squared steps.
 constexpr std::array<float, 2 * kMaxJump + 1> kJumpCosts = {0.18f, 0.08f, 0.02f, 0,
                                                             0.02f, 0.08f, 0.18f};
-// Chosen: scores go up to 1, and what has a rival or other curves beside it is no measurement.
-constexpr float kMinScore = 0.35f;
-constexpr float kMaxSecond = 0.7f;     // of the best score
+// Chosen: what has other curves beside it is no measurement.
 constexpr double kClearWidths = 0.85;  // with 1.2 a tenth more of some curves is unmeasured
 constexpr double kClearPx = 2;
 constexpr int kMaxRunGap = 1;  // samples left out within a run
@@ -118,9 +118,6 @@ struct Scores {
     return widths_px.data() + i * static_cast<size_t>(columns());
   }
 };
-
-constexpr int kGuard = static_cast<int>(kGuardPx / kStep);
-constexpr int kSide = static_cast<int>(kSidePx / kStep);
 
 int WidthSteps(double width_px) {
   return std::max(static_cast<int>(std::lround(width_px / kStep)),

@@ -16,6 +16,19 @@ struct TrackedStrip {
   bool accepted = false;  ///< clear enough to be a measurement
 };
 
+/// How strips, and single edges of theirs, are told from the background beside them.
+struct StripContrast {
+  // Chosen: half a pixel, as places are refined later; scores go up to 1, and what has a rival is
+  // no measurement.
+  static constexpr double kStepPx = 0.5;  ///< between the places that are tried
+  static constexpr double kGuardPx = 1;   ///< blurred edge between strip and background
+  static constexpr double kSidePx = 4;    ///< of background compared on either side
+  static constexpr double kMinScore = 0.35;
+  static constexpr double kMaxSecond = 0.7;                            ///< of the best score
+  static constexpr int kGuard = static_cast<int>(kGuardPx / kStepPx);  ///< steps
+  static constexpr int kSide = static_cast<int>(kSidePx / kStepPx);    ///< likewise
+};
+
 /// Whether another curve `clearance_px` away leaves enough background beside a strip.
 bool IsClear(double clearance_px, double width_px);
 

@@ -11,7 +11,6 @@ namespace curvefusion {
 namespace {
 
 constexpr double kTolerance = 0.2;  // chosen: relative; wires of one gauge, measured badly
-constexpr int kEnoughStrips = 20;   // chosen: fewer do not make a gauge of their own
 
 bool IsLike(double diameter, double gauge) {
   return std::abs(diameter - gauge) <= kTolerance * gauge;
@@ -48,7 +47,9 @@ std::vector<MeasuredDiameter> FindGauges(std::vector<MeasuredDiameter> wires) {
   }
   std::vector<MeasuredDiameter> gauges;
   for (const auto& group : groups) gauges.push_back(GaugeOf(group));
-  std::erase_if(gauges, [](const MeasuredDiameter& gauge) { return gauge.strips < kEnoughStrips; });
+  std::erase_if(gauges, [](const MeasuredDiameter& gauge) {
+    return gauge.strips < MeasuredDiameter::kEnoughStrips;
+  });
   std::sort(gauges.begin(), gauges.end(),
             [](const auto& a, const auto& b) { return a.diameter < b.diameter; });
   return gauges;
@@ -65,7 +66,7 @@ double DrawnToGauge(const MeasuredDiameter& wire, const std::vector<MeasuredDiam
     const double own = wire.strips;
     return (own * wire.diameter + gauge_strips * nearest->diameter) / (own + gauge_strips);
   }
-  return wire.strips < kEnoughStrips ? nearest->diameter : wire.diameter;
+  return wire.strips < MeasuredDiameter::kEnoughStrips ? nearest->diameter : wire.diameter;
 }
 
 }  // namespace curvefusion

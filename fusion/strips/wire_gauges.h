@@ -6,6 +6,8 @@ namespace curvefusion {
 
 /// The diameter measured of one wire, or that which several wires share.
 struct MeasuredDiameter {
+  static constexpr int kEnoughStrips = 20;  ///< chosen: fewer tell no diameter apart from others
+
   double diameter = 0;  ///< metres
   int strips = 0;       ///< that agree on it
 };

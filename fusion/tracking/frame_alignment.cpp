@@ -24,8 +24,7 @@ constexpr double kCorrelatedPixels = 100;
 constexpr double kWidth = 320;
 // Standard deviations, chosen wide: they only keep the equations solvable where grey says nothing.
 constexpr double kGainPrior = 1;
-constexpr double kOffsetPrior = 100;    // grey levels
-constexpr double kMinGreyPoints = 100;  // chosen for eight unknowns
+constexpr double kOffsetPrior = 100;  // grey levels
 
 using Matrix8 = Eigen::Matrix<double, 8, 8>;
 using Vector8 = Eigen::Matrix<double, 8, 1>;
@@ -64,7 +63,7 @@ class LevelSolver {
     g(6) += change.gain / (kGainPrior * kGainPrior);
     g(7) += change.offset / (kOffsetPrior * kOffsetPrior);
     // What no measurement holds stays where it is.
-    const Matrix8 damped = H + 1e-9 * H.diagonal().maxCoeff() * Matrix8::Identity();
+    const Matrix8 damped = H + kDamping * H.diagonal().maxCoeff() * Matrix8::Identity();
     const Vector8 step = -damped.ldlt().solve(g);
     information_ = H;
     if (!step.allFinite()) return false;
@@ -135,7 +134,7 @@ class LevelSolver {
     const PhotometricSums sums =
         PhotometricTerm(keyframe_->levels[level], images, ViewFrom(T_model_frame), change);
     grey_deviation_ = sums.deviation;
-    if (sums.points < kMinGreyPoints) return;
+    if (sums.points < PhotometricSums::kMinPoints) return;
     H += sums.equations.H();
     g += sums.equations.g();
   }

@@ -12,7 +12,7 @@ namespace {
 // eighth of the view, so that keyframes share most of theirs.
 constexpr double kTurn = 0.12;
 constexpr double kShift = 0.12;
-constexpr double kShared = 3;   // farther ones share less than half of the view
+constexpr double kShared = 3;   // three eighths of the view: farther ones share too little
 constexpr int kAlikeBlock = 4;  // pixels of the coarsest level along a side of those compared
 
 double Farness(const Keyframe& keyframe, const RigidTransform& T_world_camera) {

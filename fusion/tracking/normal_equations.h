@@ -43,6 +43,10 @@ class NormalEquations {
   std::array<double, N> gradient_ = {};
 };
 
+/// Added along the diagonal of H, of the greatest there: what no residual holds stays where it is.
+/// Chosen: far less than what residuals tell.
+inline constexpr double kDamping = 1e-9;
+
 /// Tukey's biweight of a residual over its limit, beyond which it is an outlier.
 inline float TukeyWeight(float ratio) {
   const float rest = 1 - ratio * ratio;

@@ -16,7 +16,6 @@ constexpr size_t kMaxPoints = 6000;    // of a level. Chosen: 4 ms an iteration 
 constexpr float kMinGradient = 4;      // grey levels a pixel. Chosen: twice an image's noise
 // Of the depth. Chosen: neighbours of one surface at 70 degrees.
 constexpr float kDepthEdge = 0.04f;
-constexpr float kGreyMiddle = 128;  // derived: half of the 256 levels
 // Grey levels. Chosen: an 8-bit camera's noise in an image reduced to a quarter of its pixels;
 // simulated images of no noise at all must not outweigh depth.
 constexpr double kMinDeviation = 2;

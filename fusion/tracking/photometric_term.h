@@ -27,8 +27,10 @@ struct Keyframe {
 Keyframe MakeKeyframe(const TrackingFrame& frame, const RigidTransform& T_world_camera,
                       const RigidTransform& T_color_depth);
 
-/// Gain and offset of a frame's grey against a keyframe's: grey' = (1 + gain) (grey - 128) + 128 +
-/// offset.
+inline constexpr float kGreyMiddle = 128;  ///< derived: half of the 256 levels
+
+/// Gain and offset of a frame's grey against a keyframe's: grey' = (1 + gain) (grey -
+/// kGreyMiddle) + kGreyMiddle + offset.
 struct GreyChange {
   double gain = 0;
   double offset = 0;
@@ -36,12 +38,12 @@ struct GreyChange {
 
 /// A keyframe's grey as the frame shows it.
 inline float Changed(float grey, const GreyChange& change) {
-  return static_cast<float>((1 + change.gain) * (grey - 128) + 128 + change.offset);
+  return static_cast<float>((1 + change.gain) * (grey - kGreyMiddle) + kGreyMiddle + change.offset);
 }
 
 /// Mean and standard deviation of grey levels.
 struct GreyStatistics {
-  double mean = 128;
+  double mean = kGreyMiddle;
   double deviation = 0;
 };
 
@@ -62,6 +64,8 @@ GreyChange MatchGrey(const std::vector<GreyPoint>& keyframe, const FrameLevel& f
 
 /// What the photometric term adds: unknowns are those of the geometric term, gain, offset.
 struct PhotometricSums {
+  static constexpr int kMinPoints = 100;  ///< chosen for eight unknowns
+
   NormalEquations<8> equations;
   int points = 0;        ///< of the keyframe that the frame sees
   double deviation = 0;  ///< robust standard deviation of their grey differences

@@ -11,10 +11,7 @@ namespace {
 
 constexpr size_t kFirstLevel = 2;  // of a quarter of the size; chosen: a pose may be 10 pixels off
 constexpr int kSteps = 5;          // at each level; chosen: poses move by .01 px after four
-constexpr int kMinPoints = 100;    // of the keyframe, that the frame sees; chosen for 8 unknowns
 constexpr double kSmallStep = 2e-5;  // radians, metres; derived: a hundredth of a pixel
-// Of the greatest information: what grey leaves open stays. Chosen: far less than what it tells.
-constexpr double kDamping = 1e-9;
 
 }  // namespace
 
@@ -30,7 +27,7 @@ ViewAlignment AlignToKeyframe(const Keyframe& keyframe, const TrackingFrame& fra
     for (int i = 0; i < kSteps; ++i) {
       const PhotometricSums sums =
           PhotometricTerm(keyframe.levels[level], frame.levels[level], view, change);
-      if (sums.points < kMinPoints) return result;
+      if (sums.points < PhotometricSums::kMinPoints) return result;
       const NormalEquations<8>::Matrix H = sums.equations.H();
       const NormalEquations<8>::Matrix damped =
           H + kDamping * H.diagonal().maxCoeff() * NormalEquations<8>::Matrix::Identity();

@@ -64,7 +64,6 @@ std::pair<int, int> ClippedPixels(double start, double end, int size) {
 // The pixels whose rays may meet some cells of a block; empty if there are none.
 std::optional<PixelBox> FindCoveredPixels(const VoxelCamera& view, const VoxelKey& key,
                                           const CellBox& box) {
-  constexpr double kNearestProjectable = 1e-3;  // metres; chosen: pixels have no bound at 0
   const PinholeCamera& camera = view.camera;
   const Vec3 cell_low(box.low[0], box.low[1], box.low[2]);
   const Vec3 cell_high(box.high[0], box.high[1], box.high[2]);
@@ -75,7 +74,7 @@ std::optional<PixelBox> FindCoveredPixels(const VoxelCamera& view, const VoxelKe
       view.T_camera_world.linear().cwiseAbs() * (view.voxel_size * 0.5 * (cell_high - cell_low));
   const Vec3 low = center - half, high = center + half;
   if (high.z() <= 0) return std::nullopt;
-  if (low.z() < kNearestProjectable) {
+  if (low.z() < PinholeCamera::kNearestBox) {
     return PixelBox{0, camera.width - 1, 0, camera.height - 1};
   }
   const Eigen::AlignedBox2d seen = camera.BoundsOfBox(low, high);

@@ -53,7 +53,7 @@ class BlockVisibility {
     constexpr double kNothing = -std::numeric_limits<double>::infinity();
     const PinholeCamera& camera = frame_.camera();
     float depth;
-    if (low.z() < kNearestProjectable) {
+    if (low.z() < PinholeCamera::kNearestBox) {
       depth = frame_.MaxDepthWithin(0, 0, camera.width, camera.height);
     } else {
       const Eigen::AlignedBox2d seen = camera.BoundsOfBox(low, high);
@@ -62,8 +62,6 @@ class BlockVisibility {
     }
     return depth > 0 ? static_cast<double>(depth) : kNothing;
   }
-
-  static constexpr double kNearestProjectable = 1e-3;  // metres; chosen: pixels have no bound at 0
 
   const IntegrationFrame& frame_;
   const TsdfScale& scale_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -13,7 +14,7 @@ namespace curvefusion {
 /// The kernel w(d) = (1 - d^2 / (8 sigma^2))^4 stands in for the Gaussian: it needs no exponential
 /// and ends at kKernelSupport sigma. Derived: the square root of 8, with which both fall by
 /// d^2 / (2 sigma^2) near the middle.
-inline constexpr double kKernelSupport = 2.8284271247461903;
+inline constexpr double kKernelSupport = 2 * std::numbers::sqrt2;
 /// Variance of the kernel along a straight uniform curve through its middle, in sigma^2. Derived:
 /// the integral of t^2 (1 - t^2)^4 is an eleventh of that of (1 - t^2)^4.
 inline constexpr double kKernelVariance = 8.0 / 11.0;

@@ -28,7 +28,6 @@ constexpr double kContinuing = 0.9;
 constexpr double kMaxAngle = 1.1;        // radians, at which an end reaches nothing any more
 constexpr double kMaxFacingAngle = 1.2;  // radians, at which two ends do not face each other
 constexpr double kFitLength = 0.015;     // metres: length of the end piece that gives its direction
-constexpr double kSnapDistance = 0.006;  // metres: a curve met so near to its end is met there
 constexpr double kMinLoop = 0.035;       // metres: bridges close no shorter loops
 
 struct FacingEnd : OpenEnd {

@@ -16,7 +16,7 @@ namespace {
 constexpr int kRounds = 2;  // chosen: once placed, junctions may lie side by side
 // With four lines, a point that three nodes share by chance is told from a junction; and chosen:
 // on training scans umbrella 1, the shared umbrella and wheel 1, parts of a hub meet to .7 to 1.5
-// mm, junctions next to each other to 3.5 and more.
+// mm, junctions next to each other to 2.5 and more (docs/lab_notebook.md).
 constexpr int kHubLines = 4;
 constexpr double kHubDeviation = 0.002;
 constexpr double kStep = 0.0015;  // metres; between points of curves

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -26,7 +27,7 @@ constexpr double kConvergedStep = 0.02 * kMillimetre;
 constexpr int kGrain = 256;  // for a thread at a time
 // Kernel widths grow by this factor from one level to the next. Chosen: the square root of 2, so
 // that they double in two.
-constexpr double kLevelRatio = 1.4142135623730951;
+constexpr double kLevelRatio = std::numbers::sqrt2;
 // Chosen: a density is smooth enough for points and seeds this far apart, in kernel widths.
 constexpr double kCellPerSigma = 0.7;
 // Chosen: a ridge point comes from several seeds, so these may be farther apart than the ridge

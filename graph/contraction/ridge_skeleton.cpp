@@ -10,6 +10,7 @@
 #include "graph/intersections.h"
 #include "graph/merge.h"
 #include "graph/parallel_edges.h"
+#include "graph/smoothing.h"
 
 namespace curvefusion {
 
@@ -29,10 +30,9 @@ Polyline Smoothed(const Polyline& points, double weight, bool closed) {
     target.row(i) = (held ? kHeld : 1.0) * points[i].transpose();
     if (held) continue;
     const int at[3] = {(i + n - 1) % n, i, (i + 1) % n};
-    const double stencil[3] = {1, -2, 1};
     for (int a = 0; a < 3; ++a) {
       for (int b = 0; b < 3; ++b)
-        entries.emplace_back(at[a], at[b], weight * stencil[a] * stencil[b]);
+        entries.emplace_back(at[a], at[b], weight * kSecondDifference[a] * kSecondDifference[b]);
     }
   }
   Eigen::SparseMatrix<double> system(n, n);

@@ -20,7 +20,7 @@ constexpr int64_t kGrain = 32;        // for a thread at a time
 constexpr size_t kProbes = 400;       // as many points are asked; the median settles long before
 constexpr int kLeastNeighbours = 16;  // fewer are elongated by chance
 constexpr double kRadiusStep = 1.15;  // finer than the result needs to be
-constexpr double kElongated = 1.1;    // radius over thickness: .7 in a plane, .8 in a ball
+constexpr double kElongated = 1.1;    // more than in a disc, .58, or in a ball, .65
 constexpr double kFallen = 0.95;      // share of the best elongation that says: past it
 constexpr double kEnoughElongation = 2.5;
 

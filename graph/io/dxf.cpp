@@ -89,7 +89,7 @@ void WriteTables(DL_Dxf& dxf, DL_WriterA& writer) {
 
 void WriteSpline(const CubicSpline& spline, DL_Dxf& dxf, DL_WriterA& writer) {
   dxf.writeSpline(writer,
-                  DL_SplineData(3, static_cast<int>(spline.knots.size()),
+                  DL_SplineData(kSplineDegree, static_cast<int>(spline.knots.size()),
                                 static_cast<int>(spline.points.size()), 0, kPlainSpline),
                   DL_Attributes("0", 256, -1, "BYLAYER", 1.0));
   for (const double knot : spline.knots) dxf.writeKnot(writer, DL_KnotData(knot / kMillimetre));
