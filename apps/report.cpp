@@ -75,7 +75,10 @@ std::string Summary(const RunRecord& record, const std::filesystem::path& folder
   if (replaces && (!skeleton.empty() || has_uncertain)) add_file("picture", folder / "preview.png");
   if (!skeleton.empty()) {
     add_file("mesh", folder / "mesh.ply");
-    if (record.hybrid) add_file("hybrid", folder / "hybrid.ply");
+    if (record.hybrid) {
+      add_file("hybrid", folder / "hybrid.ply");
+      add_file("to print", folder / "hybrid.stl");
+    }
     add_file("skeleton", folder / "skeleton.json");
   }
   if (replaces && has_uncertain) add_file("uncertain", folder / "uncertain.json");

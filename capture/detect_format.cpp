@@ -138,6 +138,18 @@ std::string ExportRemedy(const fs::path& file) {
       file.string());
 }
 
+// What keeps images of depth and colour from being a scan: nothing tells of the cameras.
+void FailWithoutIntrinsics(const fs::path& folder) {
+  if (!HasImageFolders(folder)) return;
+  const bool is_misnamed = fs::exists(folder / "camera_intrinsic.json");
+  throw Error(ErrorKind::kBadInput,
+              fmt::format("{}: {} and depth are there, but {}", folder.string(),
+                          ColorFolder(folder).filename().string(),
+                          is_misnamed ? "not intrinsic.json; rename camera_intrinsic.json to that"
+                                      : "not intrinsics.json, which tells the cameras' focal "
+                                        "lengths and the unit of depth (docs/formats_input.md)"));
+}
+
 [[noreturn]] void FailUnknownFormat(const fs::path& folder) {
   const std::vector<std::string> scans = ScansInside(folder);
   if (!scans.empty()) {
@@ -153,13 +165,14 @@ std::string ExportRemedy(const fs::path& file) {
     if (remedy.empty()) continue;
     throw Error(ErrorKind::kBadInput, fmt::format("{}: is {}", entry.path().string(), remedy));
   }
+  FailWithoutIntrinsics(folder);
   throw Error(
       ErrorKind::kBadInput,
       fmt::format(
           "{}: the format of this folder is unknown; name a recording (.sens, RealSense's .bag, "
           "Azure Kinect's .mkv) or a folder that holds one of: rgb.txt, depth.txt and "
-          "trajectory.txt (TUM); color/ (or rgb/, image/), depth/, intrinsics.json and pose/ "
-          "(per-frame poses); "
+          "trajectory.txt (TUM); color/ (or rgb/, image/), depth/, intrinsics.json and, if poses "
+          "are known, pose/ (per-frame poses); "
           "color/, depth/ and "
           "trajectory.log (Open3D, Redwood); frame-000000.depth.png and so on (7-Scenes); "
           "transforms.json (nerfstudio, instant-ngp); images/, depth/ and cameras.txt or .bin in "
@@ -234,7 +247,9 @@ void RequireRecording(const fs::path& file) {
   const std::string remedy = ExportRemedy(file);
   throw Error(ErrorKind::kBadInput,
               fmt::format("{}: is {}", file.string(),
-                          remedy.empty() ? "a file; name the folder of the sequence" : remedy));
+                          remedy.empty() ? "a file; name the folder that holds the scan, or a "
+                                           "recording with depth (.sens, .bag, .mkv)"
+                                         : remedy));
 }
 
 // Throws for a file that is no recording and for a folder whose files cannot be listed.

@@ -49,12 +49,17 @@ std::vector<std::string> Doubts(const Trust& trust) {
 
 std::string PlacesWarning(const Trust& trust) {
   if (!trust.is_judged() || trust.adjusted) return {};
-  return fmt::format(
-      "the colour images could not confirm where the curves lie (a strip was seen along {:.0f} % "
-      "of them): places are as exact as depth and camera poses, some millimetres. Poses were "
-      "corrected by {:.0f} mm; if that is more than a few, scan again, slower (or, where the scan "
-      "came with poses, try --track)",
-      100 * trust.colour_share, 1000 * trust.pose_shift);
+  constexpr double kLargeShift = 3 * kMillimetre;  // chosen: what else the places are off by
+  const std::string advice =
+      trust.pose_shift > kLargeShift
+          ? fmt::format(
+                ". Poses were moved by {:.0f} mm: scan again, slower (or, where the scan "
+                "came with poses, try --track)",
+                trust.pose_shift / kMillimetre)
+          : "";
+  return "colour was not used to correct where the curves lie: places are as exact as depth and "
+         "camera poses, some millimetres" +
+         advice;
 }
 
 }  // namespace curvefusion

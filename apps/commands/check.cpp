@@ -79,7 +79,11 @@ void PrintFindings(const CheckReport& report) {
     const std::string cause = finding.cause.empty() ? "" : " [" + finding.cause + "]";
     fmt::print("{}{}: {}\n", severity, cause, finding.message);
   }
-  if (report.findings.empty()) fmt::print("nothing is wrong with this sequence\n");
+  if (report.findings.empty()) {
+    fmt::print("nothing is wrong with this sequence\n");
+  } else if (!report.has_errors()) {
+    fmt::print("no errors: this can be reconstructed, but the warnings tell what will suffer\n");
+  }
 }
 
 const char* AboutImages(const SequenceCorrection& correction) {

@@ -14,6 +14,17 @@ void AddRunOptions(CLI::App& command, RunOptions& options) {
   command.add_flag("--quiet", options.quiet, "Print nothing but errors");
 }
 
+CLI::Validator PositiveNumber() {
+  return CLI::Validator(
+      [](const std::string& text) {
+        double number = 0;
+        const bool is_positive = CLI::detail::lexical_cast(text, number) && number > 0;
+        return is_positive ? std::string()
+                           : text + " is no positive number; write it without a unit, such as 2";
+      },
+      "POSITIVE");
+}
+
 void LimitThreads(const RunOptions& options) {
   static ThreadLimit* limit = nullptr;  // never destroyed: interrupted steps may outlive main
   if (limit == nullptr) limit = new ThreadLimit(options.threads);

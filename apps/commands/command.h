@@ -5,7 +5,8 @@
 
 namespace CLI {
 class App;
-}
+class Validator;
+}  // namespace CLI
 
 namespace curvefusion {
 
@@ -36,6 +37,9 @@ struct RunOptions {
   bool quiet = false;
 };
 void AddRunOptions(CLI::App& command, RunOptions& options);
+
+/// For options with a number that must be positive; says so where there is a unit behind it.
+CLI::Validator PositiveNumber();
 
 /// Limits every parallel loop of the program from now on. There is no way back: when a limit ends,
 /// TBB starts threads, and ends the program where there is no memory for them.

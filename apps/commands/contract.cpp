@@ -87,7 +87,7 @@ void AddContractCommand(CLI::App& app, int& exit_code) {
       ->add_option("--scale", arguments->scale,
                    "Metres per unit of the file, 0.001 for mm; otherwise metres, or mm where the "
                    "cloud would be larger than 10 m")
-      ->check(CLI::PositiveNumber);
+      ->check(PositiveNumber());
   command
       ->add_option(
           "--method", arguments->method,
@@ -98,12 +98,12 @@ void AddContractCommand(CLI::App& app, int& exit_code) {
       ->add_option("--neighbourhood", arguments->neighbourhood_mm,
                    "First radius of l1 in mm, about three times the wires' thickness; otherwise "
                    "from the cloud")
-      ->check(CLI::PositiveNumber);
+      ->check(PositiveNumber());
   command
       ->add_option("--radius", arguments->radius_mm,
                    "Radius of the wires in mm, stored with the curves; where the cloud has viewing "
                    "rays, its points are moved from the surface to the axis")
-      ->check(CLI::PositiveNumber);
+      ->check(PositiveNumber());
   AddRunOptions(*command, arguments->run);
   command->footer(
       "Example:\n  curvefusion contract cloud.ply -o skeleton.json\n"

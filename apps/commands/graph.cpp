@@ -195,7 +195,7 @@ void AddGraphCommand(CLI::App& app, int& exit_code) {
   command
       ->add_option("--proximity", arguments->proximity_mm,
                    "With --validate: how near in mm curves may come without meeting (1)")
-      ->check(CLI::PositiveNumber)
+      ->check(PositiveNumber())
       ->needs(validate);  // by its name CLI11 cannot look it up without memory
   command
       ->add_option("--remove", arguments->removed,
@@ -205,12 +205,12 @@ void AddGraphCommand(CLI::App& app, int& exit_code) {
       ->add_option("--resolve", arguments->resolve_mm,
                    "Make junctions where curves cross or come within this distance in mm, and "
                    "merge what runs side by side")
-      ->check(CLI::PositiveNumber);
+      ->check(PositiveNumber());
   command
       ->add_option("--smooth", arguments->smooth,
                    "Resample to 1 mm and smooth, after --resolve; the value weighs smoothness "
                    "against the data (lambda, without unit; 60 in the paper)")
-      ->check(CLI::PositiveNumber);
+      ->check(PositiveNumber());
   command->add_option("-o,--output", arguments->output,
                       "Where --remove, --resolve and --smooth write; formats as for --convert");
   CLI::Option* const convert = command->add_option(
@@ -225,7 +225,7 @@ void AddGraphCommand(CLI::App& app, int& exit_code) {
           "With --convert to .dxf, .usda or .step: every edge as one cubic B-spline within "
           "this distance in mm, such as 0.5 or 0.5mm")
       ->transform(CLI::AsNumberWithUnit(std::map<std::string, double>{{"mm", 1.0}}))
-      ->check(CLI::PositiveNumber)
+      ->check(PositiveNumber())
       ->needs(convert);
   CLI::Option* const cut_list = command->add_option(
       "--cut-list", arguments->cut_list,
@@ -234,7 +234,7 @@ void AddGraphCommand(CLI::App& app, int& exit_code) {
   command
       ->add_option("--bend-tolerance", arguments->bend_tolerance_mm,
                    "With --cut-list: how far in mm the bent wire may leave the curve (1)")
-      ->check(CLI::PositiveNumber)
+      ->check(PositiveNumber())
       ->needs(cut_list);
   AddRunOptions(*command, arguments->run);
   command->footer(

@@ -140,10 +140,11 @@ void RequirePrintable(const MeshArguments& arguments, const SkeletonGraph& skele
   }
   if (thinnest >= arguments.min_diameter_mm * kMillimetre) return;
   throw Error(ErrorKind::kBadInput,
-              fmt::format("{}: edge {} (curve {} of the report page) is {:.2f} mm thick, less than "
-                          "the {} mm of --min-diameter: lower that, or give all wires one "
-                          "thickness with --radius (half of it, in mm)",
-                          arguments.input.string(), edge, edge + 1, thinnest / kMillimetre,
+              fmt::format("{}: curve {} (its number on the report page and for graph --remove) is "
+                          "{:.2f} mm thick, less than the {} mm of --min-diameter: give all wires "
+                          "one thickness with --radius (half of it, in mm), or lower "
+                          "--min-diameter if the printer can print that",
+                          arguments.input.string(), edge, thinnest / kMillimetre,
                           arguments.min_diameter_mm));
 }
 
@@ -164,6 +165,9 @@ int MeshSkeleton(const MeshArguments& arguments) {
   if (!arguments.run.quiet) {
     fmt::print("Wrote {} ({})\n", arguments.output.string(),
                unit == MeshUnit::kMetres ? "m" : "mm");
+    if (unit == MeshUnit::kMetres && arguments.output.extension() == ".stl") {
+      fmt::print("  slicers read .stl in mm: for printing add --for print\n");
+    }
     if (!arguments.purpose.empty()) {
       PrintSize(SizeOf(mesh), MeshUnit::kMetres, ", at full scale");
     }
@@ -189,7 +193,7 @@ void AddTubeOptions(CLI::App& command, MeshArguments& arguments) {
       command
           .add_option("--radius", arguments.radius_mm,
                       "Radius of all tubes in mm, in place of those of the skeleton")
-          ->check(CLI::PositiveNumber);
+          ->check(PositiveNumber());
   command
       .add_option("--radius-from", arguments.radius_from,
                   "Which radii of the skeleton: of every vertex (default), the mean of every edge, "
@@ -230,7 +234,7 @@ void AddMeshCommand(CLI::App& app, int& exit_code) {
   command
       ->add_option("--min-diameter", arguments->min_diameter_mm,
                    "With --for print: the thinnest wire in mm that the printer builds (1)")
-      ->check(CLI::PositiveNumber)
+      ->check(PositiveNumber())
       ->needs(purpose);
   command->add_flag("--check", arguments->check,
                     "Examine the mesh as it is read back; exit code 1 at a defect");

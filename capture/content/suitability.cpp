@@ -152,6 +152,8 @@ void ReportPath(const Sequence& sequence, double depth, const Reporter& reporter
 // 2.4 px of a camera of f 580, and a Kinect finds no depth on it.
 constexpr double kMaxNearDepth = 1.2;
 constexpr double kWire = 0.005;
+// Metres. Chosen: nobody stands so far from all things that he scans.
+constexpr double kRoomDepth = 2;
 // Measured: .76 to .95 on ten scans; chosen: objects before a background out of range have less.
 constexpr double kMinValidity = 0.15;
 
@@ -160,8 +162,12 @@ void ReportDepth(const Sequence& sequence, const DepthSurvey& depth, const Repor
     reporter.Warn("too-far",
                   fmt::format("nine tenths of the depths are beyond {:.2f} m, where a wire of 5 mm "
                               "covers {:.1f} px: thin wires have no depth there and will be "
-                              "missing; go to within 0.5 to 0.7 m",
-                              depth.near, sequence.depth_camera.fx * kWire / depth.near));
+                              "missing; go to within 0.5 to 0.7 m{}",
+                              depth.near, sequence.depth_camera.fx * kWire / depth.near,
+                              depth.near > kRoomDepth
+                                  ? ", or if you were nearer than that, correct the unit of depth "
+                                    "(depth_scale, 1000 for mm)"
+                                  : ""));
   }
   if (depth.validity > 0 && depth.validity < kMinValidity) {
     reporter.Warn("depth-sparse",

@@ -150,9 +150,11 @@ TEST_F(CommandLine, MeshWritesEveryFormatWithAnyRadii) {
   }
   const Outcome thin = Run("mesh skeleton.json --for print --min-diameter 5 -o thin.stl");
   EXPECT_EQ(thin.exit_code, 3);
-  EXPECT_THAT(
-      thin.output,
-      HasSubstr("edge 1 (curve 2 of the report page) is 4.00 mm thick, less than the 5 mm"));
+  EXPECT_THAT(thin.output, HasSubstr("curve 1 (its number on the report page and for graph "
+                                     "--remove) is 4.00 mm thick, less than the 5 mm"));
+  EXPECT_THAT(Run("mesh skeleton.json -o wires.stl").output, HasSubstr("add --for print"));
+  EXPECT_THAT(Run("mesh skeleton.json -o wires.stl --radius 2mm").output,
+              HasSubstr("2mm is no positive number; write it without a unit"));
   EXPECT_EQ(Run("mesh skeleton.json --for print --min-diameter 5 --radius 3 -o b.stl").exit_code,
             0);
   EXPECT_EQ(Run("mesh skeleton.json --for print -o a.ply").exit_code, 2);
