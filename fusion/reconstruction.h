@@ -55,8 +55,8 @@ struct DepthAccount {
 struct Reconstruction {
   /// The curves, world frame, with a radius (metres) at every point, or with none where no diameter
   /// could be measured in the whole scan. An edge whose radius in `radii.edges` is 0 was not
-  /// measured and has `radii.unmeasured_radius`. Observations: how many bundles (paper profile) or
-  /// images of `views` saw the point.
+  /// measured and has `radii.unmeasured_radius`. Observations: how many images of `views` saw the
+  /// point.
   SkeletonGraph skeleton;
   /// What may be thin but is no proven wire, world frame; the best profile only.
   UncertainCurves uncertain;

@@ -63,7 +63,7 @@ double StripResidual(const CurvePoseProblem& problem, const CurvePoseState& stat
 /// 1.5 px, Huber beyond `huber_px`), depths and their middles (8 px), second differences of
 /// vertices in a row across the curve (.3 mm; where bends are evened, third ones as well, .1 mm),
 /// changes of distances of neighbours in rows (1 mm), distances from the start (vertices 12 mm;
-/// poses 5 mm and .3 degrees, .8 mm and .05 degrees where they jitter) and, in a video, changes of
+/// poses 5 mm and .3 degrees, .8 mm and .3 degrees where they jitter) and, in a video, changes of
 /// a pose's correction from frame to frame (.8 mm and .04 degrees times the square root of the
 /// gap), whose first frame is held. Vertices are eliminated by a sparse factorisation; the dense
 /// Schur complement of the 6 unknowns of each frame remains. Cost: vertices times frames squared.

@@ -95,7 +95,7 @@ void VisitOptions(GhostClusterOptions& options, OptionVisitor& visitor) {
                 options.isolation_distance);
   visitor.Visit({"verified_share", "", 0, 1,
                  "Clusters with a smaller share of voxels on colour edges are ghosts. CurveFusion "
-                 "3.1."},
+                 "4.1."},
                 options.verified_share);
 }
 

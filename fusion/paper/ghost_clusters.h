@@ -11,7 +11,7 @@ namespace curvefusion {
 
 /// CurveFusion 4.1 "Removing 'ghost' points".
 struct GhostClusterOptions {
-  /// Metres, 0.001 to 0.1. DBSCAN's radius; the paper gives none. Chosen: two voxels.
+  /// Metres, 0.001 to 0.1. DBSCAN's radius; the paper gives none. Chosen: some three voxels.
   double cluster_radius = 10 * kMillimetre;
   /// Points, 1 to 1000. DBSCAN's density; the paper gives none. Ester et al. 1996, 4.2 use 4.
   int core_points = 4;

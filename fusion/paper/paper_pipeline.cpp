@@ -26,7 +26,7 @@ auto Timed(StageLog& log, const char* stage, const Step& step) {
   return step();
 }
 
-// 3.1 "Removing large surfaces": the bundle difference set on a regular grid, in the camera of the
+// 4.1 "Removing large surfaces": the bundle difference set on a regular grid, in the camera of the
 // bundle's first frame.
 ObservedPoints RemoveLargeSurfaces(const Sequence& sequence, const BundleFrames& frames,
                                    const TsdfVolume& volume, const PaperOptions& options,
@@ -42,7 +42,7 @@ ObservedPoints RemoveLargeSurfaces(const Sequence& sequence, const BundleFrames&
   return points;
 }
 
-// 3.1 "Removing 'ghost' points": the clusters of the thin structure, in the camera of the bundle's
+// 4.1 "Removing 'ghost' points": the clusters of the thin structure, in the camera of the bundle's
 // first frame.
 std::vector<ObservedPoints> RemoveGhosts(const ObservedPoints& difference_set,
                                          const Sequence& sequence, const BundleFrames& frames,

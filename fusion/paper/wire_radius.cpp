@@ -32,7 +32,7 @@ std::vector<double> DiametersInImage(const ColorImage& image,
 void VisitOptions(WireRadiusOptions& options, OptionVisitor& visitor) {
   visitor.Visit({"sample_step", "m", 0.0005, 0.1,
                  "Distance along the curves of the places where widths are measured. CurveFusion "
-                 "3.3 gives no number."},
+                 "4.3 gives no number."},
                 options.sample_step);
   visitor.Visit({"box_size_px", "px", 4, 128,
                  "Side of the box that must hold exactly one strip. CurveFusion 4.3."},

@@ -187,7 +187,7 @@ void VisitOptions(L1Options& options, OptionVisitor& visitor) {
       options.maximum_radius);
   visitor.Visit({"growth", "m", 1e-5, 1e3,
                  "The radius grows by so much whenever contraction has come to rest. CurveFusion "
-                 "3.2 without a number; Huang et al. 2013, 4.1 have half the initial radius."},
+                 "4.2 without a number; Huang et al. 2013, 4.1 have half the initial radius."},
                 options.growth);
   visitor.Visit({"sample_spacing", "radii", 0.01, 1.0,
                  "Distance of the samples before contraction, as a multiple of initial_radius. "

@@ -289,7 +289,7 @@ RidgePoints RidgesFrom(const ObservedPoints& observed, const std::vector<Density
 void VisitOptions(RidgeProjectionOptions& options, OptionVisitor& visitor) {
   visitor.Visit({"kernel_sigma", "m", 0.0005, 0.05,
                  "Deviation: width of the density kernel on thin wires; 25 mm as in CurveFusion "
-                 "3.2 loses wires, 2 mm makes false junctions."},
+                 "4.2 loses wires, 2 mm makes false junctions."},
                 options.kernel_sigma);
   visitor.Visit({"max_sigma", "m", 0.0005, 0.05,
                  "Deviation: width of the kernel on thick wires, which a thin kernel splits into "
