@@ -185,6 +185,15 @@ TEST_F(SequenceTest, UnknownFoldersAreExplained) {
   EXPECT_THAT(OpenError(folder()), AllOf(HasSubstr("format"), HasSubstr("trajectory.log")));
 }
 
+TEST_F(SequenceTest, ImagesWithoutCamerasAreExplained) {
+  WritePerFrameSequence(folder());
+  std::filesystem::remove_all(folder() / "pose");
+  std::filesystem::remove(folder() / "intrinsics.json");
+  EXPECT_THAT(OpenError(folder()), HasSubstr("but not intrinsics.json"));
+  WriteText(folder() / "camera_intrinsic.json", "{}");  // as Open3D's recorders write it
+  EXPECT_THAT(OpenError(folder()), HasSubstr("rename camera_intrinsic.json"));
+}
+
 TEST_F(SequenceTest, MissingFilesAreNamed) {
   WriteTumSequence(folder());
   std::filesystem::remove(folder() / "trajectory.txt");
