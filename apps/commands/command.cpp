@@ -1,6 +1,7 @@
 #include "apps/commands/command.h"
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <string>
 
 #include "kernel/cancellation.h"
@@ -18,7 +19,8 @@ CLI::Validator PositiveNumber() {
   return CLI::Validator(
       [](const std::string& text) {
         double number = 0;
-        const bool is_positive = CLI::detail::lexical_cast(text, number) && number > 0;
+        const bool is_positive =
+            CLI::detail::lexical_cast(text, number) && number > 0 && std::isfinite(number);
         return is_positive ? std::string()
                            : text + " is no positive number; write it without a unit, such as 2";
       },

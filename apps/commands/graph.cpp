@@ -225,7 +225,7 @@ void AddGraphCommand(CLI::App& app, int& exit_code) {
           "With --convert to .dxf, .usda or .step: every edge as one cubic B-spline within "
           "this distance in mm, such as 0.5 or 0.5mm")
       ->transform(CLI::AsNumberWithUnit(std::map<std::string, double>{{"mm", 1.0}}))
-      ->check(PositiveNumber())
+      ->check(CLI::PositiveNumber)
       ->needs(convert);
   CLI::Option* const cut_list = command->add_option(
       "--cut-list", arguments->cut_list,

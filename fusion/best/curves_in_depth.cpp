@@ -28,7 +28,6 @@ constexpr double kMaxMeasuredInHoles = 0.1;
 constexpr double kMinOpenInHoles = 0.55;
 constexpr double kReach = 0.05;  // chosen: of the width of images, from a place to depth beside it
 constexpr int kThinImages = 20;  // chosen: enough for a share
-constexpr double kBehind = kHidingDistance;  // likewise what hides it
 // Images tell no size: of that which depth will tell in the end, of the distance. Derived:
 // HoldToScaleOfDepth tries as much. Without it the frame of a monitor, too near by 43 mm, lies
 // before its own depth.
@@ -142,7 +141,7 @@ PlacesInDepth LookUpDepth(const Sequence& sequence, const SkeletonGraph& skeleto
         const Vec2 pixel = camera.Project(p);
         const Eigen::Vector2i at = PinholeCamera::Rounded(pixel);
         const double there = depth(at.x(), at.y());
-        const double margin = kBehind + kScaleError * p.z();
+        const double margin = kHidingDistance + kScaleError * p.z();
         if (there > 0 && there < p.z() - margin) continue;  // hidden
         const bool is_free = there > p.z() + margin;
         ++places.looked;

@@ -46,6 +46,7 @@ std::vector<Vec3> WellSpreadSubset(const std::vector<Vec3>& points, const PointI
 
 // 1 / d_j of the weighted local density (Huang et al. 2013, 3.2): dense parts do not outweigh.
 std::vector<float> InverseDensities(const std::vector<Vec3>& points, double radius) {
+  // Densities take no distances, so any softening will do.
   const L1Neighbourhood around(points, std::vector<float>(points.size(), 1), radius, radius);
   std::vector<float> weights(points.size());
   ParallelChunks(0, static_cast<int64_t>(points.size()), kGrain, [&](int64_t first, int64_t last) {
@@ -75,7 +76,6 @@ class Contraction {
 
   const std::vector<Vec3>& points_;
   const L1Options& options_;
-  PointIndex point_index_;
   std::vector<float> point_weights_;
   double softening_;
 
@@ -86,13 +86,14 @@ class Contraction {
 };
 
 Contraction::Contraction(const std::vector<Vec3>& points, const L1Options& options)
-    : points_(points), options_(options), point_index_(points) {
+    : points_(points), options_(options) {
+  const PointIndex index(points);
   const double spacing = options.sample_spacing * options.initial_radius;
   softening_ = 0.1 * spacing;  // samples start on points, where 1 / r has no value
   point_weights_ = InverseDensities(points, spacing);
   std::vector<int> neighbours;
-  for (const Vec3& p : WellSpreadSubset(points, point_index_, spacing)) {
-    point_index_.WithinRadius(p, options.initial_radius, neighbours);
+  for (const Vec3& p : WellSpreadSubset(points, index, spacing)) {
+    index.WithinRadius(p, options.initial_radius, neighbours);
     if (static_cast<int>(neighbours.size()) > options.minimum_neighbours) samples_.push_back(p);
   }
   moved_samples_ = samples_;

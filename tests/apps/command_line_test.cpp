@@ -155,6 +155,10 @@ TEST_F(CommandLine, MeshWritesEveryFormatWithAnyRadii) {
   EXPECT_THAT(Run("mesh skeleton.json -o wires.stl").output, HasSubstr("add --for print"));
   EXPECT_THAT(Run("mesh skeleton.json -o wires.stl --radius 2mm").output,
               HasSubstr("2mm is no positive number; write it without a unit"));
+  for (const char* number : {"0", "-2", "inf", "nan"}) {
+    EXPECT_EQ(Run(std::string("mesh skeleton.json -o wires.stl --radius ") + number).exit_code, 2)
+        << number;
+  }
   EXPECT_EQ(Run("mesh skeleton.json --for print --min-diameter 5 --radius 3 -o b.stl").exit_code,
             0);
   EXPECT_EQ(Run("mesh skeleton.json --for print -o a.ply").exit_code, 2);

@@ -3,7 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
+
+#include "tests/graph/contraction/weighted_places.h"
 
 namespace curvefusion {
 namespace {
@@ -11,23 +12,6 @@ namespace {
 constexpr double kRadius = 0.009;
 constexpr double kSoftening = 0.0003;
 constexpr double kSinglePrecision = 1e-5;  // relative: kernels are good to 1e-6
-
-// Away from the origin, as scans are.
-std::vector<Vec3> RandomPlaces(int count, unsigned seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> inside(0.95, 1.0);
-  std::vector<Vec3> places;
-  for (int i = 0; i < count; ++i) {
-    places.emplace_back(inside(random), inside(random), inside(random));
-  }
-  return places;
-}
-
-std::vector<float> Weights(size_t count) {
-  std::vector<float> weights;
-  for (size_t i = 0; i < count; ++i) weights.push_back(static_cast<float>(1 + i % 7));
-  return weights;
-}
 
 // As Huang et al. 2013 write them.
 struct SumsByBruteForce {
@@ -59,7 +43,7 @@ struct SumsByBruteForce {
 
 TEST(L1Neighbourhood, HasTheSumsOfAllPoints) {
   const std::vector<Vec3> points = RandomPlaces(3000, 1);
-  const std::vector<float> weights = Weights(points.size());
+  const std::vector<float> weights = CountsAsWeights(points.size());
   const L1Neighbourhood around(points, weights, kRadius, kSoftening);
   PackedPoints::Neighbours neighbours;
   for (size_t i = 0; i < 200; ++i) {

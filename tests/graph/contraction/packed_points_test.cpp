@@ -2,27 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <random>
+#include "tests/graph/contraction/weighted_places.h"
 
 namespace curvefusion {
 namespace {
-
-std::vector<Vec3> RandomPlaces(int count, unsigned seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> inside(0.95, 1.0);  // away from the origin, as scans are
-  std::vector<Vec3> places;
-  for (int i = 0; i < count; ++i) {
-    places.emplace_back(inside(random), inside(random), inside(random));
-  }
-  return places;
-}
-
-// Counts, so that sums of floats are exact.
-std::vector<float> Weights(size_t count) {
-  std::vector<float> weights;
-  for (size_t i = 0; i < count; ++i) weights.push_back(static_cast<float>(1 + i % 7));
-  return weights;
-}
 
 BallSums SumsByBruteForce(const std::vector<Vec3>& positions, const std::vector<float>& weights,
                           const Vec3& center, double radius) {
@@ -37,7 +20,7 @@ BallSums SumsByBruteForce(const std::vector<Vec3>& positions, const std::vector<
 
 TEST(PackedPoints, SumsAreThoseOfAllPointsInWhateverOrder) {
   const std::vector<Vec3> positions = RandomPlaces(3000, 1);
-  const std::vector<float> weights = Weights(positions.size());
+  const std::vector<float> weights = CountsAsWeights(positions.size());
   const PackedPoints packed(positions, weights, 0.009);
   PackedPoints::Neighbours neighbours;
   double sum = 0;
