@@ -52,8 +52,7 @@ constexpr double kMinAgreedShare = 0.25;
 // Chosen: curves that fit come to .1, parallel wires 18 mm apart that were taken for the next to
 // .6; more is a wire taken for the next.
 constexpr double kMaxResidualPx = 0.4;
-// Chosen: above what fitted curves come to (.1 to .2). Those that lay on their strips before need
-// not come nearer.
+// Chosen: fitted curves come to .1 to .2, and what lay on its strips need not come nearer.
 constexpr double kFittedPx = 0.25;
 constexpr double kMinGain = 0.8;  // of the residual
 constexpr int kHeldOutFrames = 40;
@@ -64,8 +63,7 @@ constexpr double kMaxLoss = 1.25;
 // Chosen: less tells nothing, as depth images lie beside colour images by about as much each.
 constexpr double kDepthMiddlePx = 0.5;
 constexpr double kFarPx = 3;  // from depth; farther is another wire
-// How well an adjusted pose is known. Chosen with the constants of color_shift.cpp, on the same
-// scans.
+// How well an adjusted pose is known. Chosen with those of color_shift.cpp, on the same scans.
 constexpr double kPlaceSigma = 0.2 * kMillimetre;
 constexpr double kRollSigma = 0.0003;   // radians: .1 px at the border of 640 x 480 pixels
 constexpr double kShiftSigmaPx = 0.15;  // of a colour image's shift, however many edges it has
