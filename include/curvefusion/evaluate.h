@@ -1,6 +1,9 @@
 #pragma once
 
-/// A result against the true curves: precision, recall, junctions, diameters; a run as report.json.
+/// @file
+/// A result against the true curves, as `curvefusion evaluate` compares them: precision and recall,
+/// junctions, topology, diameters, surfaces (docs/formats_output.md says what each figure is). And
+/// a run as report.json. Link `curvefusion::experiments`.
 
 #include "experiments/metrics/evaluation_files.h"
 #include "experiments/metrics/truth.h"
