@@ -146,6 +146,32 @@ def test_networkx_keeps_loops_parallel_edges_and_directions():
     assert len(cf.SkeletonGraph.from_networkx(relabelled).edges) == 3
 
 
+def test_networkx_reads_our_graphml(y_graph, tmp_path):
+    y_graph.save(tmp_path / "graph.graphml")
+    graph = networkx.read_graphml(tmp_path / "graph.graphml", force_multigraph=True)
+    positions = [[data[axis] for axis in "xyz"] for _, data in graph.nodes(data=True)]
+    np.testing.assert_array_equal(positions, y_graph.nodes)
+    curves = [data["points"].split() for _, _, data in graph.edges(data=True)]
+    found = sorted(tuple(map(float, curve)) for curve in curves)
+    assert found == sorted(tuple(edge.points.ravel()) for edge in y_graph.edges)
+    assert sorted(degree for _, degree in graph.degree) == [1, 1, 1, 3]
+
+
+def test_graphml_of_networkx_is_read(tmp_path):
+    graph = networkx.Graph()
+    positions = [[0.0, 0.0, 0.5], [1.0, 0.0, 0.5], [1.0, 2.0, 0.25]]
+    for name, position in zip("abc", positions):
+        graph.add_node(name, **dict(zip("xyz", position)))
+    graph.add_edge("a", "b", radius=0.002)
+    graph.add_edge("b", "c", colour="red")
+    networkx.write_graphml(graph, tmp_path / "graph.graphml")
+    read = cf.SkeletonGraph.load(tmp_path / "graph.graphml")
+    np.testing.assert_array_equal(read.nodes, positions)
+    assert [edge.nodes for edge in read.edges] == [(0, 1), (1, 2)]
+    np.testing.assert_array_equal(read.edges[0].radii, [0.002, 0.002])
+    assert read.edges[1].radii is None
+
+
 def test_contraction_of_a_wire():
     random = np.random.default_rng(1)
     angle = random.uniform(0, 2 * np.pi, 3000)
