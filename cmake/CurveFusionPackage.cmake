@@ -17,6 +17,7 @@ set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
 
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-curvefusion)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS python3-networkx)
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION
     "curve skeletons of wire objects from RGB-D scans (Python)\n\
  The Python module curvefusion: sequences, reconstruction, skeleton graphs and meshes.")
