@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -14,9 +15,10 @@
 #include "tests/capture/content/room_scan.h"
 #include "tests/capture/sequence_fixture.h"
 #include "tests/error_message.h"
+#include "tests/source_folder.h"
 
 // No real recording of these layouts is part of the project: the samples are written here from the
-// documents of each format.
+// documents of each format, but for one model that COLMAP wrote.
 
 namespace curvefusion {
 namespace {
@@ -327,6 +329,33 @@ TEST_F(Colmap, TextAndBinaryModelsAreTheSame) {
     ExpectPoses(OpenSequence(folder()), 1e-12);
     fs::remove(folder() / place / "cameras.bin");
     fs::remove(folder() / place / "images.bin");
+  }
+}
+
+// The model in colmap_model was written by COLMAP 3.8 itself (Debian 12): `colmap model_converter`
+// made the .bin files of a text model, and the .txt files of these.
+TEST_F(Colmap, ReadsWhatColmapItselfWrites) {
+  // World to camera: a quarter of a turn about y and (.1, .2, .3); (-1, 0, 0); half a turn about z
+  // and (.5, .25, 0).
+  const std::array<Vec3, 3> centers = {Vec3(0.3, -0.2, -0.1), Vec3(1, 0, 0), Vec3(0.5, 0.25, 0)};
+  fs::create_directories(folder() / "sparse/0");
+  for (const char* extension : {".txt", ".bin"}) {  // where both are there, .bin is read
+    for (const char* stem : {"cameras", "images"}) {
+      const std::string name = std::string(stem) + extension;
+      fs::copy_file(SourceFolder() / "tests/capture/readers/colmap_model" / name,
+                    folder() / "sparse/0" / name);
+    }
+    const Sequence sequence = OpenSequence(folder());
+    EXPECT_EQ(sequence.format, "colmap");
+    EXPECT_EQ(sequence.color_camera.fx, 75);
+    EXPECT_EQ(sequence.color_camera.cx, 39.5);
+    ASSERT_EQ(sequence.frame_count(), 3);
+    for (size_t i = 0; i < centers.size(); ++i) {
+      const RigidTransform& T_world_camera = sequence.frames[i].T_world_camera;
+      EXPECT_LT((T_world_camera.translation() - centers[i]).norm(), 1e-12) << extension << i;
+    }
+    const Vec3 looks = sequence.frames[0].T_world_camera.linear() * Vec3::UnitZ();
+    EXPECT_LT((looks - Vec3(-1, 0, 0)).norm(), 1e-12);
   }
 }
 
