@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -32,6 +33,21 @@ bool IsImageName(const std::string& name, const std::string& kind) {
     if (name.ends_with(kind + extension)) return true;
   }
   return false;
+}
+
+// Tells of images in a format that is not read.
+void RefuseOtherImages(const std::filesystem::path& folder) {
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    std::string extension = entry.path().extension().string();
+    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    for (const char* other : {".bmp", ".tif", ".tiff", ".pgm", ".ppm", ".webp", ".exr", ".npy"}) {
+      if (extension != other) continue;
+      throw Error(ErrorKind::kBadInput,
+                  fmt::format("{}: is not read; convert the images to PNG (colour may be JPEG; "
+                              "depth PNG of 16 bits)",
+                              entry.path().string()));
+    }
+  }
 }
 
 // As text, but numbers by value.
@@ -92,6 +108,7 @@ NumberedImages ImagesByFrameNumber(const std::filesystem::path& folder, const st
                 fmt::format("{}: {} and {} have the same frame number {}; keep one of them",
                             folder.string(), first, second, *number));
   }
+  if (images.empty()) RefuseOtherImages(folder);
   return images;
 }
 

@@ -16,8 +16,8 @@ using NumberedImages = std::map<long long, std::filesystem::path>;
 
 /// The PNG and JPEG files of a folder by frame number: the first run of digits in the name
 /// ("000012.png", "0000001-000000033000.jpg", "frame-000007"). Throws Error(kBadInput) where the
-/// folder is missing, or two files have the same number. `kind` limits it to names that have it
-/// before their extension (".depth").
+/// folder is missing or holds images of other formats only, or two files have the same number.
+/// `kind` limits it to names that have it before their extension (".depth").
 NumberedImages ImagesByFrameNumber(const std::filesystem::path& folder,
                                    const std::string& kind = "");
 

@@ -105,6 +105,18 @@ TEST_F(SequenceTest, ColourFoldersHaveSeveralNames) {
   }
 }
 
+TEST_F(SequenceTest, ImagesOfFormatsThatAreNotReadAreNamed) {
+  WritePerFrameSequence(folder());
+  std::filesystem::remove(folder() / "color/000000.jpg");
+  std::filesystem::copy(folder() / "color/000001.jpg", folder() / "color/000000.TIFF");
+  EXPECT_EQ(OpenSequence(folder()).frame_count(), kFixtureFrames - 1);
+  for (int i = 1; i < kFixtureFrames; ++i) {
+    std::filesystem::remove(folder() / "color" / fmt::format("{:06}.jpg", i));
+  }
+  EXPECT_THAT(OpenError(folder()),
+              HasSubstr("000000.TIFF: is not read; convert the images to PNG"));
+}
+
 TEST_F(SequenceTest, SevenScenesMayHaveJpegColour) {
   WritePerFrameSequence(folder());
   for (int i = 0; i < kFixtureFrames; ++i) {
