@@ -79,10 +79,9 @@ void RequireNoneReplaced(const fs::path& folder) {
 
 const std::vector<std::string>& ResultNames() {
   static const std::vector<std::string> names = {
-      "skeleton.json", "uncertain.json", "trajectory.txt", "mesh.ply",
-      "hybrid.ply",    "hybrid.stl",     "preview.png",    kPage,
-      kConfig,         kNothingReport,   kNothingPage,     kNothingConfig,
-      kReport};
+      "skeleton.json", "uncertain.json",  "trajectory.txt", "mesh.ply", "hybrid.ply",
+      "hybrid.stl",    "solid_parts.ply", "preview.png",    kPage,      kConfig,
+      kNothingReport,  kNothingPage,      kNothingConfig,   kReport};
   return names;
 }
 

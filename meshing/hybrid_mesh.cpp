@@ -20,11 +20,13 @@ constexpr double kResampling = 0.5;
 
 HybridMesh UniteTubesAndSolids(const TriangleMesh& tubes, const std::vector<TriangleMesh>& solids,
                                double radius) {
-  Junction junction{{tubes}, {}, radius};
+  Junction junction{{}, {}, radius};
+  if (!tubes.triangles.empty()) junction.stubs.push_back(tubes);
   for (const TriangleMesh& solid : solids) {
     if (!solid.triangles.empty()) junction.stubs.push_back(solid);
   }
-  HybridMesh hybrid{.mesh = tubes};
+  HybridMesh hybrid;
+  if (junction.stubs.size() == 1) hybrid.mesh = junction.stubs.front();
   if (junction.stubs.size() > 1) {
     JunctionMesh united = MeshJunction(junction, {kAttempts, false}, 0);
     hybrid.attempts = united.attempts;

@@ -18,7 +18,8 @@ struct HybridMesh {
 /// The union of tubes (BuildTubes) and closed solids. What is inside is decided exactly, so that
 /// tubes keep their shape to where they enter a solid; after a few attempts, each with vertices
 /// moved by some thousandths of `radius` (metres, of the thinnest tube), the union is resampled.
-/// Without solids the tubes. Throws Error(kBadInput) where that is not watertight either.
+/// Without solids the tubes, without tubes the solids. Throws Error(kBadInput) where that is not
+/// watertight either.
 HybridMesh UniteTubesAndSolids(const TriangleMesh& tubes, const std::vector<TriangleMesh>& solids,
                                double radius);
 

@@ -6,12 +6,16 @@
 #include <limits>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "apps/commands/command.h"
+#include "apps/hybrid_result.h"
 #include "apps/output_folder.h"
 #include "apps/output_guard.h"
+#include "fusion/solid_parts/solid_parts.h"
 #include "graph/io/graph_io.h"
 #include "graph/set_radius.h"
 #include "kernel/cancellation.h"
@@ -27,8 +31,9 @@ namespace {
 
 struct MeshArguments {
   std::filesystem::path input;
-  std::filesystem::path output;  // empty = only check the input, a mesh
-  double radius_mm = 0;          // 0 = the radii of the file
+  std::vector<std::filesystem::path> solids;  // to unite with the tubes
+  std::filesystem::path output;               // empty = only check the input, a mesh
+  double radius_mm = 0;                       // 0 = the radii of the file
   std::string radius_from = "vertex";
   std::string unit;            // empty = the format's own
   std::string purpose;         // "print", or empty
@@ -148,20 +153,63 @@ void RequirePrintable(const MeshArguments& arguments, const SkeletonGraph& skele
                           arguments.min_diameter_mm));
 }
 
+// A mesh to write, and what is to be said of it.
+struct MadeMesh {
+  TriangleMesh mesh;
+  WatertightReport report;
+  std::optional<CornerNormals> normals;  // where they are known better than from the triangles
+  std::vector<std::string> warnings;
+};
+
+MadeMesh MadeOfTubes(const SkeletonGraph& skeleton, const TubeOptions& options) {
+  const TubeMesh tubes = BuildTubes(skeleton, options);
+  ThrowIfCancelled();
+  MadeMesh made{.mesh = ToTriangleMesh(tubes.surface), .report = tubes.report};
+  made.normals = ComputeTubeNormals(made.mesh, tubes.paths);
+  made.warnings = TubeWarnings(skeleton, tubes, options);
+  return made;
+}
+
+TriangleMesh ReadSolid(const std::filesystem::path& path) {
+  TriangleMesh solid = ReadMesh(path);
+  const WatertightReport report = ExamineMesh(solid);
+  if (report.IsWatertight()) return solid;
+  throw Error(ErrorKind::kBadInput,
+              fmt::format("{}: --solids takes closed meshes, and this one has {}; mesh --check "
+                          "tells where",
+                          path.string(), report.faces > 0 ? report.Defects() : "no faces"));
+}
+
+MadeMesh MadeWithSolids(const SkeletonGraph& skeleton,
+                        const std::vector<std::filesystem::path>& files,
+                        const TubeOptions& options) {
+  std::vector<TriangleMesh> solids;
+  for (const std::filesystem::path& file : files) solids.push_back(ReadSolid(file));
+  const SkeletonGraph led = LedToSolids(skeleton, solids);
+  const TubeMesh tubes = BuildTubes(led, options);
+  ThrowIfCancelled();
+  HybridMesh hybrid = UniteWithSolids(led, tubes, solids, options.default_radius);
+  MadeMesh made{.mesh = std::move(hybrid.mesh), .report = hybrid.report};
+  made.warnings = TubeWarnings(led, tubes, options);
+  for (std::string& warning : HybridWarnings(hybrid)) made.warnings.push_back(std::move(warning));
+  return made;
+}
+
 int MeshSkeleton(const MeshArguments& arguments) {
   CheckPrintFormat(arguments);
   const MeshUnit unit = UnitOf(arguments, arguments.output);
   CheckMeshFormat(arguments.output, unit);
   RequireApart({arguments.input}, arguments.output);
+  RequireApart(arguments.solids, arguments.output);
   SkeletonGraph skeleton = ReadSkeleton(arguments.input);
   MakeFolderOf(arguments.output);
   ChooseRadii(arguments, skeleton);
   RequirePrintable(arguments, skeleton);
-  const TubeMesh tubes = BuildTubes(skeleton, arguments.tubes);
-  ThrowIfCancelled();
-  const TriangleMesh mesh = ToTriangleMesh(tubes.surface);
-  const CornerNormals normals = ComputeTubeNormals(mesh, tubes.paths);
-  WriteMesh(arguments.output, mesh, {.unit = unit, .normals = &normals});
+  const MadeMesh made = arguments.solids.empty()
+                            ? MadeOfTubes(skeleton, arguments.tubes)
+                            : MadeWithSolids(skeleton, arguments.solids, arguments.tubes);
+  WriteMesh(arguments.output, made.mesh,
+            {.unit = unit, .normals = made.normals ? &*made.normals : nullptr});
   if (!arguments.run.quiet) {
     fmt::print("Wrote {} ({})\n", arguments.output.string(),
                unit == MeshUnit::kMetres ? "m" : "mm");
@@ -169,12 +217,14 @@ int MeshSkeleton(const MeshArguments& arguments) {
       fmt::print("  slicers read .stl in mm: for printing add --for print\n");
     }
     if (!arguments.purpose.empty()) {
-      PrintSize(SizeOf(mesh), MeshUnit::kMetres, ", at full scale");
+      PrintSize(SizeOf(made.mesh), MeshUnit::kMetres, ", at full scale");
+      if (arguments.solids.empty() && made.report.components > 1) {
+        fmt::print("  {} pieces that do not touch: graph --resolve 3 joins what is within 3 mm\n",
+                   made.report.components);
+      }
     }
-    if (!arguments.check) PrintReport(tubes.report, MeshUnit::kMetres);
-    for (const std::string& warning : TubeWarnings(skeleton, tubes, arguments.tubes)) {
-      fmt::print("  warning: {}\n", warning);
-    }
+    if (!arguments.check) PrintReport(made.report, MeshUnit::kMetres);
+    for (const std::string& warning : made.warnings) fmt::print("  warning: {}\n", warning);
   }
   return arguments.check ? CheckMesh(ReadMesh(arguments.output), unit, arguments.run.quiet) : 0;
 }
@@ -220,6 +270,13 @@ void AddMeshCommand(CLI::App& app, int& exit_code) {
       ->required();
   command->add_option("-o,--output", arguments->output,
                       "A .ply, .obj, .stl, .glb or .3mf file to write");
+  command
+      ->add_option(
+          "--solids", arguments->solids,
+          "A closed mesh in metres to unite with the tubes: solid_parts.ply of reconstruct "
+          "--hybrid, or your own; wires that end up to 40 mm before it are led on to it. "
+          "May be given several times")
+      ->allow_extra_args(false);
   AddTubeOptions(*command, *arguments);
   command
       ->add_option("--unit", arguments->unit,
@@ -243,6 +300,7 @@ void AddMeshCommand(CLI::App& app, int& exit_code) {
       "Example:\n  curvefusion mesh result/skeleton.json -o wires.ply\n"
       "  curvefusion mesh result/skeleton.json -o print.stl --unit mm --radius 3 --check\n"
       "  curvefusion mesh result/skeleton.json --for print -o wires.3mf\n"
+      "  curvefusion mesh edited.json --solids result/solid_parts.ply --for print -o chair.stl\n"
       "  curvefusion mesh --check anything.obj");
   command->callback([arguments, &exit_code] { exit_code = RunMesh(*arguments); });
 }

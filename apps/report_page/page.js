@@ -295,6 +295,7 @@ const ReportPage = (() => {
     "mesh.ply": "the tubes, each part a closed surface, in metres; for a printer: curvefusion mesh skeleton.json --for print -o wires.3mf",
     "hybrid.ply": "the tubes and the solid parts they are attached to, as one closed surface",
     "hybrid.stl": "the same in millimetres, for printing",
+    "solid_parts.ply": "these parts without the tubes, for mesh --solids after edits of the skeleton",
     "preview.png": "a picture of the result",
     "trajectory.txt": "the camera's poses, as corrected",
     "report.json": "all figures of this page, for programs",

@@ -32,6 +32,12 @@ double AreaOf(const SurfaceTriangles& surface, const TriangleMarks& marks) {
   return area;
 }
 
+// How far before a solid a wire may end: the volume's wires are its own so far, its surface is
+// blurred, and the hidden side may lie as much deeper.
+double EndReach(double voxel_size, double thickness) {
+  return kReach + kBlurVoxels * voxel_size + thickness;
+}
+
 }  // namespace
 
 SolidParts FindSolidParts(const TsdfVolume& volume, const Eigen::AlignedBox3d& box,
@@ -51,7 +57,7 @@ SolidParts FindSolidParts(const TsdfVolume& volume, const Eigen::AlignedBox3d& b
                                      volume, thickness, disc * thickness);
     if (!solid.triangles.empty()) parts.solids.push_back(std::move(solid));
   }
-  parts.skeleton = LedToSolids(skeleton, parts.solids, kReach + blur + thickness);
+  parts.skeleton = LedToSolids(skeleton, parts.solids, EndReach(volume.voxel_size(), thickness));
   parts.seen_area = AreaOf(surface, attached);
   parts.room_area = AreaOf(surface, room.marks);
   return parts;
@@ -69,6 +75,10 @@ SolidParts FindSolidParts(const Sequence& sequence, const SkeletonGraph& skeleto
       sequence, {.voxel_size = kVoxelSize}, kStride,
       [&] { progress("solid parts", ++done, count); }, box);
   return FindSolidParts(volume, box, skeleton, kThickness);
+}
+
+SkeletonGraph LedToSolids(SkeletonGraph skeleton, const std::vector<TriangleMesh>& solids) {
+  return LedToSolids(std::move(skeleton), solids, EndReach(kVoxelSize, kThickness));
 }
 
 }  // namespace curvefusion

@@ -30,4 +30,8 @@ SolidParts FindSolidParts(const TsdfVolume& volume, const Eigen::AlignedBox3d& b
 SolidParts FindSolidParts(const Sequence& sequence, const SkeletonGraph& skeleton,
                           const Progress& progress);
 
+/// Other curves (edited ones) as they are attached to the same solids: free ends up to 40 mm before
+/// them are led on to them.
+SkeletonGraph LedToSolids(SkeletonGraph skeleton, const std::vector<TriangleMesh>& solids);
+
 }  // namespace curvefusion

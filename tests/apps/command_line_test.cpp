@@ -10,7 +10,9 @@
 #include <random>
 #include <string>
 
+#include "meshing/io/mesh_io.h"
 #include "tests/apps/command_line_fixture.h"
+#include "tests/meshing/box_mesh.h"
 
 namespace curvefusion {
 namespace {
@@ -241,6 +243,35 @@ TEST_F(CommandLine, AHybridMeshIsThePlantWithItsPot) {
   // The pot has 1690 cm3, the plant 25; some of its back was not seen. The table would have more.
   EXPECT_GT(hybrid["volume"], 1.2e-3);
   EXPECT_LT(hybrid["volume"], 1.9e-3);
+
+  // Made again from the skeleton it is the same; of an edited one the rest of it.
+  EXPECT_EQ(Run("mesh out/skeleton.json --solids out/solid_parts.ply -o again.ply").exit_code, 0);
+  EXPECT_TRUE(Text("again.ply") == Text("out/hybrid.ply"));
+  EXPECT_EQ(Run("graph out/skeleton.json --remove 0 -o edited.json").exit_code, 0);
+  EXPECT_EQ(Run("mesh edited.json --solids out/solid_parts.ply -o edited.stl --for print --check")
+                .exit_code,
+            0);
+  EXPECT_LT(Text("edited.stl").size(), Text("out/hybrid.stl").size());
+  EXPECT_EQ(Run("mesh out/skeleton.json --solids out/missing.ply -o again.ply").exit_code, 3);
+}
+
+TEST_F(CommandLine, SolidsMustBeClosedAndMayBeSeveral) {
+  ASSERT_EQ(SimulateCube(1).exit_code, 0);
+  const auto write_box = [&](const char* name, double x, bool open) {
+    TriangleMesh box = BoxMesh({x, 0, 0}, {x + 0.02, 0.02, 0.02});
+    if (open) box.triangles.pop_back();
+    WriteMesh(folder_ / name, box, {.require_watertight = false});
+  };
+  write_box("near.ply", 0, false);
+  write_box("far.ply", 5, false);
+  write_box("open.ply", 5, true);
+  const Outcome both =
+      Run("mesh scan/truth/skeleton.json --solids near.ply --solids far.ply -o both.ply");
+  EXPECT_EQ(both.exit_code, 0);
+  EXPECT_THAT(both.output, HasSubstr("pieces that do not touch"));
+  const Outcome open = Run("mesh scan/truth/skeleton.json --solids open.ply -o both.ply");
+  EXPECT_EQ(open.exit_code, 3);
+  EXPECT_THAT(open.output, HasSubstr("open.ply: --solids takes closed meshes"));
 }
 
 TEST_F(CommandLine, ScansWithoutDepthAreCheckedAndNotTakenForOthers) {
