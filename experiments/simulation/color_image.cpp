@@ -20,14 +20,29 @@ constexpr size_t kMostMoments = 8;
 
 using LinearImage = Image<Vec3f>;
 
-Vec3 Textured(const SurfaceMaterial& material, const Vec3& p) {
-  if (material.texture_contrast == 0) return material.color;
-  const double speckle = FractalNoise(p, 14, 5, material.texture_seed);
-  const double tint = FractalNoise(p, 9, 2, material.texture_seed + (uint64_t{1} << 40));
-  const double gain = 1 + 1.6 * material.texture_contrast * speckle;
-  const Vec3 hue(1 + 0.35 * tint, 1 - 0.2 * tint, 1 + 0.1 * tint);
-  return std::max(gain, 0.05) * material.color.cwiseProduct(hue);
-}
+// The diffuse reflectance of a material at places on it.
+class SurfaceColor {
+ public:
+  explicit SurfaceColor(const SurfaceMaterial& material)
+      : color_(material.color),
+        contrast_(material.texture_contrast),
+        speckle_(14, 5, material.texture_seed),
+        tint_(9, 2, material.texture_seed + (uint64_t{1} << 40)) {}
+
+  Vec3 At(const Vec3& p) {
+    if (contrast_ == 0) return color_;
+    const double gain = 1 + 1.6 * contrast_ * speckle_.At(p);
+    const double tint = tint_.At(p);
+    const Vec3 hue(1 + 0.35 * tint, 1 - 0.2 * tint, 1 + 0.1 * tint);
+    return std::max(gain, 0.05) * color_.cwiseProduct(hue);
+  }
+
+ private:
+  Vec3 color_;
+  double contrast_;
+  FractalNoise speckle_;
+  FractalNoise tint_;
+};
 
 // Deals a pixel's samples out to 1, 2, 4 or 8 moments: as many to each, spread over the pixel.
 size_t MomentOf(int column, int row) {
@@ -37,9 +52,9 @@ size_t MomentOf(int column, int row) {
 class ColorRenderer {
  public:
   ColorRenderer(const Scene& scene, const std::vector<SceneView>& moments)
-      : scene_(scene), moments_(moments) {}
+      : scene_(scene), moments_(moments), colors_(scene.materials.begin(), scene.materials.end()) {}
 
-  Vec3 Pixel(int u, int v) const {
+  Vec3 Pixel(int u, int v) {
     const auto shows_one_plane = [&](const SceneView& view) { return view.IsUniform(u, v); };
     if (std::all_of(moments_.begin(), moments_.end(), shows_one_plane)) return PlanePixel(u, v);
     // Backgrounds are smooth within a pixel: each surface's texture is looked up once a moment.
@@ -63,7 +78,7 @@ class ColorRenderer {
   }
 
  private:
-  Vec3 PlanePixel(int u, int v) const {
+  Vec3 PlanePixel(int u, int v) {
     Vec3 sum = Vec3::Zero();
     for (const SceneView& view : moments_) {
       const SceneRay ray = view.RayThrough(u, v);
@@ -72,21 +87,23 @@ class ColorRenderer {
     return sum / static_cast<double>(moments_.size());
   }
 
-  Vec3 Color(const SceneView& view, const SceneRay& ray, const RayHit& hit) const {
+  Vec3 Color(const SceneView& view, const SceneRay& ray, const RayHit& hit) {
     if (hit.primitive < 0) return Vec3::Zero();
-    const SurfaceMaterial& material = scene_.materials[view.Surface(hit.primitive)];
+    const int surface = view.Surface(hit.primitive);
+    const double shininess = scene_.materials[surface].shininess;
     const Vec3 p = ray.At(hit.depth);
     const Vec3 normal = view.Normal(hit.primitive, p);
-    Vec3 color = (1 - material.shininess) * scene_.lighting.Matt(normal) * Textured(material, p);
-    if (material.shininess > 0) {
+    Vec3 color = (1 - shininess) * scene_.lighting.Matt(normal) * colors_[surface].At(p);
+    if (shininess > 0) {
       const Vec3 to_eye = (ray.center - p).normalized();
-      color += Vec3::Constant(material.shininess * scene_.lighting.Mirrored(normal, to_eye));
+      color += Vec3::Constant(shininess * scene_.lighting.Mirrored(normal, to_eye));
     }
     return color;
   }
 
   const Scene& scene_;
   const std::vector<SceneView>& moments_;
+  std::vector<SurfaceColor> colors_;  // of the scene's materials
 };
 
 std::vector<float> GaussianTaps(double sigma) {
@@ -157,7 +174,7 @@ ColorImage RenderColor(const Scene& scene, const ColorShot& shot, const ColorCam
   for (const Exposure& moment : shot.moments) {
     moments.emplace_back(scene, camera, moment.T_world_first, moment.T_world_last);
   }
-  const ColorRenderer renderer(scene, moments);
+  ColorRenderer renderer(scene, moments);
   LinearImage light(camera.width, camera.height);
   for (int v = 0; v < light.height(); ++v) {
     for (int u = 0; u < light.width(); ++u) light(u, v) = renderer.Pixel(u, v).cast<float>();

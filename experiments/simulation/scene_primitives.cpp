@@ -91,31 +91,35 @@ Vec3 CylinderNormal(const SceneBox& box, const Vec3& p) {
 
 }  // namespace
 
-// Parameter of the first crossing of a ray with a capsule. The capsule lies inside its infinite
-// cylinder, so a ray that misses the cylinder misses all.
-double HitCapsule(const SceneCapsule& capsule, const Vec3& origin, const Vec3& direction) {
-  const Vec3 axis = capsule.end - capsule.start;
-  const Vec3 from_start = origin - capsule.start;
-  const double axis_axis = axis.squaredNorm();
-  const double axis_direction = axis.dot(direction);
-  const double axis_from = axis.dot(from_start);
+CapsuleSeen::CapsuleSeen(const SceneCapsule& capsule, const Vec3& origin)
+    : axis(capsule.end - capsule.start),
+      from_start(origin - capsule.start),
+      from_end(origin - capsule.end),
+      axis_axis(axis.squaredNorm()),
+      axis_from_start(axis.dot(from_start)),
+      start_c(from_start.squaredNorm() - capsule.radius * capsule.radius),
+      end_c(from_end.squaredNorm() - capsule.radius * capsule.radius),
+      cylinder_c(axis_axis * start_c - axis_from_start * axis_from_start) {}
+
+// The capsule lies inside its infinite cylinder, so a ray that misses the cylinder misses all.
+double HitCapsule(const CapsuleSeen& capsule, const Vec3& direction) {
+  const double axis_direction = capsule.axis.dot(direction);
   const double direction_direction = direction.squaredNorm();
-  const double a = axis_axis * direction_direction - axis_direction * axis_direction;
-  const double b = axis_axis * direction.dot(from_start) - axis_from * axis_direction;
-  const double c = axis_axis * (from_start.squaredNorm() - capsule.radius * capsule.radius) -
-                   axis_from * axis_from;
-  const double discriminant = b * b - a * c;
+  const double a = capsule.axis_axis * direction_direction - axis_direction * axis_direction;
+  const double b = capsule.axis_axis * direction.dot(capsule.from_start) -
+                   capsule.axis_from_start * axis_direction;
+  const double discriminant = b * b - a * capsule.cylinder_c;
   if (discriminant < 0) return kNoHit;
-  double along = axis_from;
+  double along = capsule.axis_from_start;
   if (a > 0) {
     const double t = (-b - std::sqrt(discriminant)) / a;
-    along = axis_from + t * axis_direction;
-    if (along > 0 && along < axis_axis) return t;
+    along = capsule.axis_from_start + t * axis_direction;
+    if (along > 0 && along < capsule.axis_axis) return t;
   }
-  const Vec3 from_ball = along <= 0 ? from_start : Vec3(origin - capsule.end);
-  const double half_b = direction.dot(from_ball);
-  const double ball_c = from_ball.squaredNorm() - capsule.radius * capsule.radius;
-  const double ball = half_b * half_b - direction_direction * ball_c;
+  const bool starts = along <= 0;
+  const double half_b = direction.dot(starts ? capsule.from_start : capsule.from_end);
+  const double ball =
+      half_b * half_b - direction_direction * (starts ? capsule.start_c : capsule.end_c);
   return ball < 0 ? kNoHit : (-half_b - std::sqrt(ball)) / direction_direction;
 }
 

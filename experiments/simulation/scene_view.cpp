@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/simulation/scene_primitives.h"
-
 namespace curvefusion {
 namespace {
 
@@ -112,41 +110,44 @@ std::vector<int> SceneView::VisiblePlanes(int column, int row) const {
 
 void SceneView::FillTiles() {
   const int tiles = columns_ * static_cast<int>(rows_.size());
-  std::vector<std::vector<int>> primitives(tiles);
+  std::vector<std::vector<Candidate>> seen(tiles);
   const std::vector<TileRect> rects = PrimitiveRects();
   for (size_t i = 0; i < rects.size(); ++i) {
+    const bool is_capsule = i < scene_.capsules.size();
     for (int row = rects[i].first_row; row <= rects[i].last_row; ++row) {
+      Candidate candidate{static_cast<int>(i)};
+      if (is_capsule) {
+        candidate.capsule = static_cast<int>(capsules_.size());
+        capsules_.emplace_back(scene_.capsules[i], rows_[row].center);
+      }
       for (int column = rects[i].first_column; column <= rects[i].last_column; ++column) {
-        primitives[row * columns_ + column].push_back(static_cast<int>(i));
+        seen[row * columns_ + column].push_back(candidate);
       }
     }
   }
   tile_begin_.push_back(0);
   for (int tile = 0; tile < tiles; ++tile) {
     for (const int plane : VisiblePlanes(tile % columns_, tile / columns_)) {
-      tile_primitives_.push_back(plane);
+      candidates_.push_back({plane});
     }
-    tile_primitives_.insert(tile_primitives_.end(), primitives[tile].begin(),
-                            primitives[tile].end());
-    tile_begin_.push_back(static_cast<int>(tile_primitives_.size()));
+    candidates_.insert(candidates_.end(), seen[tile].begin(), seen[tile].end());
+    tile_begin_.push_back(static_cast<int>(candidates_.size()));
   }
 }
 
-double SceneView::HitDepth(int primitive, const SceneRay& ray) const {
-  const int capsules = static_cast<int>(scene_.capsules.size());
-  const int planes = static_cast<int>(scene_.planes.size());
-  if (primitive < capsules)
-    return HitCapsule(scene_.capsules[primitive], ray.center, ray.direction);
-  if (primitive < capsules + planes)
-    return HitPlane(scene_.planes[primitive - capsules], ray.center, ray.direction);
-  return HitBox(scene_.boxes[primitive - capsules - planes], ray.center, ray.direction);
+double SceneView::HitDepth(const Candidate& candidate, const SceneRay& ray) const {
+  if (candidate.capsule >= 0) return HitCapsule(capsules_[candidate.capsule], ray.direction);
+  const size_t plane = candidate.primitive - scene_.capsules.size();
+  if (plane < scene_.planes.size())
+    return HitPlane(scene_.planes[plane], ray.center, ray.direction);
+  return HitBox(scene_.boxes[plane - scene_.planes.size()], ray.center, ray.direction);
 }
 
 RayHit SceneView::Trace(const SceneRay& ray) const {
   RayHit hit{-1, kNoHit};
   for (int k = tile_begin_[ray.tile]; k < tile_begin_[ray.tile + 1]; ++k) {
-    const double depth = HitDepth(tile_primitives_[k], ray);
-    if (depth > kNearest && depth < hit.depth) hit = {tile_primitives_[k], depth};
+    const double depth = HitDepth(candidates_[k], ray);
+    if (depth > kNearest && depth < hit.depth) hit = {candidates_[k].primitive, depth};
   }
   if (hit.primitive < 0) hit.depth = 0;
   return hit;
@@ -157,7 +158,7 @@ bool SceneView::IsHidden(double u, double v, double depth) const {
   const SceneRay ray = RayThrough(u, v);
   if (tile_begin_[ray.tile + 1] - tile_begin_[ray.tile] == 1) return false;
   for (int k = tile_begin_[ray.tile]; k < tile_begin_[ray.tile + 1]; ++k) {
-    const double other = HitDepth(tile_primitives_[k], ray);
+    const double other = HitDepth(candidates_[k], ray);
     if (other > kNearest && other < depth - kHiddenBy) return true;
   }
   return false;

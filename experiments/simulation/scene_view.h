@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "experiments/simulation/scene.h"
+#include "experiments/simulation/scene_primitives.h"
 #include "kernel/camera.h"
 
 namespace curvefusion {
@@ -66,6 +67,11 @@ class SceneView {
   struct TileRect {
     int first_column = 0, last_column = -1, first_row = 0, last_row = -1;
   };
+  // What rays of a tile may hit.
+  struct Candidate {
+    int primitive;
+    int capsule = -1;  // index into capsules_, -1 for what is none
+  };
 
   int TileColumn(double u) const;
   int TileRow(double v) const;
@@ -74,7 +80,7 @@ class SceneView {
   int NearestPlane(double u, double v) const;
   std::vector<int> VisiblePlanes(int column, int row) const;
   void FillTiles();
-  double HitDepth(int primitive, const SceneRay& ray) const;
+  double HitDepth(const Candidate& candidate, const SceneRay& ray) const;
 
   const Scene& scene_;
   PinholeCamera camera_;
@@ -82,8 +88,9 @@ class SceneView {
   RigidTransform T_last_world_;
   int columns_;
   std::vector<TileRowPose> rows_;
-  std::vector<int> tile_begin_;  // of each tile in tile_primitives_, and the end
-  std::vector<int> tile_primitives_;
+  std::vector<int> tile_begin_;  // of each tile in candidates_, and the end
+  std::vector<Candidate> candidates_;
+  std::vector<CapsuleSeen> capsules_;  // each from every row of tiles that it may be seen in
 };
 
 }  // namespace curvefusion

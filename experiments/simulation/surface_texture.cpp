@@ -1,7 +1,5 @@
 #include "experiments/simulation/surface_texture.h"
 
-#include <cmath>
-
 namespace curvefusion {
 namespace {
 
@@ -14,40 +12,59 @@ double LatticeValue(uint32_t x, uint32_t y, uint32_t z, uint32_t seed) {
   return static_cast<double>(h) * (2.0 / 4294967295.0) - 1;
 }
 
-double Smooth(double t) { return t * t * (3 - 2 * t); }
-
-double ValueNoise(const Vec3& p, uint32_t seed) {
-  const Vec3 floor(std::floor(p.x()), std::floor(p.y()), std::floor(p.z()));
-  const double s[3] = {Smooth(p.x() - floor.x()), Smooth(p.y() - floor.y()),
-                       Smooth(p.z() - floor.z())};
-  uint32_t cell[3];
-  for (int axis = 0; axis < 3; ++axis) {
-    cell[axis] = static_cast<uint32_t>(static_cast<int32_t>(floor[axis]));
-  }
-  double value = 0;
+std::array<double, 8> CornersOf(const std::array<int32_t, 3>& cell, uint32_t seed) {
+  std::array<double, 8> corners;
   for (uint32_t corner = 0; corner < 8; ++corner) {
-    const uint32_t x = corner & 1, y = corner >> 1 & 1, z = corner >> 2;
-    const double weight = (x ? s[0] : 1 - s[0]) * (y ? s[1] : 1 - s[1]) * (z ? s[2] : 1 - s[2]);
-    value += weight * LatticeValue(cell[0] + x, cell[1] + y, cell[2] + z, seed);
+    corners[corner] = LatticeValue(static_cast<uint32_t>(cell[0]) + (corner & 1),
+                                   static_cast<uint32_t>(cell[1]) + (corner >> 1 & 1),
+                                   static_cast<uint32_t>(cell[2]) + (corner >> 2), seed);
   }
-  return value;
+  return corners;
 }
+
+// std::floor without its call.
+int32_t Floor(double value) {
+  const auto whole = static_cast<int32_t>(value);
+  return value < whole ? whole - 1 : whole;
+}
+
+double Smooth(double t) { return t * t * (3 - 2 * t); }
 
 }  // namespace
 
-double FractalNoise(const Vec3& p, double frequency, int octaves, uint64_t seed) {
+FractalNoise::FractalNoise(double frequency, int octaves, uint64_t seed) : frequency_(frequency) {
+  for (int octave = 0; octave < octaves; ++octave) {
+    const uint32_t octave_seed = static_cast<uint32_t>(seed >> 16) + 0x9e3779b9u * octave;
+    octaves_.push_back({octave_seed, {}, CornersOf({}, octave_seed)});
+  }
+}
+
+double FractalNoise::At(const Vec3& p) {
   constexpr double kFalloff = 0.65;
-  double value = 0;
+  double sum = 0;
   double total = 0;
   double amplitude = 1;
-  for (int octave = 0; octave < octaves; ++octave) {
-    value += amplitude *
-             ValueNoise(frequency * p, static_cast<uint32_t>(seed >> 16) + 0x9e3779b9u * octave);
+  double frequency = frequency_;
+  for (Octave& octave : octaves_) {
+    const Vec3 at = frequency * p;
+    const std::array<int32_t, 3> cell = {Floor(at.x()), Floor(at.y()), Floor(at.z())};
+    if (cell != octave.cell) octave = {octave.seed, cell, CornersOf(cell, octave.seed)};
+    double side[3][2];  // weights of the corners below and above along each axis
+    for (int axis = 0; axis < 3; ++axis) {
+      side[axis][1] = Smooth(at[axis] - cell[axis]);
+      side[axis][0] = 1 - side[axis][1];
+    }
+    double value = 0;
+    for (uint32_t corner = 0; corner < 8; ++corner) {
+      value += side[0][corner & 1] * side[1][corner >> 1 & 1] * side[2][corner >> 2] *
+               octave.corners[corner];
+    }
+    sum += amplitude * value;
     total += amplitude;
     amplitude *= kFalloff;
     frequency *= 2;
   }
-  return value / total;
+  return sum / total;
 }
 
 }  // namespace curvefusion
