@@ -33,7 +33,7 @@ class ProcessorTimer {
 };
 
 BestOptions ForLive(BestOptions options) {
-  // Rows of close wires take a model of all frames; the batch resolves them.
+  // Arrays of close wires take a model of all frames; the batch resolves them.
   options.segmentation.max_array_spacing = 0;
   options.segmentation.max_frame_points = 0;  // decides on the stride, which is fixed here
   return options;

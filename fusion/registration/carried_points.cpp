@@ -31,8 +31,8 @@ AlignmentResult CarriedPoints::AddBundle(const ObservedPoints& bundle, const Rid
   if (!points_.empty() && !bundle.empty()) {
     AlignmentOptions patient = alignment;
     patient.max_iterations = std::max(alignment.max_iterations, kIterations);
-    result = AlignRows(found, AlignmentTarget({ridges_.positions, ridges_.directions}), patient,
-                       array_spacing);
+    result = AlignArrays(found, AlignmentTarget({ridges_.positions, ridges_.directions}), patient,
+                         array_spacing);
     if (!result.converged || result.inlier_fraction < options_.min_inliers) {
       result.T_target_source = RigidTransform::Identity();
     }

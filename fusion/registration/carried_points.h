@@ -36,7 +36,7 @@ class CarriedPoints {
   /// both its points and its ridges; where wires are dense, most points lie between them and say
   /// nothing. Ridge points nearer than `spacing` to stronger ones are left out. The returned
   /// alignment is the identity for the first bundle and where too few points fit. `array_spacing`
-  /// is that of AlignRows.
+  /// is that of AlignArrays.
   AlignmentResult AddBundle(const ObservedPoints& bundle, const RidgePoints& found, double spacing,
                             const AlignmentOptions& alignment, double array_spacing = 0);
 

@@ -64,8 +64,8 @@ RidgeProjectionOptions ForCloseWires(RidgeProjectionOptions options, double magn
   return options;
 }
 
-AlignmentResult AlignRows(const RidgePoints& ridges, const AlignmentTarget& target,
-                          const AlignmentOptions& options, double array_spacing) {
+AlignmentResult AlignArrays(const RidgePoints& ridges, const AlignmentTarget& target,
+                            const AlignmentOptions& options, double array_spacing) {
   AlignmentResult best = AlignPoints(ridges.positions, target, options);
   if (!(array_spacing > 0) || ridges.size() == 0) return best;
   const double distance = kAgreeing * array_spacing;

@@ -16,7 +16,7 @@ RidgeProjectionOptions ForCloseWires(RidgeProjectionOptions options, double magn
 /// AlignPoints for ridges of a wire array so close that drift may bring each next to its
 /// neighbour: starts `array_spacing` (metres) to either side across the wires are tried too, and
 /// the best is taken that clearly more points agree with. An array_spacing of 0 is AlignPoints.
-AlignmentResult AlignRows(const RidgePoints& ridges, const AlignmentTarget& target,
-                          const AlignmentOptions& options, double array_spacing);
+AlignmentResult AlignArrays(const RidgePoints& ridges, const AlignmentTarget& target,
+                            const AlignmentOptions& options, double array_spacing);
 
 }  // namespace curvefusion

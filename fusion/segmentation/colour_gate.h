@@ -45,7 +45,7 @@ WireColours LearnWireColours(const std::vector<WireCandidates>& frames, const Se
                              const ColourGateOptions& options);
 
 /// Drops the pixels of the mask, in and next to wire arrays, whose colours are unlikely for wire.
-/// Pixels outside the colour image stay. Rows that the colour image does not resolve are dropped
+/// Pixels outside the colour image stay. Arrays that the colour image does not resolve are dropped
 /// whole. Linear in pixels.
 void GateByColour(const WireColours& colours, const Sequence& sequence,
                   const ColourGateOptions& options, WireCandidates& frame);

@@ -76,19 +76,19 @@ TEST_P(AlignedRows, FindTheirOwnWires) {
   const RidgePoints row = Wires(6, 0.008, 0);
   const AlignmentTarget target({row.positions, row.directions});
   const RidgePoints drifted = Wires(6, 0.008, GetParam());
-  const AlignmentResult result = AlignRows(drifted, target, {}, 0.0075);
+  const AlignmentResult result = AlignArrays(drifted, target, {}, 0.0075);
   EXPECT_TRUE(result.converged);
   EXPECT_NEAR((result.T_target_source * drifted.positions[0]).x(), 0, 0.0005);
 }
 
 INSTANTIATE_TEST_SUITE_P(Drifts, AlignedRows, testing::Values(0, 0.003, -0.005, 0.006, -0.007));
 
-TEST(AlignRows, OfNothingOrWithoutRowsIsAlignPoints) {
+TEST(AlignArrays, OfNothingOrWithoutArraysIsAlignPoints) {
   const RidgePoints row = Wires(6, 0.008, 0);
   const AlignmentTarget target({row.positions, row.directions});
-  EXPECT_FALSE(AlignRows({}, target, {}, 0.008).converged);
+  EXPECT_FALSE(AlignArrays({}, target, {}, 0.008).converged);
   const RidgePoints drifted = Wires(6, 0.008, 0.001);
-  EXPECT_EQ(AlignRows(drifted, target, {}, 0).T_target_source.matrix(),
+  EXPECT_EQ(AlignArrays(drifted, target, {}, 0).T_target_source.matrix(),
             AlignPoints(drifted.positions, target, {}).T_target_source.matrix());
 }
 
