@@ -101,33 +101,6 @@ CapsuleSeen::CapsuleSeen(const SceneCapsule& capsule, const Vec3& origin)
       end_c(from_end.squaredNorm() - capsule.radius * capsule.radius),
       cylinder_c(axis_axis * start_c - axis_from_start * axis_from_start) {}
 
-// The capsule lies inside its infinite cylinder, so a ray that misses the cylinder misses all.
-double HitCapsule(const CapsuleSeen& capsule, const Vec3& direction) {
-  const double axis_direction = capsule.axis.dot(direction);
-  const double direction_direction = direction.squaredNorm();
-  const double a = capsule.axis_axis * direction_direction - axis_direction * axis_direction;
-  const double b = capsule.axis_axis * direction.dot(capsule.from_start) -
-                   capsule.axis_from_start * axis_direction;
-  const double discriminant = b * b - a * capsule.cylinder_c;
-  if (discriminant < 0) return kNoHit;
-  double along = capsule.axis_from_start;
-  if (a > 0) {
-    const double t = (-b - std::sqrt(discriminant)) / a;
-    along = capsule.axis_from_start + t * axis_direction;
-    if (along > 0 && along < capsule.axis_axis) return t;
-  }
-  const bool starts = along <= 0;
-  const double half_b = direction.dot(starts ? capsule.from_start : capsule.from_end);
-  const double ball =
-      half_b * half_b - direction_direction * (starts ? capsule.start_c : capsule.end_c);
-  return ball < 0 ? kNoHit : (-half_b - std::sqrt(ball)) / direction_direction;
-}
-
-double HitPlane(const ScenePlane& plane, const Vec3& origin, const Vec3& direction) {
-  const double approach = plane.normal.dot(direction);
-  return approach < 0 ? (plane.offset - plane.normal.dot(origin)) / approach : kNoHit;
-}
-
 double HitBox(const SceneBox& box, const Vec3& origin, const Vec3& direction) {
   const Vec3 o = box.rotation.transpose() * (origin - box.center);
   const Vec3 d = box.rotation.transpose() * direction;

@@ -6,7 +6,6 @@
 namespace curvefusion {
 namespace {
 
-constexpr int kTile = 8;
 constexpr double kNearest = 0.02;  // nothing is seen nearer to the camera than this
 constexpr double kHiddenBy = 1e-3;
 
@@ -28,20 +27,6 @@ SceneView::SceneView(const Scene& scene, const PinholeCamera& camera,
                      first.slerp(share, last).toRotationMatrix()});
   }
   FillTiles();
-}
-
-int SceneView::TileColumn(double u) const {
-  return std::clamp(static_cast<int>(u + 0.5) / kTile, 0, columns_ - 1);
-}
-
-int SceneView::TileRow(double v) const {
-  return std::clamp(static_cast<int>(v + 0.5) / kTile, 0, static_cast<int>(rows_.size()) - 1);
-}
-
-SceneRay SceneView::RayThrough(double u, double v) const {
-  const int row = TileRow(v);
-  const Vec3 in_camera((u - camera_.cx) / camera_.fx, (v - camera_.cy) / camera_.fy, 1);
-  return {rows_[row].center, rows_[row].rotation * in_camera, row * columns_ + TileColumn(u)};
 }
 
 // Tiles that balls of `radius` about the points, and all between them, can touch.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "experiments/simulation/scene.h"
@@ -34,7 +35,11 @@ class SceneView {
             const RigidTransform& T_world_last);
 
   /// The ray through a pixel position; beyond the image, in the tile nearest to it.
-  SceneRay RayThrough(double u, double v) const;
+  SceneRay RayThrough(double u, double v) const {
+    const int row = TileRow(v);
+    const Vec3 in_camera((u - camera_.cx) / camera_.fx, (v - camera_.cy) / camera_.fy, 1);
+    return {rows_[row].center, rows_[row].rotation * in_camera, row * columns_ + TileColumn(u)};
+  }
 
   /// First hit of a ray, whose pixel position must lie in the image.
   RayHit Trace(const SceneRay& ray) const;
@@ -60,6 +65,8 @@ class SceneView {
   bool IsUniform(int u, int v) const;
 
  private:
+  static constexpr int kTile = 8;  // pixels
+
   struct TileRowPose {
     Vec3 center;
     Mat3 rotation;
@@ -73,8 +80,12 @@ class SceneView {
     int capsule = -1;  // index into capsules_, -1 for what is none
   };
 
-  int TileColumn(double u) const;
-  int TileRow(double v) const;
+  int TileColumn(double u) const {
+    return std::clamp(static_cast<int>(u + 0.5) / kTile, 0, columns_ - 1);
+  }
+  int TileRow(double v) const {
+    return std::clamp(static_cast<int>(v + 0.5) / kTile, 0, static_cast<int>(rows_.size()) - 1);
+  }
   TileRect RectAround(const std::vector<Vec3>& points, double radius) const;
   std::vector<TileRect> PrimitiveRects() const;
   int NearestPlane(double u, double v) const;
