@@ -257,8 +257,8 @@ TEST_F(CommandLine, AHybridMeshIsThePlantWithItsPot) {
 
 TEST_F(CommandLine, SolidsMustBeClosedAndMayBeSeveral) {
   ASSERT_EQ(SimulateCube(1).exit_code, 0);
-  const auto write_box = [&](const char* name, double x, bool open) {
-    TriangleMesh box = BoxMesh({x, 0, 0}, {x + 0.02, 0.02, 0.02});
+  const auto write_box = [&](const char* name, float x, bool open) {
+    TriangleMesh box = BoxMesh({x, 0, 0}, {x + 0.02f, 0.02f, 0.02f});
     if (open) box.triangles.pop_back();
     WriteMesh(folder_ / name, box, {.require_watertight = false});
   };
