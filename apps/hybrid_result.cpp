@@ -1,47 +1,15 @@
 #include "apps/hybrid_result.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <chrono>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "fusion/solid_parts/solid_parts.h"
+#include "meshing/hybrid_mesh.h"
 #include "meshing/io/mesh_io.h"
 
 namespace curvefusion {
-
-namespace {
-
-double LeastRadius(const SkeletonGraph& skeleton, double default_radius) {
-  double least = default_radius;
-  for (const EdgeId id : skeleton.Edges()) {
-    for (const double radius : skeleton.edge(id).radii) least = std::min(least, radius);
-  }
-  return least;
-}
-
-}  // namespace
-
-HybridMesh UniteWithSolids(const SkeletonGraph& skeleton, const TubeMesh& tubes,
-                           const std::vector<TriangleMesh>& solids, double default_radius) {
-  return UniteTubesAndSolids(ToTriangleMesh(tubes.surface), solids,
-                             LeastRadius(skeleton, default_radius));
-}
-
-std::vector<std::string> HybridWarnings(const HybridMesh& hybrid) {
-  std::vector<std::string> warnings;
-  if (hybrid.report.components > 1) {
-    warnings.push_back(fmt::format("the hybrid mesh falls into {} pieces that do not touch",
-                                   hybrid.report.components));
-  }
-  if (hybrid.resampled) {
-    warnings.emplace_back(
-        "the tubes and solid parts of the hybrid mesh were united on a grid of half the least "
-        "radius: finer gaps and crotches are not to be relied on");
-  }
-  return warnings;
-}
 
 HybridRecord WriteHybrid(const Reconstruction& reconstruction, const TubeOptions& options,
                          const std::filesystem::path& folder, const Progress& progress) {

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
+#include "graph/skeleton_graph.h"
 #include "kernel/triangle_mesh.h"
+#include "meshing/tubes.h"
 #include "meshing/watertight.h"
 
 namespace curvefusion {
@@ -22,5 +25,13 @@ struct HybridMesh {
 /// watertight either.
 HybridMesh UniteTubesAndSolids(const TriangleMesh& tubes, const std::vector<TriangleMesh>& solids,
                                double radius);
+
+/// The tubes of a skeleton and solids likewise; the tubes of curves without radii have
+/// `default_radius`, as BuildTubes gives it to them.
+HybridMesh UniteWithSolids(const SkeletonGraph& skeleton, const TubeMesh& tubes,
+                           const std::vector<TriangleMesh>& solids, double default_radius);
+
+/// What the user should know of a hybrid mesh, a sentence each.
+std::vector<std::string> HybridWarnings(const HybridMesh& hybrid);
 
 }  // namespace curvefusion

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "apps/commands/command.h"
-#include "apps/hybrid_result.h"
 #include "apps/output_folder.h"
 #include "apps/output_guard.h"
 #include "fusion/solid_parts/solid_parts.h"
@@ -20,6 +19,7 @@
 #include "graph/set_radius.h"
 #include "kernel/cancellation.h"
 #include "kernel/error.h"
+#include "meshing/hybrid_mesh.h"
 #include "meshing/io/mesh_io.h"
 #include "meshing/tube_normals.h"
 #include "meshing/tube_warnings.h"
@@ -88,13 +88,17 @@ void PrintReport(const WatertightReport& report, MeshUnit unit) {
              report.min_angle * 180 / std::numbers::pi);
 }
 
+// What is wrong with a mesh, in one sentence.
+std::string DefectsOf(const WatertightReport& report) {
+  return report.faces > 0 ? report.Defects() : "no faces";
+}
+
 // Examines a mesh as another program would find it in its file; the exit code.
 int CheckMesh(const TriangleMesh& mesh, MeshUnit unit, bool quiet) {
   const WatertightReport report = ExamineMesh(mesh);
   if (!quiet) {
     PrintReport(report, unit);
-    const std::string defects = report.faces > 0 ? report.Defects() : "no faces";
-    fmt::print("  {}\n", report.IsWatertight() ? "watertight" : defects);
+    fmt::print("  {}\n", report.IsWatertight() ? "watertight" : DefectsOf(report));
     if (report.defect_place) {
       const Vec3& p = *report.defect_place;
       fmt::print("  the first near ({:g}, {:g}, {:g})\n", p.x(), p.y(), p.z());
@@ -177,7 +181,7 @@ TriangleMesh ReadSolid(const std::filesystem::path& path) {
   throw Error(ErrorKind::kBadInput,
               fmt::format("{}: --solids takes closed meshes, and this one has {}; mesh --check "
                           "tells where",
-                          path.string(), report.faces > 0 ? report.Defects() : "no faces"));
+                          path.string(), DefectsOf(report)));
 }
 
 MadeMesh MadeWithSolids(const SkeletonGraph& skeleton,

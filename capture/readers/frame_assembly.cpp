@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -11,6 +10,7 @@
 
 #include "capture/image_file.h"
 #include "kernel/error.h"
+#include "kernel/file_extension.h"
 
 namespace curvefusion {
 
@@ -38,8 +38,7 @@ bool IsImageName(const std::string& name, const std::string& kind) {
 // Tells of images in a format that is not read.
 void RefuseOtherImages(const std::filesystem::path& folder) {
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    std::string extension = entry.path().extension().string();
-    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    const std::string extension = LowerCaseExtension(entry.path());
     for (const char* other : {".bmp", ".tif", ".tiff", ".pgm", ".ppm", ".webp", ".exr", ".npy"}) {
       if (extension != other) continue;
       throw Error(ErrorKind::kBadInput,

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <iterator>
 
@@ -11,6 +10,7 @@
 #include "graph/validate.h"
 #include "kernel/atomic_file.h"
 #include "kernel/error.h"
+#include "kernel/file_extension.h"
 #include "kernel/parallel.h"
 #include "kernel/text_input.h"
 
@@ -45,9 +45,7 @@ constexpr GraphFormat kFormats[] = {
 
 // Null where no format has it.
 const GraphFormat* FormatOf(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = LowerCaseExtension(path);
   const auto found =
       std::find_if(std::begin(kFormats), std::end(kFormats),
                    [&](const GraphFormat& format) { return extension == format.extension; });

@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <fstream>
 #include <limits>
 #include <string>
 
 #include "kernel/atomic_file.h"
 #include "kernel/error.h"
+#include "kernel/file_extension.h"
 #include "kernel/text_input.h"
 #include "meshing/io/mesh_formats.h"
 #include "meshing/watertight.h"
@@ -35,9 +35,7 @@ constexpr MeshFormat kFormats[] = {
     {".3mf", Write3mf, Read3mf, MeshUnit::kMillimetres, 1e-6f}};
 
 const MeshFormat& FormatOf(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = LowerCaseExtension(path);
   for (const MeshFormat& format : kFormats) {
     if (extension == format.extension) return format;
   }

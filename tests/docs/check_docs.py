@@ -6,6 +6,8 @@ import pathlib
 import re
 import sys
 
+from report import report
+
 INDEX = "docs/README.md"
 NOTEBOOK = "docs/lab_notebook.md"  # history: as long as it gets, with revisions
 MAX_LINES = 250  # what is read in one sitting
@@ -79,9 +81,7 @@ def problems(root):
 def main():
     if len(sys.argv) != 2:
         sys.exit("usage: check_docs.py SOURCE_FOLDER")
-    found = list(problems(pathlib.Path(sys.argv[1])))
-    print("\n".join(found) if found else "documents: no problem")
-    return 1 if found else 0
+    return report(problems(pathlib.Path(sys.argv[1])), "documents")
 
 
 if __name__ == "__main__":

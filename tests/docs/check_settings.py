@@ -10,6 +10,8 @@ import subprocess
 import sys
 import tomllib
 
+from report import report
+
 SECTION = re.compile(r"^Section `(\w+)`")
 NAME = re.compile(r"`((?:\w+\.)?\w+)`")
 
@@ -76,9 +78,7 @@ def problems(root, known):
 def main():
     if len(sys.argv) != 3:
         sys.exit("usage: check_settings.py PROGRAM SOURCE_FOLDER")
-    found = list(problems(pathlib.Path(sys.argv[2]), settings(sys.argv[1])))
-    print("\n".join(found) if found else "settings in the documents: no problem")
-    return 1 if found else 0
+    return report(problems(pathlib.Path(sys.argv[2]), settings(sys.argv[1])), "settings in the documents")
 
 
 if __name__ == "__main__":

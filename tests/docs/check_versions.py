@@ -7,6 +7,8 @@ import re
 import sys
 import tomllib
 
+from report import report
+
 PROJECT = re.compile(r"^project\(curvefusion VERSION (\d+\.\d+\.\d+)", re.MULTILINE)
 CITED = re.compile(r"^version: (.*)$", re.MULTILINE)
 # What users are told to ask for: major and minor part, with which find_package is content.
@@ -41,9 +43,7 @@ def problems(root):
 def main():
     if len(sys.argv) != 2:
         sys.exit("usage: check_versions.py SOURCE_FOLDER")
-    found = list(problems(pathlib.Path(sys.argv[1])))
-    print("\n".join(found) if found else "versions: no problem")
-    return 1 if found else 0
+    return report(problems(pathlib.Path(sys.argv[1])), "versions")
 
 
 if __name__ == "__main__":
