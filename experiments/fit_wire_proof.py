@@ -123,9 +123,10 @@ def colour_terms(t, b):
     """As OwnTerms in wire_proof.cpp: of kLessOfTheRest (of all but the width), kToldByColour, kOpenInColour."""
     own, width = own_terms(t, b)
     told = t["beside_most"] ** 2 / (t["beside_most"] ** 2 + 25)
-    of_most = 0.7 + np.log((t["beside_least"] + 1) / (t["beside_most"] + 1))
-    of_surfaces = 2 * np.log((t["beside_least"] + 1) / (t["on_surfaces"] + 1))
-    is_open = np.maximum(np.minimum(of_most, of_surfaces), -1.3)
+    of_surfaces = np.log((t["beside_least"] + 1) / (t["on_surfaces"] + 1))
+    excess = np.where(t["on_surfaces"] > 0, np.maximum(0, of_surfaces - 1), 0)
+    of_most = 0.7 + np.log((t["beside_least"] + 1) / (t["beside_most"] + 1)) + excess
+    is_open = np.maximum(np.minimum(of_most, 2 * of_surfaces), -1.3)
     return told[:, None] * np.column_stack([-(own - width), np.ones(len(own)), is_open])
 
 

@@ -14,7 +14,6 @@ namespace curvefusion {
 
 namespace {
 
-constexpr int kFrames = 60;
 constexpr double kNearWires = 15 * kMillimetre;  // mean distance of a curve that is about a wire
 constexpr double kResolvedF5 = 0.95;
 
@@ -27,11 +26,8 @@ std::vector<StudyCase> Cases(const StudyRequest& request) {
   std::vector<StudyCase> cases;
   for (const int spacing_mm : SpacingsOf(request)) {
     for (const uint64_t seed : SeedsOf(request)) {
-      SimulationOptions scan;
-      scan.object = "parallel_wires";
+      SimulationOptions scan = ObjectScan(request, "parallel_wires", seed);
       scan.object_options.spacing = spacing_mm * kMillimetre;
-      scan.seed = seed;
-      scan.frames = kFrames;
       for (const Profile profile : request.profiles) {
         cases.push_back(
             {{{"spacing", std::to_string(spacing_mm)}, {"profile", ProfileName(profile)}},

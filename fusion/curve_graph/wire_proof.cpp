@@ -37,6 +37,7 @@ constexpr double kNeighbourhood = 0.25;  // metres; chosen: few wires end within
 constexpr double kTellingChange = 5;     // grey levels; chosen: noise of smoothed pixels is 1 to 2
 constexpr double kOpenRatio = 0.7;       // chosen: log of most over least change, so much is open
 constexpr double kOverSurfaces = 2;      // chosen: weight of the change over that on surfaces
+constexpr double kFarOverSurfaces = 1;   // chosen: log of e times the change on surfaces
 constexpr double kLeastOpen = -1.3;      // chosen: less tells no more
 constexpr double kMaxLogOdds = 4;        // chosen: of one stretch for those around it
 // Of the length. Chosen: results of 18 scans of wires have .63 and more, what is left of two rooms
@@ -55,13 +56,14 @@ struct Terms {
   }
 };
 
-// Whether colours beside a stretch change in all directions, compared to the direction in which
-// they change most and to surfaces, which poses and exposure make change: positive where it is open
-// all around.
+// Whether colours beside a stretch change in all directions, compared to surfaces, which poses and
+// exposure make change, and to the direction in which they change most: positive where it is open
+// all around. What changes far more than surfaces is open, however much another direction changes.
 double OpenInColour(const StretchEvidence& e) {
-  const double of_most = kOpenRatio + std::log((e.beside.least + 1) / (e.beside.most + 1));
-  const double of_surfaces = kOverSurfaces * std::log((e.beside.least + 1) / (e.on_surfaces + 1));
-  return std::max(kLeastOpen, std::min(of_most, of_surfaces));
+  const double of_surfaces = std::log((e.beside.least + 1) / (e.on_surfaces + 1));
+  const double excess = e.on_surfaces > 0 ? std::max(0.0, of_surfaces - kFarOverSurfaces) : 0;
+  const double of_most = kOpenRatio + std::log((e.beside.least + 1) / (e.beside.most + 1)) + excess;
+  return std::max(kLeastOpen, std::min(of_most, kOverSurfaces * of_surfaces));
 }
 
 double ToldByColour(const StretchEvidence& e) {

@@ -87,6 +87,17 @@ TEST(WireProof, ColoursBesideItTellWhereTheyChange) {
   EXPECT_LT(Alone(closed), Alone(Wire()));
 }
 
+TEST(WireProof, WhatChangesFarMoreThanSurfacesIsOpenBeforePatchesToo) {
+  StretchEvidence patches = Wire();
+  patches.beside = {16, 54};
+  patches.on_surfaces = 1.5;
+  EXPECT_GT(Alone(patches), Alone(Wire()));
+  patches.on_surfaces = 8;
+  EXPECT_LT(Alone(patches), Alone(Wire()));
+  patches.on_surfaces = 0;  // not known
+  EXPECT_LT(Alone(patches), Alone(Wire()));
+}
+
 TEST(WireProof, ColoursOfEvenBackgroundsOrOfPoorPosesTellLittle) {
   StretchEvidence even = ShelfEdge();
   even.beside = {0.9, 1};
