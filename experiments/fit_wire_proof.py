@@ -125,7 +125,7 @@ def colour_terms(t, b):
     told = t["beside_most"] ** 2 / (t["beside_most"] ** 2 + 25)
     of_surfaces = np.log((t["beside_least"] + 1) / (t["on_surfaces"] + 1))
     excess = np.where(t["on_surfaces"] > 0, np.maximum(0, of_surfaces - 1), 0)
-    of_most = 0.7 + np.log((t["beside_least"] + 1) / (t["beside_most"] + 1)) + excess
+    of_most = 0.7 - np.maximum(0, np.log((t["beside_most"] + 1) / (t["beside_least"] + 1)) - excess)
     is_open = np.maximum(np.minimum(of_most, 2 * of_surfaces), -1.3)
     return told[:, None] * np.column_stack([-(own - width), np.ones(len(own)), is_open])
 

@@ -62,7 +62,8 @@ struct Terms {
 double OpenInColour(const StretchEvidence& e) {
   const double of_surfaces = std::log((e.beside.least + 1) / (e.on_surfaces + 1));
   const double excess = e.on_surfaces > 0 ? std::max(0.0, of_surfaces - kFarOverSurfaces) : 0;
-  const double of_most = kOpenRatio + std::log((e.beside.least + 1) / (e.beside.most + 1)) + excess;
+  const double most_over_least = std::log((e.beside.most + 1) / (e.beside.least + 1));
+  const double of_most = kOpenRatio - std::max(0.0, most_over_least - excess);
   return std::max(kLeastOpen, std::min(of_most, kOverSurfaces * of_surfaces));
 }
 
