@@ -124,10 +124,10 @@ class MarchingCubesMesher {
 
   void ConnectBlock(int block, std::vector<std::array<int, 3>>& triangles) const {
     if (!MayContainSurface(grid_, block)) return;
-    CellCorners corners;
     CellMask cells;
+    if (!FindSurfaceCells(grid_, block, cells)) return;
+    CellCorners corners;
     GatherCellCorners(grid_, block, corners);
-    if (!FindSurfaceCells(corners, cells)) return;
     ForEachVoxel([&](int x, int y, int z, int index) {
       if ((cells[y + kBlockSide * z] >> x & 1) == 0) return;
       int negative = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 #include <limits>
 
 namespace curvefusion {
@@ -24,24 +25,32 @@ void GatherCellCorners(const VoxelBlockGrid& grid, int block, CellCorners& corne
     for (int y = 0; y < kCornerSide; ++y, row += kCornerSide) {
       const int source = 2 * (y / kBlockSide) + 4 * (z / kBlockSide);
       const int offset = kBlockSide * (y % kBlockSide) + 64 * (z % kBlockSide);
-      std::copy_n(sources[source] + offset, kBlockSide, row);
+      std::memcpy(row, sources[source] + offset, kBlockSide * sizeof(float));
       row[kBlockSide] = sources[source + 1][offset];
     }
   }
 }
 
-bool FindSurfaceCells(const CellCorners& corners, CellMask& cells) {
+bool FindSurfaceCells(const VoxelBlockGrid& grid, int block, CellMask& cells) {
+  static constexpr BlockSigns kNothing;  // derived: of a block never observed
+  std::array<const BlockSigns*, 8> sources;
+  for (int i = 0; i < 8; ++i) {
+    const int neighbour = grid.UpperNeighbours(block)[i];
+    sources[i] = neighbour == VoxelBlockGrid::kNone ? &kNothing : &grid.signs(neighbour);
+  }
   // One bit per corner of a row: the eight cells of a row are then decided together.
   std::array<uint16_t, kCornerSide * kCornerSide> inside, outside;
-  for (size_t row = 0; row < inside.size(); ++row) {
-    const float* values = corners.data() + row * kCornerSide;
-    unsigned negative = 0, positive = 0;
-    for (int x = 0; x < kCornerSide; ++x) {
-      negative |= static_cast<unsigned>(values[x] < 0) << x;
-      positive |= static_cast<unsigned>(values[x] >= 0) << x;
+  for (int z = 0; z < kCornerSide; ++z) {
+    for (int y = 0; y < kCornerSide; ++y) {
+      const int source = 2 * (y / kBlockSide) + 4 * (z / kBlockSide);
+      const int row = y % kBlockSide + kBlockSide * (z % kBlockSide);
+      const BlockSigns& near = *sources[source];
+      const BlockSigns& far = *sources[source + 1];
+      inside[y + kCornerSide * z] =
+          static_cast<uint16_t>(near.inside[row] | (far.inside[row] & 1) << kBlockSide);
+      outside[y + kCornerSide * z] =
+          static_cast<uint16_t>(near.outside[row] | (far.outside[row] & 1) << kBlockSide);
     }
-    inside[row] = static_cast<uint16_t>(negative);
-    outside[row] = static_cast<uint16_t>(positive);
   }
   unsigned found = 0;
   for (int z = 0; z < kBlockSide; ++z) {
@@ -66,8 +75,8 @@ bool MayContainSurface(const VoxelBlockGrid& grid, int block) {
   bool has_inside = false, has_outside = false;
   for (const int neighbour : grid.UpperNeighbours(block)) {
     if (neighbour == VoxelBlockGrid::kNone) continue;
-    has_inside |= grid.signs(neighbour).has_inside;
-    has_outside |= grid.signs(neighbour).has_outside;
+    has_inside |= grid.HasInside(neighbour);
+    has_outside |= grid.HasOutside(neighbour);
   }
   return has_inside && has_outside;
 }
@@ -99,12 +108,10 @@ CellBox BoundingBox(const CellMask& cells) {
 
 std::vector<SurfaceBlock> FindSurfaceBlocks(const VoxelBlockGrid& grid) {
   std::vector<SurfaceBlock> blocks;
-  CellCorners corners;
   SurfaceBlock found;
   for (found.block = 0; found.block < grid.size(); ++found.block) {
     if (!MayContainSurface(grid, found.block)) continue;
-    GatherCellCorners(grid, found.block, corners);
-    if (!FindSurfaceCells(corners, found.cells)) continue;
+    if (!FindSurfaceCells(grid, found.block, found.cells)) continue;
     found.box = BoundingBox(found.cells);
     blocks.push_back(found);
   }

@@ -17,8 +17,8 @@ void GatherCellCorners(const VoxelBlockGrid& grid, int block, CellCorners& corne
 
 /// Bit x of row y + 8 z: the eight corners of cell (x, y, z) are observed and of both signs.
 using CellMask = std::array<uint8_t, kBlockSide * kBlockSide>;
-/// Returns whether any cell is set.
-bool FindSurfaceCells(const CellCorners& corners, CellMask& cells);
+/// Returns whether any cell is set. Asks for signs only: some 0.1 microseconds.
+bool FindSurfaceCells(const VoxelBlockGrid& grid, int block, CellMask& cells);
 
 /// Whether the block's cells can contain a surface, judged without looking at their voxels: false
 /// means certainly not.

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <limits>
 
 namespace curvefusion {
@@ -23,6 +24,18 @@ uint64_t Pack(const VoxelKey& key) {
 VoxelKey Shifted(const VoxelKey& key, int corner, int sign) {
   return {key.x + sign * (corner & 1), key.y + sign * (corner >> 1 & 1),
           key.z + sign * (corner >> 2 & 1)};
+}
+
+// Half a row of voxels; the compiler maps these types to the SIMD registers there are.
+typedef float Float4 __attribute__((vector_size(16)));
+typedef int32_t Int4 __attribute__((vector_size(16)));
+
+// One bit for each of eight lanes that are set.
+uint8_t BitsOf(const Int4& low, const Int4& high) {
+  constexpr Int4 kLow = {1, 2, 4, 8}, kHigh = {16, 32, 64, 128};  // derived: a lane's bit
+  Int4 bits = (low & kLow) | (high & kHigh);
+  bits |= __builtin_shuffle(bits, Int4{2, 3, 0, 1});
+  return static_cast<uint8_t>(bits[0] | bits[1]);
 }
 
 }  // namespace
@@ -61,6 +74,7 @@ int VoxelBlockGrid::Insert(const VoxelKey& key) {
   keys_.push_back(key);
   blocks_.push_back(std::move(block));
   signs_.emplace_back();
+  has_signs_.push_back(0);
   neighbours_.emplace_back();
   LinkNeighbours(number);
   return number;
@@ -77,24 +91,34 @@ void VoxelBlockGrid::LinkNeighbours(int block) {
 
 size_t VoxelBlockGrid::BytesPerBlock() {
   // Two slots each, because the table is at most half full.
-  return sizeof(VoxelBlock) + sizeof(VoxelKey) + sizeof(void*) + sizeof(BlockSigns) +
+  return sizeof(VoxelBlock) + sizeof(VoxelKey) + sizeof(void*) + sizeof(BlockSigns) + 1 +
          sizeof(std::array<int, 8>) + 2 * sizeof(Slot);
 }
 
 size_t VoxelBlockGrid::memory_bytes() const {
   return keys_.capacity() * sizeof(VoxelKey) + blocks_.capacity() * sizeof(void*) +
-         signs_.capacity() * sizeof(BlockSigns) +
+         signs_.capacity() * sizeof(BlockSigns) + has_signs_.capacity() +
          neighbours_.capacity() * sizeof(std::array<int, 8>) + slots_.capacity() * sizeof(Slot) +
          blocks_.size() * sizeof(VoxelBlock);
 }
 
+void VoxelBlockGrid::SetSigns(int block, const BlockSigns& signs) {
+  signs_[block] = signs;
+  constexpr BlockSigns::Rows kEmpty = {};
+  has_signs_[block] = static_cast<uint8_t>((signs.inside == kEmpty ? 0 : kHasInside) |
+                                           (signs.outside == kEmpty ? 0 : kHasOutside));
+}
+
 BlockSigns FindSigns(const VoxelBlock& block) {
-  int inside = 0, outside = 0;
-  for (const float tsdf : block.tsdf) {
-    inside |= tsdf < 0;
-    outside |= tsdf >= 0;
+  BlockSigns signs;
+  for (int row = 0; row < kBlockSide * kBlockSide; ++row) {
+    Float4 low, high;
+    std::memcpy(&low, block.tsdf.data() + row * kBlockSide, sizeof(low));
+    std::memcpy(&high, block.tsdf.data() + row * kBlockSide + 4, sizeof(high));
+    signs.inside[row] = BitsOf(low < 0, high < 0);
+    signs.outside[row] = BitsOf(low >= 0, high >= 0);
   }
-  return {inside != 0, outside != 0};
+  return signs;
 }
 
 }  // namespace curvefusion

@@ -34,10 +34,11 @@ struct VoxelBlock {
   std::array<uint16_t, kBlockVoxels> weight;  ///< observations in the mean
 };
 
-/// Which signs the observed voxels of a block have.
+/// Which signs the voxels of a block have: bit x of row y + 8 z.
 struct BlockSigns {
-  bool has_inside = false;   ///< some are negative
-  bool has_outside = false;  ///< some are not
+  using Rows = std::array<uint8_t, kBlockSide * kBlockSide>;
+  Rows inside = {};   ///< observed and negative
+  Rows outside = {};  ///< observed and not negative
 };
 BlockSigns FindSigns(const VoxelBlock& block);
 
@@ -65,8 +66,11 @@ class VoxelBlockGrid {
 
   /// To be set by whoever changes a block's voxels; kept apart from them because every block's are
   /// asked for at each raycast.
-  void SetSigns(int block, const BlockSigns& signs) { signs_[block] = signs; }
+  void SetSigns(int block, const BlockSigns& signs);
   const BlockSigns& signs(int block) const { return signs_[block]; }
+  /// Whether any voxel is negative, and whether any is not.
+  bool HasInside(int block) const { return has_signs_[block] & kHasInside; }
+  bool HasOutside(int block) const { return has_signs_[block] & kHasOutside; }
 
   /// The blocks at key + (i & 1, i >> 1 & 1, i >> 2 & 1) for i = 0 .. 7, or kNone. Entry 0 is the
   /// block itself.
@@ -77,6 +81,8 @@ class VoxelBlockGrid {
   static size_t BytesPerBlock();
 
  private:
+  static constexpr uint8_t kHasInside = 1, kHasOutside = 2;  // derived: a bit each
+
   struct Slot {
     uint64_t packed_key = 0;
     int block = kNone;
@@ -89,6 +95,7 @@ class VoxelBlockGrid {
   std::vector<VoxelKey> keys_;
   std::vector<std::unique_ptr<VoxelBlock>> blocks_;
   std::vector<BlockSigns> signs_;
+  std::vector<uint8_t> has_signs_;  ///< of each block: kHasInside, kHasOutside
   std::vector<std::array<int, 8>> neighbours_;
   std::vector<Slot> slots_;  ///< a power of two, at most half full
   int slot_shift_ = 0;       ///< the hash's upper bits that index slots_

@@ -65,7 +65,9 @@ TEST(MarchingCubes, CellsWithAnUnobservedCornerAreLeftOut) {
   const size_t whole = MarchingCubes(SampleField(plane, -1, 0), kVoxel).triangles.size();
   EXPECT_EQ(whole, 2u * 15 * 15);  // 16 voxels span 15 cells, two triangles each
   VoxelBlockGrid grid = SampleField(plane, -1, 0);
-  grid.block(grid.Find({0, 0, 0})).tsdf[3 + 8 * 3] = NAN;
+  const int changed = grid.Find({0, 0, 0});
+  grid.block(changed).tsdf[3 + 8 * 3] = NAN;
+  grid.SetSigns(changed, FindSigns(grid.block(changed)));
   const TriangleMesh mesh = MarchingCubes(grid, kVoxel);
   EXPECT_EQ(mesh.triangles.size(), whole - 2u * 4);
   // The vertex above the unobserved voxel is gone.

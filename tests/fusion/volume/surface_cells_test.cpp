@@ -28,8 +28,9 @@ TEST(CellCorners, AreTheValuesOfTheVoxelsAcrossBlocks) {
   }
   CellCorners corners;
   CellMask cells;
+  for (int block = 0; block < 7; ++block) grid.SetSigns(block, FindSigns(grid.block(block)));
   GatherCellCorners(grid, 0, corners);
-  FindSurfaceCells(corners, cells);
+  FindSurfaceCells(grid, 0, cells);
   const auto corner = [&](int x, int y, int z) { return corners[x + 9 * y + 81 * z]; };
   for (int z = 0; z < 8; ++z) {
     for (int y = 0; y < 8; ++y) {

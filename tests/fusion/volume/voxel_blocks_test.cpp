@@ -48,8 +48,9 @@ TEST(VoxelBlockGrid, NewBlocksAreUnobserved) {
   VoxelBlockGrid grid;
   grid.Insert({0, 0, 0});
   for (const float value : grid.block(0).tsdf) EXPECT_TRUE(std::isnan(value));
-  EXPECT_FALSE(FindSigns(grid.block(0)).has_inside);
-  EXPECT_FALSE(FindSigns(grid.block(0)).has_outside);
+  grid.SetSigns(0, FindSigns(grid.block(0)));
+  EXPECT_FALSE(grid.HasInside(0));
+  EXPECT_FALSE(grid.HasOutside(0));
 }
 
 }  // namespace
