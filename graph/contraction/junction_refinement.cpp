@@ -163,6 +163,14 @@ void VisitOptions(JunctionRefinementOptions& options, OptionVisitor& visitor) {
                 options.fork_fit_length);
 }
 
+void PlaceByLines(SkeletonGraph& graph, NodeId node, int least_lines,
+                  const JunctionRefinementOptions& options) {
+  const JunctionFit fit = FitJunction(graph, {node}, options);
+  if (fit.lines < least_lines) return;
+  PlaceJunction(graph, node, fit.position, options);
+  ResampleBranches(node, graph);
+}
+
 void MergeHubs(SkeletonGraph& graph, const JunctionRefinementOptions& options) {
   for (bool merged = true; merged;) {
     merged = false;

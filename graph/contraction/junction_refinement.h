@@ -30,6 +30,11 @@ void VisitOptions(JunctionRefinementOptions& options, OptionVisitor& visitor);
 /// three wires stays one junction of valence 6.
 void RefineJunctions(SkeletonGraph& graph, const JunctionRefinementOptions& options);
 
+/// Moves a junction to where lines fitted to its branches meet, straightening these as
+/// RefineJunctions does, if at least so many are clear enough. For curves that are exact.
+void PlaceByLines(SkeletonGraph& graph, NodeId node, int least_lines,
+                  const JunctionRefinementOptions& options);
+
 /// Merges junctions that are parts of one hub: joined by an edge shorter than `merge_distance`, and
 /// the lines of at least four of their branches meet in one point to 2 mm (standard deviation). No
 /// other junction moves. For curves that are exact; contraction blurs more.
