@@ -104,7 +104,7 @@ size_t VoxelBlockGrid::memory_bytes() const {
 
 void VoxelBlockGrid::SetSigns(int block, const BlockSigns& signs) {
   signs_[block] = signs;
-  constexpr BlockSigns::Rows kEmpty = {};
+  constexpr BlockSigns::Rows kEmpty = {};  // derived: no voxel of a sign
   has_signs_[block] = static_cast<uint8_t>((signs.inside == kEmpty ? 0 : kHasInside) |
                                            (signs.outside == kEmpty ? 0 : kHasOutside));
 }

@@ -18,9 +18,9 @@ namespace curvefusion {
 namespace {
 
 constexpr double kStep = 0.5 * kMillimetre;  // between points of a loop; chosen: a sixth of a wire
-constexpr int kSpokes = 40;  // from the middle of a loop to its curves; chosen, like the next
-constexpr int kPlacesOnSpoke = 10;
-constexpr int kLinesOfJunction = 3;  // derived: two always nearly meet
+constexpr int kSpokes = 40;                  // from the middle of a loop to its curves; chosen
+constexpr int kPlacesOnSpoke = 10;           // chosen
+constexpr int kLinesOfJunction = 3;          // derived: two always nearly meet
 
 // The shortest way between the ends of an edge along others, no longer than that edge may be with
 // it.
@@ -92,17 +92,17 @@ int OpenFilledLoops(SkeletonGraph& graph, double pixel_size,
   for (const EdgeId id : graph.Edges()) {
     const double length = Length(graph.edge(id).points);
     const auto [a, b] = graph.edge(id).nodes;
-    if (a != b && length < max_length) longest_first.emplace_back(-length, id);
+    if (a != b && length < max_length) longest_first.emplace_back(length, id);
   }
-  std::sort(longest_first.begin(), longest_first.end());
+  std::ranges::sort(longest_first, std::greater());
   std::set<NodeId> opened;
   int loops = 0;
-  for (const auto& [minus_length, id] : longest_first) {
-    const double length = -minus_length;
+  for (const auto& [length, id] : longest_first) {
     std::optional<std::vector<EdgeId>> loop = ShortestWayAround(graph, id, max_length - length);
     if (!loop) continue;
-    const bool is_longest = std::ranges::all_of(
-        *loop, [&](EdgeId other) { return Length(graph.edge(other).points) <= length; });
+    const bool is_longest = std::ranges::all_of(*loop, [&, most = length](EdgeId other) {
+      return Length(graph.edge(other).points) <= most;
+    });
     loop->push_back(id);
     if (!is_longest || !IsFilled(graph, *loop, pixel_size)) continue;
     for (const EdgeId part : *loop)
