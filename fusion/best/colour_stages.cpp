@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -11,7 +10,7 @@
 
 #include "fusion/best/colour_fit.h"
 #include "fusion/best/colour_start.h"
-#include "fusion/best/net_stage.h"
+#include "fusion/best/finish_curves.h"
 #include "fusion/curve_graph/candidate_curves.h"
 #include "fusion/curve_graph/colour_candidates.h"
 #include "fusion/curve_graph/selection.h"
@@ -19,12 +18,9 @@
 #include "fusion/curve_graph/tip_tracking.h"
 #include "fusion/curve_graph/wire_proof.h"
 #include "fusion/silhouettes/colour_pruning.h"
-#include "graph/contraction/filled_loops.h"
-#include "graph/crossings.h"
 #include "graph/edge_parts.h"
 #include "graph/intersections.h"
 #include "graph/sampled_curves.h"
-#include "graph/validate.h"
 #include "kernel/spatial_search.h"
 
 namespace curvefusion {
@@ -297,32 +293,6 @@ void CompleteByColour(const AdjustmentStart& start, std::optional<StripViews> st
     CorrectBySilhouettes(*adjusted, *strips, start.depth, options, reporter, result);
     AssignMeasuredRadii(array_diameter, options.radius, reporter, result);
   }
-}
-
-// What a pixel of the nearest colour image shows of the object, metres.
-double FinestPixel(const Sequence& sequence, const SkeletonGraph& skeleton) {
-  const Vec3 middle = BoundsOf(skeleton).center();
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const SequenceFrame& frame : sequence.frames)
-    nearest = std::min(nearest, (frame.T_world_camera.translation() - middle).norm());
-  return nearest / sequence.color_camera.fx;
-}
-
-// Adds the wires of nets, opens loops without an opening, and takes apart what does not touch.
-void FinishCurves(const LearnedWires& wires, const BestOptions& options,
-                  const StageReporter& reporter, Reconstruction& result) {
-  const NetCurves nets = TraceNets(wires.nets, reporter, result);
-  const int loops = OpenFilledLoops(result.skeleton, FinestPixel(result.sequence, result.skeleton),
-                                    options.ridge.junctions);
-  const int crossings = result.trust.adjusted ? SeparateCrossings(result.skeleton) : 0;
-  const bool has_contacts = !Violations(result.skeleton, kProximity).empty();
-  if (has_contacts) ResolveIntersections(result.skeleton, kProximity);
-  if (loops > 0 || crossings > 0 || has_contacts || nets.length > 0) {
-    AssignMeasuredRadii(wires.array_diameter, options.radius, reporter, result);
-  }
-  MeasureNetWires(nets, result);
-  reporter.log.Count("radius", "loops without opening", loops);
-  reporter.log.Count("radius", "crossings taken apart", crossings);
 }
 
 // In how many images every place of the result was looked for and seen.

@@ -14,4 +14,9 @@ namespace curvefusion {
 int OpenFilledLoops(SkeletonGraph& graph, double pixel_size,
                     const JunctionRefinementOptions& options);
 
+/// Merges junctions that are joined by an edge shorter than the diameter of the thickest wire at
+/// either: it lies within the wires, where no image shows it, and wires cannot part so soon.
+/// Returns how many junctions came of several. Linear in edges.
+int MergeHiddenJunctions(SkeletonGraph& graph);
+
 }  // namespace curvefusion

@@ -1,4 +1,4 @@
-#include "graph/contraction/filled_loops.h"
+#include "graph/contraction/hidden_parts.h"
 
 #include <algorithm>
 #include <functional>
@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "graph/junctions.h"
+#include "kernel/disjoint_sets.h"
 #include "kernel/polyline.h"
 #include "kernel/quantile.h"
 
@@ -82,6 +84,17 @@ bool IsFilled(const SkeletonGraph& graph, const std::vector<EdgeId>& loop, doubl
   return 2 * (RadiusOfOpening(points) - Median(std::move(radii))) < pixel_size;
 }
 
+// The radius of the thickest edge at each of the first `count` node handles.
+std::vector<double> ThickestAt(const SkeletonGraph& graph, size_t count) {
+  std::vector<double> radii(count, 0);
+  for (const EdgeId id : graph.Edges()) {
+    const SkeletonEdge& edge = graph.edge(id);
+    if (edge.radii.empty()) continue;
+    for (const NodeId node : edge.nodes) radii[node] = std::max(radii[node], Median(edge.radii));
+  }
+  return radii;
+}
+
 }  // namespace
 
 int OpenFilledLoops(SkeletonGraph& graph, double pixel_size,
@@ -115,6 +128,33 @@ int OpenFilledLoops(SkeletonGraph& graph, double pixel_size,
     if (graph.HasNode(node) && graph.Degree(node) >= 3)
       PlaceByLines(graph, node, kLinesOfJunction, options);
   return loops;
+}
+
+int MergeHiddenJunctions(SkeletonGraph& graph) {
+  const std::vector<NodeId> nodes = graph.Nodes();
+  if (nodes.empty()) return 0;
+  const std::vector<double> radii = ThickestAt(graph, nodes.back() + 1);
+  DisjointSets sets(radii.size());
+  double longest = 0;
+  for (const EdgeId id : graph.Edges()) {
+    const auto [a, b] = graph.edge(id).nodes;
+    const double length = Length(graph.edge(id).points);
+    const bool joins_junctions = a != b && graph.Degree(a) >= 3 && graph.Degree(b) >= 3;
+    if (!joins_junctions || length >= 2 * std::max(radii[a], radii[b])) continue;
+    sets.Unite(a, b);
+    longest = std::max(longest, length);
+  }
+  std::map<int, NodeGroup> groups;
+  for (const NodeId node : nodes) {
+    NodeGroup& group = groups[sets.Root(node)];
+    group.nodes.push_back(node);
+    group.weights.push_back(graph.Degree(node));
+  }
+  std::vector<NodeGroup> merged;
+  for (auto& [root, group] : groups)
+    if (group.nodes.size() > 1) merged.push_back(std::move(group));
+  MergeNodeGroups(graph, merged, longest);
+  return static_cast<int>(merged.size());
 }
 
 }  // namespace curvefusion

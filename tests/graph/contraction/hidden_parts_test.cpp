@@ -1,4 +1,4 @@
-#include "graph/contraction/filled_loops.h"
+#include "graph/contraction/hidden_parts.h"
 
 #include <gtest/gtest.h>
 
@@ -85,6 +85,36 @@ TEST(OpenFilledLoops, LargeAndUnmeasuredLoopsStay) {
   for (const EdgeId edge : unmeasured.Edges())
     unmeasured.SetCurve(edge, Polyline(unmeasured.edge(edge).points));
   EXPECT_EQ(OpenFilledLoops(unmeasured, kPixel, {}), 0);
+}
+
+// Two wires that cross, which came out as two junctions some way apart.
+SkeletonGraph TwoForks(double apart) {
+  SkeletonGraph graph;
+  const NodeId left = graph.AddNode({-apart / 2, 0, 0});
+  const NodeId right = graph.AddNode({apart / 2, 0, 0});
+  Add(graph, left, right, kRadius);
+  Add(graph, left, graph.AddNode({-0.05, 0.04, 0}), kRadius);
+  Add(graph, left, graph.AddNode({-0.05, -0.04, 0}), kRadius);
+  Add(graph, right, graph.AddNode({0.05, 0.04, 0}), kRadius);
+  Add(graph, right, graph.AddNode({0.05, -0.04, 0}), kRadius);
+  return graph;
+}
+
+TEST(MergeHiddenJunctions, ThoseWithinADiameterAreOne) {
+  SkeletonGraph graph = TwoForks(0.005);
+  EXPECT_EQ(MergeHiddenJunctions(graph), 1);
+  ASSERT_EQ(Junctions(graph).size(), 1U);
+  EXPECT_EQ(graph.Degree(Junctions(graph)[0]), 4);
+  EXPECT_LT(graph.position(Junctions(graph)[0]).norm(), 1e-9);
+  EXPECT_NO_THROW(Validate(graph, 1e-6, "merged graph"));
+}
+
+TEST(MergeHiddenJunctions, ThoseFartherApartStay) {
+  SkeletonGraph graph = TwoForks(0.007);
+  EXPECT_EQ(MergeHiddenJunctions(graph), 0);
+  EXPECT_EQ(Junctions(graph).size(), 2U);
+  SkeletonGraph empty;
+  EXPECT_EQ(MergeHiddenJunctions(empty), 0);
 }
 
 }  // namespace
