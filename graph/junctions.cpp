@@ -228,14 +228,15 @@ void FetchAhead(const SkeletonGraph& graph, const std::vector<NodeId>& nodes, si
   ahead(kLookahead, [&graph](EdgeId id) { graph.FetchPoints(id); });
 }
 
-// Merges each set of nodes, weighted by their degrees before the first is.
-void MergeLinked(SkeletonGraph& graph, const LinkedNodes& linked, double max_link) {
+// Merges each set of nodes, weighted by their degrees before the first is. How many sets.
+int MergeLinked(SkeletonGraph& graph, const LinkedNodes& linked, double max_link) {
   std::vector<double> weights;
   weights.reserve(linked.nodes.size());
   for (size_t i = 0; i < linked.nodes.size(); ++i) {
     if (i + kLookahead < linked.nodes.size()) graph.FetchNode(linked.nodes[i + kLookahead]);
     weights.push_back(std::max(1, graph.Degree(linked.nodes[i])));
   }
+  int merged = 0;
   for (size_t i = 0; i + 1 < linked.begins.size(); ++i) {
     FetchAhead(graph, linked.nodes, static_cast<size_t>(linked.begins[i]));
     const auto begin = static_cast<size_t>(linked.begins[i]);
@@ -243,7 +244,9 @@ void MergeLinked(SkeletonGraph& graph, const LinkedNodes& linked, double max_lin
     if (count < 2) continue;
     MergeGroup(graph, {linked.nodes.data() + begin, count}, {weights.data() + begin, count},
                max_link);
+    ++merged;
   }
+  return merged;
 }
 
 }  // namespace
@@ -251,6 +254,13 @@ void MergeLinked(SkeletonGraph& graph, const LinkedNodes& linked, double max_lin
 void MergeNodeGroups(SkeletonGraph& graph, const std::vector<NodeGroup>& groups, double max_link) {
   for (const NodeGroup& group : groups) MergeGroup(graph, group.nodes, group.weights, max_link);
   RemoveZeroLengthSegments(graph);
+}
+
+int MergeLinkedNodes(SkeletonGraph& graph, const std::vector<std::pair<NodeId, NodeId>>& links,
+                     double max_link) {
+  const int merged = MergeLinked(graph, SetsOf(links), max_link);
+  RemoveZeroLengthSegments(graph);
+  return merged;
 }
 
 void JoinLocations(SkeletonGraph& graph, const std::vector<LocationPair>& pairs, double snap) {

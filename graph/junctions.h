@@ -29,12 +29,17 @@ struct NodeGroup {
 /// self-loops. Groups must not share nodes.
 void MergeNodeGroups(SkeletonGraph& graph, const std::vector<NodeGroup>& groups, double max_link);
 
+/// Merges nodes that links hang together, each set all at once: as MergeNodeGroups does, weighted
+/// by degree. Returns how many nodes came of several.
+int MergeLinkedNodes(SkeletonGraph& graph, const std::vector<std::pair<NodeId, NodeId>>& links,
+                     double max_link);
+
 /// Makes every pair of places one node, and places that are linked by several pairs one node all
-/// together: edges are split there and the nodes merged (MergeNodeGroups, weighted by degree, links
-/// up to 3 `snap`). A place within `snap` metres of arc length of an end of its edge stands for the
-/// node at that end, and places within `snap` of each other on one edge are one. The handles of
-/// split edges become invalid. Cost O(n log n) in pairs and points of the graph. CurveFusion 4.3:
-/// "we create a new junction at this intersection and split each of the segments accordingly".
+/// together: edges are split there and the nodes merged (MergeLinkedNodes, links up to 3 `snap`). A
+/// place within `snap` metres of arc length of an end of its edge stands for the node at that end,
+/// and places within `snap` of each other on one edge are one. The handles of split edges become
+/// invalid. Cost O(n log n) in pairs and points of the graph. CurveFusion 4.3: "we create a new
+/// junction at this intersection and split each of the segments accordingly".
 void JoinLocations(SkeletonGraph& graph, const std::vector<LocationPair>& pairs, double snap);
 
 }  // namespace curvefusion

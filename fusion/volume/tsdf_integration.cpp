@@ -5,6 +5,7 @@
 #include <cstring>
 #include <limits>
 
+#include "fusion/volume/voxel_lanes.h"
 #include "kernel/parallel.h"
 
 namespace curvefusion {
@@ -68,11 +69,6 @@ class BlockVisibility {
   Vec3 half_extent_;
 };
 
-// Four voxels of a row at once: the compiler maps these types to the SIMD registers there are.
-// Derived: the floats in 16 bytes.
-constexpr int kLanes = 4;
-typedef float Float4 __attribute__((vector_size(16)));
-typedef int32_t Int4 __attribute__((vector_size(16)));
 typedef int64_t Long2 __attribute__((vector_size(16)));
 typedef uint16_t Count4 __attribute__((vector_size(8)));
 
@@ -95,7 +91,7 @@ class BlockUpdater {
     for (int row = 0; row < kBlockSide * kBlockSide; ++row) {
       const Vec3f start = origin + static_cast<float>(row % kBlockSide) * step_y_ +
                           static_cast<float>(row / kBlockSide) * step_z_;
-      for (int x = 0; x < kBlockSide; x += kLanes) {
+      for (int x = 0; x < kBlockSide; x += kVoxelLanes) {
         UpdateVoxels(start + static_cast<float>(x) * step_x_,
                      block.tsdf.data() + row * kBlockSide + x,
                      block.weight.data() + row * kBlockSide + x);

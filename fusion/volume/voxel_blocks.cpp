@@ -8,6 +8,8 @@
 #include <cstring>
 #include <limits>
 
+#include "fusion/volume/voxel_lanes.h"
+
 namespace curvefusion {
 
 namespace {
@@ -25,10 +27,6 @@ VoxelKey Shifted(const VoxelKey& key, int corner, int sign) {
   return {key.x + sign * (corner & 1), key.y + sign * (corner >> 1 & 1),
           key.z + sign * (corner >> 2 & 1)};
 }
-
-// Half a row of voxels; the compiler maps these types to the SIMD registers there are.
-typedef float Float4 __attribute__((vector_size(16)));
-typedef int32_t Int4 __attribute__((vector_size(16)));
 
 // One bit for each of eight lanes that are set.
 uint8_t BitsOf(const Int4& low, const Int4& high) {
@@ -91,8 +89,8 @@ void VoxelBlockGrid::LinkNeighbours(int block) {
 
 size_t VoxelBlockGrid::BytesPerBlock() {
   // Two slots each, because the table is at most half full.
-  return sizeof(VoxelBlock) + sizeof(VoxelKey) + sizeof(void*) + sizeof(BlockSigns) + 1 +
-         sizeof(std::array<int, 8>) + 2 * sizeof(Slot);
+  return sizeof(VoxelBlock) + sizeof(VoxelKey) + sizeof(void*) + sizeof(BlockSigns) +
+         sizeof(uint8_t) + sizeof(std::array<int, 8>) + 2 * sizeof(Slot);
 }
 
 size_t VoxelBlockGrid::memory_bytes() const {
@@ -114,7 +112,7 @@ BlockSigns FindSigns(const VoxelBlock& block) {
   for (int row = 0; row < kBlockSide * kBlockSide; ++row) {
     Float4 low, high;
     std::memcpy(&low, block.tsdf.data() + row * kBlockSide, sizeof(low));
-    std::memcpy(&high, block.tsdf.data() + row * kBlockSide + 4, sizeof(high));
+    std::memcpy(&high, block.tsdf.data() + row * kBlockSide + kVoxelLanes, sizeof(high));
     signs.inside[row] = BitsOf(low < 0, high < 0);
     signs.outside[row] = BitsOf(low >= 0, high >= 0);
   }

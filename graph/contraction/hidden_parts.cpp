@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <functional>
 #include <map>
-#include <optional>
 #include <queue>
 #include <set>
 #include <tuple>
@@ -11,7 +10,6 @@
 #include <vector>
 
 #include "graph/junctions.h"
-#include "kernel/disjoint_sets.h"
 #include "kernel/polyline.h"
 #include "kernel/quantile.h"
 
@@ -24,33 +22,28 @@ constexpr int kSpokes = 40;                  // from the middle of a loop to its
 constexpr int kPlacesOnSpoke = 10;           // chosen
 constexpr int kLinesOfJunction = 3;          // derived: two always nearly meet
 
-// The shortest way between the ends of an edge along others, no longer than that edge may be with
-// it.
-std::optional<std::vector<EdgeId>> ShortestWayAround(const SkeletonGraph& graph, EdgeId without,
-                                                     double max_length) {
-  struct Step {
-    double length;
-    EdgeId edge;  // by which the node was reached
-  };
+// The shortest way between the ends of an edge along others; none where it is longer than asked.
+std::vector<EdgeId> ShortestWayAround(const SkeletonGraph& graph, EdgeId without,
+                                      double max_length) {
   const auto [from, to] = graph.edge(without).nodes;
-  std::map<NodeId, Step> reached;
+  std::map<NodeId, EdgeId> reached_by;
   using Candidate = std::tuple<double, NodeId, EdgeId>;
   std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> queue;
   queue.emplace(0.0, from, -1);
-  while (!queue.empty() && !reached.contains(to)) {
+  while (!queue.empty() && !reached_by.contains(to)) {
     const auto [length, node, by] = queue.top();
     queue.pop();
-    if (!reached.try_emplace(node, Step{length, by}).second) continue;
+    if (!reached_by.try_emplace(node, by).second) continue;
     for (const EdgeId next : graph.IncidentEdges(node)) {
       const double longer = length + Length(graph.edge(next).points);
       if (next != without && longer <= max_length)
         queue.emplace(longer, graph.OtherEnd(next, node), next);
     }
   }
-  if (!reached.contains(to)) return std::nullopt;
   std::vector<EdgeId> way;
+  if (!reached_by.contains(to)) return way;
   for (NodeId node = to; node != from; node = graph.OtherEnd(way.back(), node))
-    way.push_back(reached.at(node).edge);
+    way.push_back(reached_by.at(node));
   return way;
 }
 
@@ -111,14 +104,14 @@ int OpenFilledLoops(SkeletonGraph& graph, double pixel_size,
   std::set<NodeId> opened;
   int loops = 0;
   for (const auto& [length, id] : longest_first) {
-    std::optional<std::vector<EdgeId>> loop = ShortestWayAround(graph, id, max_length - length);
-    if (!loop) continue;
-    const bool is_longest = std::ranges::all_of(*loop, [&, most = length](EdgeId other) {
+    std::vector<EdgeId> loop = ShortestWayAround(graph, id, max_length - length);
+    if (loop.empty()) continue;
+    const bool is_longest = std::ranges::all_of(loop, [&, most = length](EdgeId other) {
       return Length(graph.edge(other).points) <= most;
     });
-    loop->push_back(id);
-    if (!is_longest || !IsFilled(graph, *loop, pixel_size)) continue;
-    for (const EdgeId part : *loop)
+    loop.push_back(id);
+    if (!is_longest || !IsFilled(graph, loop, pixel_size)) continue;
+    for (const EdgeId part : loop)
       for (const NodeId node : graph.edge(part).nodes) opened.insert(node);
     graph.RemoveEdge(id);
     ++loops;
@@ -134,27 +127,17 @@ int MergeHiddenJunctions(SkeletonGraph& graph) {
   const std::vector<NodeId> nodes = graph.Nodes();
   if (nodes.empty()) return 0;
   const std::vector<double> radii = ThickestAt(graph, nodes.back() + 1);
-  DisjointSets sets(radii.size());
+  std::vector<std::pair<NodeId, NodeId>> hidden;
   double longest = 0;
   for (const EdgeId id : graph.Edges()) {
     const auto [a, b] = graph.edge(id).nodes;
     const double length = Length(graph.edge(id).points);
     const bool joins_junctions = a != b && graph.Degree(a) >= 3 && graph.Degree(b) >= 3;
     if (!joins_junctions || length >= 2 * std::max(radii[a], radii[b])) continue;
-    sets.Unite(a, b);
+    hidden.emplace_back(a, b);
     longest = std::max(longest, length);
   }
-  std::map<int, NodeGroup> groups;
-  for (const NodeId node : nodes) {
-    NodeGroup& group = groups[sets.Root(node)];
-    group.nodes.push_back(node);
-    group.weights.push_back(graph.Degree(node));
-  }
-  std::vector<NodeGroup> merged;
-  for (auto& [root, group] : groups)
-    if (group.nodes.size() > 1) merged.push_back(std::move(group));
-  MergeNodeGroups(graph, merged, longest);
-  return static_cast<int>(merged.size());
+  return MergeLinkedNodes(graph, hidden, longest);
 }
 
 }  // namespace curvefusion

@@ -93,6 +93,14 @@ inline SkeletonGraph Lattice(int rows, int columns, double spacing, double step 
   return graph;
 }
 
+/// The nodes at which three or more edges meet.
+inline std::vector<NodeId> Junctions(const SkeletonGraph& graph) {
+  std::vector<NodeId> junctions;
+  for (const NodeId node : graph.Nodes())
+    if (graph.Degree(node) >= 3) junctions.push_back(node);
+  return junctions;
+}
+
 /// Number of nodes of a degree.
 inline int CountDegree(const SkeletonGraph& graph, int degree) {
   int count = 0;

@@ -36,13 +36,6 @@ SkeletonGraph Delta(double half_side, double height, double radius = kRadius) {
   return graph;
 }
 
-std::vector<NodeId> Junctions(const SkeletonGraph& graph) {
-  std::vector<NodeId> junctions;
-  for (const NodeId node : graph.Nodes())
-    if (graph.Degree(node) >= 3) junctions.push_back(node);
-  return junctions;
-}
-
 TEST(OpenFilledLoops, WiresThatMeetInATriangleMeetInAPoint) {
   SkeletonGraph graph = Delta(0.003, 0.010);
   EXPECT_EQ(OpenFilledLoops(graph, kPixel, {}), 1);
@@ -53,7 +46,7 @@ TEST(OpenFilledLoops, WiresThatMeetInATriangleMeetInAPoint) {
   EXPECT_NO_THROW(Validate(graph, 1e-6, "opened graph"));
 }
 
-// Two triangles side by side.
+// A place inside joined to all three corners: three triangles.
 TEST(OpenFilledLoops, TrianglesSideBySideAreAllOpened) {
   SkeletonGraph graph = Delta(0.003, 0.010);
   const NodeId middle = graph.AddNode({0.0005, -0.004, 0});

@@ -22,14 +22,6 @@ void AddArm(SkeletonGraph& graph, NodeId root, const Vec3& junction, const Vec3&
   Connect(graph, root, graph.AddNode(tip), points);
 }
 
-std::vector<NodeId> Junctions(const SkeletonGraph& graph) {
-  std::vector<NodeId> junctions;
-  for (const NodeId node : graph.Nodes()) {
-    if (graph.Degree(node) >= 3) junctions.push_back(node);
-  }
-  return junctions;
-}
-
 Vec3 InPlane(double angle) { return {std::cos(angle), std::sin(angle), 0}; }
 
 TEST(RefineJunctions, MovesAJunctionToWhereItsBranchesMeet) {
