@@ -21,6 +21,7 @@ void AddCommandLine(CLI::App& app, int& exit_code) {
   AddLiveCommand(app, exit_code);
   AddTrackCommand(app, exit_code);
   AddCheckCommand(app, exit_code);
+  AddUnpackCommand(app, exit_code);
   AddContractCommand(app, exit_code);
   AddMeshCommand(app, exit_code);
   AddGraphCommand(app, exit_code);

@@ -13,6 +13,7 @@
 
 #include "capture/readers/frame_assembly.h"
 #include "capture/readers/readers.h"
+#include "capture/unpack_videos.h"
 #include "kernel/error.h"
 #include "kernel/text_input.h"
 
@@ -151,6 +152,8 @@ void FailWithoutIntrinsics(const fs::path& folder) {
 }
 
 [[noreturn]] void FailUnknownFormat(const fs::path& folder) {
+  const std::string unpacking = VideoRemedy(folder);
+  if (!unpacking.empty()) throw Error(ErrorKind::kBadInput, unpacking);
   const std::vector<std::string> scans = ScansInside(folder);
   if (!scans.empty()) {
     throw Error(ErrorKind::kBadInput,
@@ -271,6 +274,17 @@ void RequireReadable(const fs::path& path) {
   }
 }
 
+// Reads with a reader. Where it fails and images are still videos, the error is that.
+Sequence ReadUnpacked(Reader read, const fs::path& folder, const FindingHandler& on_finding) {
+  try {
+    return read(folder, on_finding);
+  } catch (const Error&) {
+    const std::string remedy = fs::is_directory(folder) ? VideoRemedy(folder) : "";
+    if (remedy.empty()) throw;
+    throw Error(ErrorKind::kBadInput, remedy);
+  }
+}
+
 }  // namespace
 
 Sequence ReadSequence(const fs::path& folder, PoseUse poses, DepthUse depth,
@@ -280,7 +294,8 @@ Sequence ReadSequence(const fs::path& folder, PoseUse poses, DepthUse depth,
   if (format == nullptr) FailUnknownFormat(folder);
   const bool with_poses =
       poses == PoseUse::kNeeded || (poses == PoseUse::kIfGiven && format->has_poses(folder));
-  Sequence sequence = (with_poses ? format->read : format->read_images)(folder, on_finding);
+  Sequence sequence =
+      ReadUnpacked(with_poses ? format->read : format->read_images, folder, on_finding);
   sequence.has_poses = with_poses;
   sequence.format = format->name;
   sequence.folder = folder;

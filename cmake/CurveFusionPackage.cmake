@@ -10,6 +10,7 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME curvefusion)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "ffmpeg, gnuplot-nox")
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
     "curve skeletons of wire objects from RGB-D scans\n\
  Turns a scan with a handheld depth camera into the network of curves that wires\n\

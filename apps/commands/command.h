@@ -16,6 +16,7 @@ void AddReconstructCommand(CLI::App& app, int& exit_code);
 void AddLiveCommand(CLI::App& app, int& exit_code);
 void AddTrackCommand(CLI::App& app, int& exit_code);
 void AddCheckCommand(CLI::App& app, int& exit_code);
+void AddUnpackCommand(CLI::App& app, int& exit_code);
 void AddContractCommand(CLI::App& app, int& exit_code);
 void AddGraphCommand(CLI::App& app, int& exit_code);
 void AddMeshCommand(CLI::App& app, int& exit_code);

@@ -77,7 +77,7 @@ Sequence ReadColmapImages(const std::filesystem::path& folder, const FindingHand
 bool LooksLikeStrayScanner(const std::filesystem::path& folder);
 
 /// depth/ in millimetres, poses of odometry.csv, the camera of camera_matrix.csv, and the images of
-/// rgb.mp4 unpacked into rgb/ (or color/, ...); where they are not, the error tells the command.
+/// rgb.mp4 unpacked into rgb/ (or color/, ...).
 Sequence ReadStrayScanner(const std::filesystem::path& folder, const FindingHandler& on_finding);
 Sequence ReadStrayScannerImages(const std::filesystem::path& folder,
                                 const FindingHandler& on_finding);

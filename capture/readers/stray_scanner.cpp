@@ -24,19 +24,6 @@ constexpr double kMillimetreUnits = 1000;
 
 [[noreturn]] void Fail(const std::string& message) { throw Error(ErrorKind::kBadInput, message); }
 
-// The images of the video, which have to be unpacked: the reconstruction looks at colour images in
-// any order and several times, which no video allows.
-NumberedImages UnpackedImages(const fs::path& folder) {
-  const fs::path color = ColorFolder(folder);
-  if (fs::is_directory(color)) return ImagesByFrameNumber(color);
-  const std::string name = folder.string();
-  Fail(fmt::format(
-      "{0}/rgb.mp4: colour images are read one by one, not from a video; unpack it once: "
-      "mkdir '{0}/rgb' && ffmpeg -i '{0}/rgb.mp4' -fps_mode passthrough -start_number 0 -q:v 2 "
-      "'{0}/rgb/%06d.jpg'",
-      name));
-}
-
 double NumberAt(const TextLine& line, size_t column, const fs::path& path) {
   const auto number =
       column < line.fields.size() ? ParseNumber(line.fields[column]) : std::optional<double>();
@@ -93,7 +80,7 @@ void UseOdometry(const std::map<long long, StampedPose>& poses, Sequence& sequen
 }
 
 Sequence ReadWith(const fs::path& folder, bool with_poses, const FindingHandler& on_finding) {
-  const NumberedImages color = UnpackedImages(folder);
+  const NumberedImages color = ImagesByFrameNumber(ColorFolder(folder));
   const NumberedImages depth = ImagesByFrameNumber(folder / "depth");
   if (color.empty() || depth.empty()) Fail(folder.string() + ": holds no colour or depth images");
   Sequence sequence;

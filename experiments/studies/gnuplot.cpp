@@ -1,17 +1,12 @@
 #include "experiments/studies/gnuplot.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <fstream>
-#include <iterator>
+#include <string>
 
 #include "kernel/atomic_file.h"
+#include "kernel/child_program.h"
 #include "kernel/error.h"
-#include "kernel/partial_folder.h"
 
 namespace curvefusion {
 
@@ -22,30 +17,6 @@ namespace {
 constexpr int kPngDpi = 200;
 constexpr double kLineDpi = 72;  // what gnuplot's line widths and point sizes are made for
 constexpr double kFontDpi = 96;  // and its font sizes in pixels
-
-// Runs gnuplot in `folder`, its messages in folder/log. False where it cannot be run or fails.
-bool RunGnuplot(const fs::path& folder, const std::string& argument, const std::string& log) {
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, log.c_str(),
-                                   O_WRONLY | O_CREAT | O_TRUNC, 0666);
-  posix_spawn_file_actions_adddup2(&actions, STDERR_FILENO, STDOUT_FILENO);
-  std::string program = "gnuplot";
-  std::string copy = argument;
-  char* arguments[] = {program.data(), copy.data(), nullptr};
-  pid_t child = 0;
-  const int failure = posix_spawnp(&child, program.c_str(), &actions, nullptr, arguments, environ);
-  posix_spawn_file_actions_destroy(&actions);
-  int status = 0;
-  if (failure != 0 || waitpid(child, &status, 0) != child) return false;
-  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
-}
-
-std::string TextOf(const fs::path& path) {
-  std::ifstream stream(path);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 // One set of commands, drawn into a PNG and a PDF of the same look.
 std::string Script(const std::string& name, const Plot& plot) {
@@ -82,8 +53,7 @@ unset output
 }  // namespace
 
 void RequireGnuplot() {
-  const PartialFolder folder(fs::temp_directory_path() / "curvefusion_gnuplot");
-  if (RunGnuplot(folder.path(), "--version", "log")) return;
+  if (RunProgram("gnuplot", {"--version"}, ".").succeeded) return;
   throw Error(
       ErrorKind::kResource,
       "gnuplot draws the figures and cannot be run; on Debian: apt-get install gnuplot-nox");
@@ -92,13 +62,10 @@ void RequireGnuplot() {
 void DrawPlot(const fs::path& folder, const std::string& name, const Plot& plot) {
   WriteBytesAtomically(folder / (name + ".dat"), plot.data);
   WriteBytesAtomically(folder / (name + ".gp"), Script(name, plot));
-  const std::string log = name + ".log";
-  const bool drawn = RunGnuplot(folder, name + ".gp", log);
-  const std::string message = TextOf(folder / log);
-  fs::remove(folder / log);
-  if (drawn) return;
+  const ProgramResult drawn = RunProgram("gnuplot", {name + ".gp"}, folder);
+  if (drawn.succeeded) return;
   throw Error(ErrorKind::kResource,
-              (folder / (name + ".gp")).string() + ": gnuplot failed: " + message);
+              (folder / (name + ".gp")).string() + ": gnuplot failed: " + drawn.messages);
 }
 
 void DrawPictureGrid(const fs::path& folder, const std::string& name, const PictureGrid& grid) {
