@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "capture/image_file.h"
+#include "capture/link_file.h"
 #include "capture/png.h"
 #include "capture/readers/frame_assembly.h"
 #include "kernel/atomic_file.h"
@@ -152,7 +153,7 @@ double WriteTrustedDepth(const fs::path& scan, const fs::path& folder, const Pro
     const fs::path copy = folder / kDepth / file.filename();
     const auto found = confidence.find(number);
     if (found == confidence.end()) {
-      fs::create_symlink(fs::canonical(file), copy);
+      LinkFile(file, copy);
     } else {
       WriteTrusted(file, found->second, copy, measured, left_out);
     }
@@ -167,7 +168,7 @@ void LinkTheRest(const fs::path& scan, const fs::path& folder,
     const fs::path name = entry.path().filename();
     const bool is_video = std::find(videos.begin(), videos.end(), entry.path()) != videos.end();
     if (is_video || name == kConfidence || fs::exists(folder / name)) continue;
-    fs::create_symlink(fs::canonical(entry.path()), folder / name);
+    LinkFile(entry.path(), folder / name);
   }
 }
 

@@ -9,10 +9,10 @@
 
 #include "capture/camera_json.h"
 #include "capture/image_file.h"
+#include "capture/link_file.h"
 #include "capture/png.h"
 #include "capture/trajectory.h"
 #include "kernel/atomic_file.h"
-#include "kernel/error.h"
 #include "kernel/json_input.h"
 #include "kernel/parallel.h"
 #include "kernel/text_input.h"
@@ -24,17 +24,8 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-void Link(const fs::path& image, const fs::path& link) {
-  std::error_code error;
-  fs::create_symlink(fs::canonical(image), link, error);
-  if (error) fs::create_hard_link(image, link, error);
-  if (!error) return;
-  throw Error(ErrorKind::kResource, fmt::format("{}: cannot link to {}: {}", link.string(),
-                                                image.string(), error.message()));
-}
-
 void WriteDepth(const SequenceFrame& frame, bool swap_bytes, const fs::path& copy) {
-  if (frame.depth_part.IsWholeFile() && !swap_bytes) return Link(frame.depth_path, copy);
+  if (frame.depth_part.IsWholeFile() && !swap_bytes) return LinkFile(frame.depth_path, copy);
   Image<uint16_t> depth = DecodeDepthImage(frame.depth_path, frame.depth_part);
   for (size_t i = 0; swap_bytes && i < depth.size(); ++i) {
     const uint16_t value = depth.data()[i];
@@ -44,7 +35,7 @@ void WriteDepth(const SequenceFrame& frame, bool swap_bytes, const fs::path& cop
 }
 
 void WriteColor(const SequenceFrame& frame, const fs::path& copy) {
-  if (frame.color_part.IsWholeFile()) return Link(frame.color_path, copy);
+  if (frame.color_part.IsWholeFile()) return LinkFile(frame.color_path, copy);
   if (!IsRaw(frame.color_part.coding)) {
     return WriteBytesAtomically(copy, ReadImageBytes(frame.color_path, frame.color_part));
   }

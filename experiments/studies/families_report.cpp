@@ -17,6 +17,7 @@ namespace fs = std::filesystem;
 constexpr size_t kWorst = 6;
 constexpr const char* kMainFigure = "aligned.curves.2mm.f";
 constexpr const char* kFalseLength = "aligned.curves.false_length";
+constexpr const char* kDoubted = "doubted";
 
 struct FamilyColumn {
   std::string heading;
@@ -91,7 +92,7 @@ std::vector<StudyRun> WorstRuns(std::vector<StudyRun> runs) {
 
 Table WorstTable(const std::vector<StudyRun>& worst) {
   Table table{{"family", "seed", "contrast", "sensor", "profile", "F2", "F5", "length (m)",
-               "true length (m)", "false length (m)"},
+               "true length (m)", "false length (m)", "doubted"},
               {},
               5};
   for (const StudyRun& run : worst) {
@@ -102,7 +103,8 @@ Table WorstTable(const std::vector<StudyRun>& worst) {
                           fmt::format("{:.2f}", FigureOf(run, "aligned.curves.5mm.f")),
                           fmt::format("{:.2f}", FigureOf(run, "length")),
                           fmt::format("{:.2f}", FigureOf(run, "true_length")),
-                          fmt::format("{:.2f}", FigureOf(run, kFalseLength))});
+                          fmt::format("{:.2f}", FigureOf(run, kFalseLength)),
+                          FigureOf(run, kDoubted) > 0 ? "yes" : "no"});
   }
   return table;
 }
@@ -191,6 +193,33 @@ std::optional<Summary> SummaryOf(std::vector<double> values, bool more_is_better
   return summary;
 }
 
+Table TrustTable(const std::vector<StudyRun>& runs) {
+  struct Class {
+    const char* name;
+    const char* figure;
+    double least, most;
+  };
+  static constexpr Class kClasses[] = {
+      {"F5 .95 and more", "aligned.curves.5mm.f", 0.95, 2},
+      {"F5 .8 to .95", "aligned.curves.5mm.f", 0.8, 0.95},
+      {"F5 .5 to .8", "aligned.curves.5mm.f", 0.5, 0.8},
+      {"F5 below .5", "aligned.curves.5mm.f", 0, 0.5},
+      {"a tenth of the curves or more false", "aligned.curves.5mm.precision", 0, 0.9}};
+  Table table{{"results", "runs", "said not to be trusted"}, {}};
+  for (const Class& of : kClasses) {
+    int count = 0, doubted = 0;
+    for (const StudyRun& run : runs) {
+      const auto figure = run.figures.find(of.figure);
+      if (figure == run.figures.end() || !run.figures.contains(kDoubted)) continue;
+      if (figure->second < of.least || figure->second >= of.most) continue;
+      ++count;
+      doubted += FigureOf(run, kDoubted) > 0;
+    }
+    table.rows.push_back({of.name, std::to_string(count), std::to_string(doubted)});
+  }
+  return table;
+}
+
 void ReportFamilies(const StudyResults& results) {
   const std::vector<StudyRun> wires = WithWires(results.runs);
   const auto write = [&](const std::vector<StudyRun>& runs, const std::vector<std::string>& labels,
@@ -203,6 +232,7 @@ void ReportFamilies(const StudyResults& results) {
   write(wires, {"profile"}, "_all");
   const std::vector<StudyRun> worst = WorstRuns(wires);
   WriteTable(results.folder, results.stem + "_worst", WorstTable(worst));
+  WriteTable(results.folder, results.stem + "_trust", TrustTable(wires));
   DrawWorst(results, worst);
   const std::vector<RunGroup> profiles = GroupRuns(results.runs, {"profile"});
   std::vector<std::string> families;

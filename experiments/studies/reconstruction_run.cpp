@@ -9,6 +9,7 @@
 #include "capture/sequence.h"
 #include "experiments/metrics/evaluation_files.h"
 #include "experiments/metrics/truth.h"
+#include "fusion/trust.h"
 #include "graph/io/graph_io.h"
 #include "kernel/atomic_file.h"
 #include "kernel/peak_memory.h"
@@ -105,6 +106,7 @@ RunOutcome ReconstructAndEvaluateBy(const ReconstructionMethod& method, const Co
   AddCost(cost, sequence.frame_count(), outcome.figures);
   AddContractionCost(result.stages, cost, sequence.frame_count(), outcome.figures);
   outcome.figures["global_diameter_mm"] = 2 * result.radii.global_radius / kMillimetre;
+  if (result.trust.is_judged()) outcome.figures["doubted"] = Doubts(result.trust).empty() ? 0 : 1;
   return outcome;
 }
 

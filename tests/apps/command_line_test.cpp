@@ -20,6 +20,15 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
+TEST_F(CommandLine, UnpackSaysWhatItLacksAndWritesNothingIntoTheScan) {
+  std::filesystem::create_directories(folder_ / "scan" / "rgb");
+  const Outcome nothing = Run("unpack scan -o images");
+  EXPECT_EQ(nothing.exit_code, 3);
+  EXPECT_THAT(nothing.output, testing::HasSubstr("nothing to unpack"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "images"));
+  EXPECT_EQ(Run("unpack scan -o scan/images").exit_code, 2);
+}
+
 TEST_F(CommandLine, HelpAndVersionAreDone) {
   EXPECT_EQ(Run("--help").exit_code, 0);
   EXPECT_EQ(Run("--version").exit_code, 0);

@@ -27,6 +27,27 @@ TEST(SummaryOf, GivesMedianMeanAndTheWorstTenth) {
   EXPECT_FALSE(SummaryOf({}, true));
 }
 
+TEST(TrustTable, CountsWhatIsDoubtedByHowGoodItIs) {
+  const auto result = [](double f5, double precision, std::optional<bool> doubted) {
+    StudyRun run;
+    run.figures["aligned.curves.5mm.f"] = f5;
+    run.figures["aligned.curves.5mm.precision"] = precision;
+    if (doubted) run.figures["doubted"] = *doubted ? 1 : 0;
+    return run;
+  };
+  const std::vector<StudyRun> runs = {result(1, 1, false),      result(0.95, 1, true),
+                                      result(0.9, 0.95, false), result(0, 0, true),
+                                      result(0.3, 0.9, true),   result(0.4, 0.5, {})};
+  const std::vector<std::vector<std::string>> rows = TrustTable(runs).rows;
+  ASSERT_EQ(rows.size(), 5u);
+  const auto counts = [&](size_t row) { return rows[row][1] + " " + rows[row][2]; };
+  EXPECT_EQ(counts(0), "2 1");
+  EXPECT_EQ(counts(1), "1 0");
+  EXPECT_EQ(counts(2), "0 0");
+  EXPECT_EQ(counts(3), "2 2");
+  EXPECT_EQ(counts(4), "1 1");  // what is false
+}
+
 TEST(FamiliesStudy, HasEveryFamilyInEverySplitOnOtherSeeds) {
   std::set<uint64_t> scans;
   for (const Split split : {Split::kTrain, Split::kValidation, Split::kTest}) {
