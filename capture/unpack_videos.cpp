@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
@@ -28,7 +27,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* kDepth = "depth";
 constexpr const char* kConfidence = "confidence";
-constexpr std::array<std::string_view, 5> kColors = {"rgb", "color", "colour", "image", "images"};
 constexpr std::array<std::string_view, 4> kExtensions = {".mp4", ".mov", ".mkv", ".avi"};
 constexpr std::array<std::string_view, 3> kLossless = {"ffv1", "png", "rawvideo"};
 
@@ -117,9 +115,15 @@ int UnpackVideo(const fs::path& video, const Stream& stream, const fs::path& fol
                           result.messages));
 }
 
-// Copies depth without what has no confidence. Counts what was measured and what was left out.
-void WriteTrusted(const fs::path& depth_file, const fs::path& confidence_file, const fs::path& copy,
-                  std::atomic<int64_t>& measured, std::atomic<int64_t>& left_out) {
+// Pixels of a depth image.
+struct TrustedPixels {
+  int64_t measured = 0;
+  int64_t left_out = 0;  // of those, for their confidence
+};
+
+// Copies depth without what has no confidence.
+TrustedPixels WriteTrusted(const fs::path& depth_file, const fs::path& confidence_file,
+                           const fs::path& copy) {
   Image<uint16_t> depth = DecodeDepthImage(depth_file);
   const ColorImage confidence = DecodeColorImage(confidence_file);
   if (confidence.width() != depth.width() || confidence.height() != depth.height()) {
@@ -128,14 +132,16 @@ void WriteTrusted(const fs::path& depth_file, const fs::path& confidence_file, c
                             confidence_file.string(), confidence.width(), confidence.height(),
                             depth_file.string(), depth.width(), depth.height()));
   }
+  TrustedPixels pixels;
   for (size_t i = 0; i < depth.size(); ++i) {
     if (depth.data()[i] == 0) continue;
-    ++measured;
+    ++pixels.measured;
     if (confidence.data()[i][0] != 0) continue;
     depth.data()[i] = 0;
-    ++left_out;
+    ++pixels.left_out;
   }
   WriteBytesAtomically(copy, EncodePng(depth));
+  return pixels;
 }
 
 // Returns the share of the measured depth that was left out.
@@ -144,8 +150,7 @@ double WriteTrustedDepth(const fs::path& scan, const fs::path& folder, const Pro
   const NumberedImages confidence = ImagesByFrameNumber(scan / kConfidence);
   const std::vector<std::pair<long long, fs::path>> images(depth.begin(), depth.end());
   fs::create_directory(folder / kDepth);
-  std::atomic<int64_t> measured = 0;
-  std::atomic<int64_t> left_out = 0;
+  std::vector<TrustedPixels> pixels(images.size());
   const auto total = static_cast<int64_t>(images.size());
   progress("leaving out uncertain depth", 0, total);
   ParallelFor(0, total, 1, [&](int64_t i) {
@@ -155,11 +160,17 @@ double WriteTrustedDepth(const fs::path& scan, const fs::path& folder, const Pro
     if (found == confidence.end()) {
       LinkFile(file, copy);
     } else {
-      WriteTrusted(file, found->second, copy, measured, left_out);
+      pixels[static_cast<size_t>(i)] = WriteTrusted(file, found->second, copy);
     }
   });
   progress("leaving out uncertain depth", total, total);
-  return measured > 0 ? static_cast<double>(left_out) / static_cast<double>(measured) : 0;
+  TrustedPixels sum;
+  for (const TrustedPixels& of_image : pixels) {
+    sum.measured += of_image.measured;
+    sum.left_out += of_image.left_out;
+  }
+  return sum.measured > 0 ? static_cast<double>(sum.left_out) / static_cast<double>(sum.measured)
+                          : 0;
 }
 
 void LinkTheRest(const fs::path& scan, const fs::path& folder,
@@ -191,7 +202,7 @@ std::vector<fs::path> VideosOf(const fs::path& scan) {
   for (const auto& entry : fs::directory_iterator(scan)) {
     const fs::path& path = entry.path();
     const bool is_video = IsOneOf(kExtensions, LowerCaseExtension(path)) &&
-                          (IsDepth(path) || IsOneOf(kColors, path.stem().string()));
+                          (IsDepth(path) || IsOneOf(kColorFolders, path.stem().string()));
     const fs::path images = IsDepth(path) ? scan / kDepth : ColorFolder(scan);
     if (is_video && !fs::is_directory(images)) videos.push_back(path);
   }

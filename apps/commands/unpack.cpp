@@ -33,8 +33,7 @@ int RunUnpack(const UnpackArguments& arguments) {
     fmt::print("confidence   {:.1f} % of the measured depth left out\n",
                100 * unpacked.untrusted_share);
   }
-  fmt::print("wrote {0}; look at it with: curvefusion check {0}\n",
-             arguments.output.string());
+  fmt::print("wrote {0}; look at it with: curvefusion check {0}\n", arguments.output.string());
   return 0;
 }
 

@@ -112,10 +112,10 @@ NumberedImages ImagesByFrameNumber(const std::filesystem::path& folder, const st
 }
 
 std::filesystem::path ColorFolder(const std::filesystem::path& folder) {
-  for (const char* name : {"color", "colour", "rgb", "image", "images"}) {
+  for (const std::string_view name : kColorFolders) {
     if (std::filesystem::is_directory(folder / name)) return folder / name;
   }
-  return folder / "color";
+  return folder / kColorFolders.front();
 }
 
 void UseIntrinsics(const Intrinsics& intrinsics, double default_depth_scale, Sequence& sequence) {

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <functional>
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "capture/intrinsics.h"
 #include "capture/sequence.h"
@@ -21,8 +23,11 @@ using NumberedImages = std::map<long long, std::filesystem::path>;
 NumberedImages ImagesByFrameNumber(const std::filesystem::path& folder,
                                    const std::string& kind = "");
 
-/// The folder of colour images beside depth/: the first of color, colour, rgb, image, images that
-/// is there; color where none is.
+/// What the folder of colour images beside depth/ may be called.
+inline constexpr std::array<std::string_view, 5> kColorFolders = {"color", "colour", "rgb", "image",
+                                                                  "images"};
+
+/// The first of kColorFolders that is there; color where none is.
 std::filesystem::path ColorFolder(const std::filesystem::path& folder);
 
 /// Sets cameras and depth scale of a sequence; the scale is `default_depth_scale` where the
