@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -25,8 +24,8 @@ class DotPattern {
   /// dots, those of repeated tiles included.
   template <class Gain>
   double Light(double u, double v, const Gain& gain) const {
-    const int column = static_cast<int>(std::floor(u + 0.5));
-    const int row = static_cast<int>(std::floor(v + 0.5));
+    const int column = Floor(u + 0.5);
+    const int row = Floor(v + 0.5);
     const int tile_column = FloorDivide(column, kWidth);
     const int tile_row = FloorDivide(row, kHeight);
     const Cell& cell = cells_[(row - tile_row * kHeight) * kWidth + column - tile_column * kWidth];
@@ -59,6 +58,11 @@ class DotPattern {
     std::array<uint16_t, 4> dot{};
   };
 
+  // std::floor without its call.
+  static int Floor(double value) {
+    const int whole = static_cast<int>(value);
+    return value < whole ? whole - 1 : whole;
+  }
   static int FloorDivide(int a, int b) { return a >= 0 ? a / b : -((b - 1 - a) / b); }
   void ThrowDots(uint64_t seed);
   void FillCells();

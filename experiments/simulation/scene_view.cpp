@@ -17,51 +17,77 @@ SceneView::SceneView(const Scene& scene, const PinholeCamera& camera,
       camera_(camera),
       T_first_world_(T_world_first.inverse()),
       T_last_world_(T_world_last.inverse()),
+      first_plane_(static_cast<int>(scene.capsules.size())),
+      first_box_(first_plane_ + static_cast<int>(scene.planes.size())),
       columns_((camera.width + kTile - 1) / kTile) {
   const int row_count = (camera.height + kTile - 1) / kTile;
   const Eigen::Quaterniond first(T_world_first.rotation());
   const Eigen::Quaterniond last(T_world_last.rotation());
   for (int row = 0; row < row_count; ++row) {
     const double share = (row + 0.5) / row_count;
-    rows_.push_back({(1 - share) * T_world_first.translation() + share * T_world_last.translation(),
-                     first.slerp(share, last).toRotationMatrix()});
+    RowPose pose;
+    pose.center = (1 - share) * T_world_first.translation() + share * T_world_last.translation();
+    pose.rotation = first.slerp(share, last).toRotationMatrix();
+    pose.corner = pose.rotation * Vec3(-camera.cx / camera.fx, -camera.cy / camera.fy, 1);
+    pose.right = pose.rotation.col(0) / camera.fx;
+    pose.down = pose.rotation.col(1) / camera.fy;
+    rows_.push_back(pose);
   }
   FillTiles();
 }
 
-// Tiles that balls of `radius` about the points, and all between them, can touch.
-SceneView::TileRect SceneView::RectAround(const std::vector<Vec3>& points, double radius) const {
-  Eigen::AlignedBox2d pixels;
-  for (const RigidTransform& T_camera_world : {T_first_world_, T_last_world_}) {
-    for (const Vec3& p_world : points) {
-      const Vec3 p = T_camera_world * p_world;
-      if (p.z() < kNearest + radius) {
-        return {0, columns_ - 1, 0, static_cast<int>(rows_.size()) - 1};
-      }
-      const Vec2 pixel = camera_.Project(p);
-      // A ball off the axis is seen as an ellipse; a fifth more covers it up to 60 degrees.
-      const double margin = 1.2 * camera_.fx * radius / (p.z() - radius) + 1;
-      pixels.extend(Vec2(pixel - Vec2::Constant(margin)));
-      pixels.extend(Vec2(pixel + Vec2::Constant(margin)));
-    }
-  }
-  if (pixels.max().x() < -0.5 || pixels.max().y() < -0.5 || pixels.min().x() > camera_.width ||
-      pixels.min().y() > camera_.height) {
-    return {};
-  }
-  return {TileColumn(pixels.min().x()), TileColumn(pixels.max().x()), TileRow(pixels.min().y()),
-          TileRow(pixels.max().y())};
+// Pixels from its centre to which a ball is seen. Off the axis it is seen as an ellipse; a fifth
+// more covers it up to 60 degrees.
+double SceneView::SeenMargin(double depth, double radius) const {
+  return 1.2 * camera_.fx * radius / (depth - radius) + 1;
 }
 
-// Of capsules and boxes; planes have none.
-std::vector<SceneView::TileRect> SceneView::PrimitiveRects() const {
-  std::vector<TileRect> rects;
-  for (const SceneCapsule& capsule : scene_.capsules) {
-    rects.push_back(RectAround({capsule.start, capsule.end}, capsule.radius));
+// Rows of tiles that may show something of it.
+SceneView::TileRange SceneView::RowsAround(const RoundedHull& hull) const {
+  double top = kNoHit;
+  double bottom = -kNoHit;
+  for (const RigidTransform& T_camera_world : {T_first_world_, T_last_world_}) {
+    for (const Vec3& p_world : hull.points) {
+      const Vec3 p = T_camera_world * p_world;
+      if (p.z() < kNearest + hull.radius) return {0, static_cast<int>(rows_.size()) - 1};
+      const double margin = SeenMargin(p.z(), hull.radius);
+      const double center = camera_.Project(p).y();
+      top = std::min(top, center - margin);
+      bottom = std::max(bottom, center + margin);
+    }
   }
-  rects.resize(rects.size() + scene_.planes.size());
-  for (const SceneBox& box : scene_.boxes) rects.push_back(RectAround(Corners(box), 0));
-  return rects;
+  if (bottom < -0.5 || top > camera_.height) return {};
+  return {TileRow(top), TileRow(bottom)};
+}
+
+// Columns of tiles that may show something of it in one row of tiles: a wire across the image
+// crosses few of the tiles in the rectangle around it.
+SceneView::TileRange SceneView::ColumnsAround(const RoundedHull& hull, int row) const {
+  std::vector<Vec2> pixels;
+  double margin = 0;
+  for (const Vec3& p_world : hull.points) {
+    const Vec3 p = rows_[row].rotation.transpose() * (p_world - rows_[row].center);
+    if (p.z() < kNearest + hull.radius) return {0, columns_ - 1};
+    pixels.push_back(camera_.Project(p));
+    margin = std::max(margin, SeenMargin(p.z(), hull.radius));
+  }
+  const double top = row * kTile - 0.5 - margin;
+  const double bottom = (row + 1) * kTile - 0.5 + margin;
+  double left = kNoHit;
+  double right = -kNoHit;
+  for (const Vec2& upper : pixels) {
+    for (const Vec2& lower : pixels) {
+      if (upper.y() > lower.y() || lower.y() < top || upper.y() > bottom) continue;
+      const double slope = (lower.x() - upper.x()) / (lower.y() - upper.y());
+      const double enters = upper.y() < top ? upper.x() + (top - upper.y()) * slope : upper.x();
+      const double leaves =
+          lower.y() > bottom ? upper.x() + (bottom - upper.y()) * slope : lower.x();
+      left = std::min({left, enters - margin, leaves - margin});
+      right = std::max({right, enters + margin, leaves + margin});
+    }
+  }
+  if (right < -0.5 || left > camera_.width) return {};
+  return {TileColumn(left), TileColumn(right)};
 }
 
 int SceneView::NearestPlane(double u, double v) const {
@@ -76,101 +102,146 @@ int SceneView::NearestPlane(double u, double v) const {
   return nearest;
 }
 
-// The planes bound a convex room, so a plane that all four corners of a tile see fills the tile.
-std::vector<int> SceneView::VisiblePlanes(int column, int row) const {
+// The plane that alone is seen behind a square of tiles, -1 if there are several: they bound a
+// convex room, so a plane that all four corners see fills the square.
+int SceneView::PlaneBehind(int column, int row, int tiles) const {
   const double left = column * kTile - 0.5;
   const double top = row * kTile - 0.499;
-  const double size = kTile - 0.002;
+  const double size = tiles * kTile - 0.002;
   const int first = NearestPlane(left, top);
   const bool alone = first >= 0 && first == NearestPlane(left + size, top) &&
                      first == NearestPlane(left, top + size) &&
                      first == NearestPlane(left + size, top + size);
-  const int capsules = static_cast<int>(scene_.capsules.size());
-  if (alone) return {capsules + first};
-  std::vector<int> planes;
-  for (size_t i = 0; i < scene_.planes.size(); ++i)
-    planes.push_back(capsules + static_cast<int>(i));
-  return planes;
+  return alone ? first : -1;
+}
+
+// Of every tile; most are told by the square of 8x8 that they belong to.
+std::vector<int> SceneView::PlanesBehind() const {
+  constexpr int kSquare = 8;
+  const int rows = static_cast<int>(rows_.size());
+  std::vector<int> behind(static_cast<size_t>(columns_) * rows);
+  for (int top = 0; top < rows; top += kSquare) {
+    for (int left = 0; left < columns_; left += kSquare) {
+      const int all = PlaneBehind(left, top, kSquare);
+      for (int row = top; row < std::min(top + kSquare, rows); ++row) {
+        for (int column = left; column < std::min(left + kSquare, columns_); ++column) {
+          behind[row * columns_ + column] = all >= 0 ? all : PlaneBehind(column, row, 1);
+        }
+      }
+    }
+  }
+  return behind;
+}
+
+// Whether a tile shows one face of a convex box and nothing else: all its corners do.
+bool SceneView::IsFilledBy(const SceneBox& box, int tile) const {
+  if (box.wall > 0) return false;
+  constexpr double kSameFace = 0.99;  // cosine between normals; of round ones they turn slowly
+  const double left = tile % columns_ * kTile - 0.5;
+  const double top = tile / columns_ * kTile - 0.499;
+  const double size = kTile - 0.002;
+  Vec3 face;
+  for (int corner = 0; corner < 4; ++corner) {
+    const SceneRay ray = RayThrough(left + corner % 2 * size, top + corner / 2 * size);
+    const double depth = HitBox(box, ray.center, ray.direction);
+    if (!(depth > kNearest && depth < kNoHit)) return false;
+    const Vec3 normal = BoxNormal(box, ray.At(depth));
+    if (corner == 0) face = normal;
+    if (face.dot(normal) < kSameFace) return false;
+  }
+  return true;
 }
 
 void SceneView::FillTiles() {
   const int tiles = columns_ * static_cast<int>(rows_.size());
   std::vector<std::vector<Candidate>> seen(tiles);
-  const std::vector<TileRect> rects = PrimitiveRects();
-  for (size_t i = 0; i < rects.size(); ++i) {
-    const bool is_capsule = i < scene_.capsules.size();
-    for (int row = rects[i].first_row; row <= rects[i].last_row; ++row) {
-      Candidate candidate{static_cast<int>(i)};
-      if (is_capsule) {
+  const auto bin = [&](int primitive, const RoundedHull& hull, const SceneCapsule* capsule) {
+    const TileRange rows = RowsAround(hull);
+    for (int row = rows.first; row <= rows.last; ++row) {
+      const TileRange columns = ColumnsAround(hull, row);
+      if (columns.first > columns.last) continue;
+      Candidate candidate{primitive};
+      if (capsule != nullptr) {
         candidate.capsule = static_cast<int>(capsules_.size());
-        capsules_.emplace_back(scene_.capsules[i], rows_[row].center);
+        capsules_.emplace_back(*capsule, rows_[row].center);
       }
-      for (int column = rects[i].first_column; column <= rects[i].last_column; ++column) {
+      for (int column = columns.first; column <= columns.last; ++column) {
         seen[row * columns_ + column].push_back(candidate);
       }
     }
+  };
+  int primitive = 0;
+  for (const SceneCapsule& capsule : scene_.capsules) {
+    bin(primitive++, {{capsule.start, capsule.end}, capsule.radius}, &capsule);
   }
+  primitive += static_cast<int>(scene_.planes.size());
+  for (const SceneBox& box : scene_.boxes) bin(primitive++, {Corners(box), 0}, nullptr);
+  const std::vector<int> behind = PlanesBehind();
   tile_begin_.push_back(0);
   for (int tile = 0; tile < tiles; ++tile) {
-    for (const int plane : VisiblePlanes(tile % columns_, tile / columns_)) {
-      candidates_.push_back({plane});
+    const int nearest = seen[tile].size() == 1 ? seen[tile][0].primitive : -1;
+    if (nearest >= first_box_ && IsFilledBy(scene_.boxes[nearest - first_box_], tile)) {
+      candidates_.push_back({nearest});
+      tile_begin_.push_back(static_cast<int>(candidates_.size()));
+      continue;
+    }
+    const int alone = behind[tile];
+    for (int plane = 0; plane < static_cast<int>(scene_.planes.size()); ++plane) {
+      if (alone < 0 || plane == alone) candidates_.push_back({first_plane_ + plane});
     }
     candidates_.insert(candidates_.end(), seen[tile].begin(), seen[tile].end());
     tile_begin_.push_back(static_cast<int>(candidates_.size()));
   }
 }
 
-double SceneView::HitDepth(const Candidate& candidate, const SceneRay& ray) const {
-  if (candidate.capsule >= 0) return HitCapsule(capsules_[candidate.capsule], ray.direction);
-  const size_t plane = candidate.primitive - scene_.capsules.size();
-  if (plane < scene_.planes.size())
-    return HitPlane(scene_.planes[plane], ray.center, ray.direction);
-  return HitBox(scene_.boxes[plane - scene_.planes.size()], ray.center, ray.direction);
+// Calls `found` with what the ray crosses, in no order, until it returns true.
+template <class Found>
+void SceneView::ForEachHit(const SceneRay& ray, const Found& found) const {
+  const Candidate* end = candidates_.data() + tile_begin_[ray.tile + 1];
+  for (const Candidate* it = candidates_.data() + tile_begin_[ray.tile]; it != end; ++it) {
+    const int primitive = it->primitive;
+    const double depth =
+        primitive < first_plane_ ? HitCapsule(capsules_[it->capsule], ray.direction)
+        : primitive < first_box_
+            ? HitPlane(scene_.planes[primitive - first_plane_], ray.center, ray.direction)
+            : HitBox(scene_.boxes[primitive - first_box_], ray.center, ray.direction);
+    if (depth > kNearest && depth < kNoHit && found(RayHit{primitive, depth})) return;
+  }
 }
 
 RayHit SceneView::Trace(const SceneRay& ray) const {
-  RayHit hit{-1, kNoHit};
-  for (int k = tile_begin_[ray.tile]; k < tile_begin_[ray.tile + 1]; ++k) {
-    const double depth = HitDepth(candidates_[k], ray);
-    if (depth > kNearest && depth < hit.depth) hit = {candidates_[k].primitive, depth};
-  }
-  if (hit.primitive < 0) hit.depth = 0;
-  return hit;
+  RayHit nearest{-1, kNoHit};
+  ForEachHit(ray, [&](const RayHit& hit) {
+    if (hit.depth < nearest.depth) nearest = hit;
+    return false;
+  });
+  if (nearest.primitive < 0) nearest.depth = 0;
+  return nearest;
 }
 
 bool SceneView::IsHidden(double u, double v, double depth) const {
   if (u < -0.5 || v < -0.5 || u > camera_.width - 0.5 || v > camera_.height - 0.5) return false;
-  const SceneRay ray = RayThrough(u, v);
-  if (tile_begin_[ray.tile + 1] - tile_begin_[ray.tile] == 1) return false;
-  for (int k = tile_begin_[ray.tile]; k < tile_begin_[ray.tile + 1]; ++k) {
-    const double other = HitDepth(candidates_[k], ray);
-    if (other > kNearest && other < depth - kHiddenBy) return true;
-  }
-  return false;
+  const int tile = TileAt(u, v);
+  if (IsUniformTile(tile) && candidates_[tile_begin_[tile]].primitive < first_box_) return false;
+  bool hidden = false;
+  ForEachHit(RayThrough(u, v), [&](const RayHit& hit) {
+    hidden = hit.depth < depth - kHiddenBy;
+    return hidden;
+  });
+  return hidden;
 }
 
 Vec3 SceneView::Normal(int primitive, const Vec3& p_world) const {
-  const int capsules = static_cast<int>(scene_.capsules.size());
-  const int planes = static_cast<int>(scene_.planes.size());
-  if (primitive < capsules) {
-    return CapsuleNormal(scene_.capsules[primitive], p_world);
-  }
-  if (primitive < capsules + planes) return scene_.planes[primitive - capsules].normal;
-  return BoxNormal(scene_.boxes[primitive - capsules - planes], p_world);
+  if (primitive < first_plane_) return CapsuleNormal(scene_.capsules[primitive], p_world);
+  if (primitive < first_box_) return scene_.planes[primitive - first_plane_].normal;
+  return BoxNormal(scene_.boxes[primitive - first_box_], p_world);
 }
 
 int SceneView::Surface(int primitive) const {
-  const int capsules = static_cast<int>(scene_.capsules.size());
-  const int planes = static_cast<int>(scene_.planes.size());
   if (primitive < 0) return 0;
-  if (primitive < capsules) return scene_.capsules[primitive].material;
-  if (primitive < capsules + planes) return 1 + primitive - capsules;
-  return scene_.boxes[primitive - capsules - planes].material;
-}
-
-bool SceneView::IsUniform(int u, int v) const {
-  const int tile = TileRow(v) * columns_ + TileColumn(u);
-  return tile_begin_[tile + 1] - tile_begin_[tile] == 1;
+  if (primitive < first_plane_) return scene_.capsules[primitive].material;
+  if (primitive < first_box_) return 1 + primitive - first_plane_;
+  return scene_.boxes[primitive - first_box_].material;
 }
 
 }  // namespace curvefusion

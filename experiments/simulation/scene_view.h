@@ -25,7 +25,7 @@ struct SceneRay {
   Vec3 At(double depth) const { return center + depth * direction; }
 };
 
-/// A scene seen through one camera, with the primitives binned by tiles of 8x8 pixels. The camera
+/// A scene seen through one camera, with the primitives binned by small square tiles. The camera
 /// may move while its rows are read (a rolling shutter): every row of tiles has its own pose. Keeps
 /// a reference to the scene. Thread-safe for concurrent queries.
 class SceneView {
@@ -37,8 +37,9 @@ class SceneView {
   /// The ray through a pixel position; beyond the image, in the tile nearest to it.
   SceneRay RayThrough(double u, double v) const {
     const int row = TileRow(v);
-    const Vec3 in_camera((u - camera_.cx) / camera_.fx, (v - camera_.cy) / camera_.fy, 1);
-    return {rows_[row].center, rows_[row].rotation * in_camera, row * columns_ + TileColumn(u)};
+    const RowPose& pose = rows_[row];
+    return {pose.center, pose.corner + u * pose.right + v * pose.down,
+            row * columns_ + TileColumn(u)};
   }
 
   /// First hit of a ray, whose pixel position must lie in the image.
@@ -61,18 +62,26 @@ class SceneView {
   /// Index into Scene::materials of a primitive.
   int Surface(int primitive) const;
 
-  /// Whether the tile around a pixel can show one plane only, so that one ray tells all.
-  bool IsUniform(int u, int v) const;
+  /// Whether the tile around a pixel can show one plane or one face of a box only, so that one ray
+  /// tells all.
+  bool IsUniform(double u, double v) const { return IsUniformTile(TileAt(u, v)); }
 
  private:
-  static constexpr int kTile = 8;  // pixels
+  static constexpr int kTile = 2;  // pixels; measured: a fifth less time than with 4
 
-  struct TileRowPose {
+  // Of a row of tiles. The ray through (u, v) is corner + u right + v down.
+  struct RowPose {
     Vec3 center;
     Mat3 rotation;
+    Vec3 corner, right, down;
   };
-  struct TileRect {
-    int first_column = 0, last_column = -1, first_row = 0, last_row = -1;
+  struct TileRange {
+    int first = 0, last = -1;
+  };
+  // All balls of one radius whose centres lie in the convex hull of some points.
+  struct RoundedHull {
+    std::vector<Vec3> points;
+    double radius;
   };
   // What rays of a tile may hit.
   struct Candidate {
@@ -86,19 +95,27 @@ class SceneView {
   int TileRow(double v) const {
     return std::clamp(static_cast<int>(v + 0.5) / kTile, 0, static_cast<int>(rows_.size()) - 1);
   }
-  TileRect RectAround(const std::vector<Vec3>& points, double radius) const;
-  std::vector<TileRect> PrimitiveRects() const;
+  int TileAt(double u, double v) const { return TileRow(v) * columns_ + TileColumn(u); }
+  bool IsUniformTile(int tile) const { return tile_begin_[tile + 1] - tile_begin_[tile] == 1; }
+  double SeenMargin(double depth, double radius) const;
+  TileRange RowsAround(const RoundedHull& hull) const;
+  TileRange ColumnsAround(const RoundedHull& hull, int row) const;
   int NearestPlane(double u, double v) const;
-  std::vector<int> VisiblePlanes(int column, int row) const;
+  int PlaneBehind(int column, int row, int tiles) const;
+  std::vector<int> PlanesBehind() const;
+  bool IsFilledBy(const SceneBox& box, int tile) const;
   void FillTiles();
-  double HitDepth(const Candidate& candidate, const SceneRay& ray) const;
+  template <class Found>
+  void ForEachHit(const SceneRay& ray, const Found& found) const;
 
   const Scene& scene_;
   PinholeCamera camera_;
   RigidTransform T_first_world_;
   RigidTransform T_last_world_;
+  int first_plane_;  // of primitives
+  int first_box_;
   int columns_;
-  std::vector<TileRowPose> rows_;
+  std::vector<RowPose> rows_;
   std::vector<int> tile_begin_;  // of each tile in candidates_, and the end
   std::vector<Candidate> candidates_;
   std::vector<CapsuleSeen> capsules_;  // each from every row of tiles that it may be seen in

@@ -98,6 +98,12 @@ BlockMatcher::Pattern ReferencePattern(const DotPattern& pattern) {
   };
 }
 
+PinholeCamera ProjectorCamera(PinholeCamera camera) {
+  camera.width += kProjectorMargin;
+  camera.cx += kProjectorMargin;
+  return camera;
+}
+
 }  // namespace
 
 StructuredLightSensor::StructuredLightSensor(const StructuredLightOptions& options, uint64_t seed)
@@ -110,52 +116,101 @@ StructuredLightSensor::StructuredLightSensor(const StructuredLightOptions& optio
 
 DepthRange StructuredLightSensor::Range() const { return {kNearest, kFarthest}; }
 
-// Light that one ray brings to the camera.
-double StructuredLightSensor::Intensity(const Scene& scene, const SceneView& view,
-                                        const SceneView& projector, double u, double v,
-                                        uint64_t frame) const {
-  const SceneRay ray = view.RayThrough(u, v);
-  const RayHit hit = view.Trace(ray);
-  if (hit.primitive < 0) return 0;
-  const double u_projector = u - options_.camera.fx * options_.baseline / hit.depth;
-  const int surface = view.Surface(hit.primitive);
-  const double light = pattern_.Light(u_projector, v, [&](uint64_t dot) {
+// One exposure: the scene as the camera sees it and as the projector does, from poses of the same
+// moment.
+struct StructuredLightSensor::Moment {
+  Moment(const Scene& scene, const StructuredLightOptions& options, const Exposure& exposure)
+      : frame(exposure.frame),
+        camera(scene, options.camera, exposure.T_world_first, exposure.T_world_last),
+        projector(scene, ProjectorCamera(options.camera),
+                  exposure.T_world_first * Eigen::Translation3d(options.baseline, 0, 0),
+                  exposure.T_world_last * Eigen::Translation3d(options.baseline, 0, 0)) {}
+
+  bool IsShadowed(double u_projector, double v, double depth) const {
+    return projector.IsHidden(u_projector + kProjectorMargin, v, depth);
+  }
+
+  uint64_t frame;
+  SceneView camera;
+  SceneView projector;
+};
+
+// Of the projector's light on a surface.
+double StructuredLightSensor::Pattern(int surface, uint64_t frame, double u_projector,
+                                      double v) const {
+  return pattern_.Light(u_projector, v, [&](uint64_t dot) {
     const uint64_t bits = HashBits(dot * 64 + static_cast<uint64_t>(surface) + (frame << 40));
     return speckle_[bits % kSpeckleSamples];
   });
-  if (light == 0) return 0;
+}
+
+// What reaches the camera of a pattern's light of 1 where a ray hits.
+double StructuredLightSensor::Returned(const Scene& scene, const Moment& moment,
+                                       const SceneRay& ray, const RayHit& hit, double v) const {
   const Vec3 p = ray.At(hit.depth);
-  const Vec3 normal = view.Normal(hit.primitive, p);
-  const Vec3 to_light = projector.Center(v) - p;
+  const Vec3 normal = moment.camera.Normal(hit.primitive, p);
+  const Vec3 to_light = moment.projector.Center(v) - p;
   const double distance = to_light.norm();
   const double cosine = normal.dot(to_light) / distance;
-  if (cosine <= 0 || projector.IsHidden(u_projector + kProjectorMargin, v, hit.depth)) return 0;
-  const SurfaceMaterial& material = scene.materials[surface];
+  if (cosine <= 0) return 0;
+  const SurfaceMaterial& material = scene.materials[moment.camera.Surface(hit.primitive)];
   double reflected = material.infrared_albedo * (1 - material.shininess) * cosine;
   if (material.shininess > 0) {
     const Vec3 half = (to_light / distance + (ray.center - p).normalized()).normalized();
     reflected += material.infrared_albedo * material.shininess * MirrorLobe(normal.dot(half));
   }
-  return options_.light_power * reflected * light * kMillimetre * kMillimetre /
-         (distance * distance);
+  return options_.light_power * reflected * kMillimetre * kMillimetre / (distance * distance);
+}
+
+double StructuredLightSensor::RayIntensity(const Scene& scene, const Moment& moment, double u,
+                                           double v) const {
+  const SceneRay ray = moment.camera.RayThrough(u, v);
+  const RayHit hit = moment.camera.Trace(ray);
+  if (hit.primitive < 0) return 0;
+  const double u_projector = u - options_.camera.fx * options_.baseline / hit.depth;
+  const double light = Pattern(moment.camera.Surface(hit.primitive), moment.frame, u_projector, v);
+  if (light == 0 || moment.IsShadowed(u_projector, v, hit.depth)) return 0;
+  return light * Returned(scene, moment, ray, hit, v);
+}
+
+// Of a pixel that shows one face: disparity is linear over it, and what returns hardly varies.
+double StructuredLightSensor::FaceIntensity(const Scene& scene, const Moment& moment, int u,
+                                            int v) const {
+  const SceneRay ray = moment.camera.RayThrough(u, v);
+  const RayHit hit = moment.camera.Trace(ray);
+  if (hit.primitive < 0) return 0;
+  const double returned = Returned(scene, moment, ray, hit, v);
+  if (returned == 0) return 0;
+  const int surface = moment.camera.Surface(hit.primitive);
+  const double scale = options_.camera.fx * options_.baseline;
+  const double step = kSubRays.back();
+  const double disparity = scale / hit.depth;
+  const double right = scale / moment.camera.Trace(u + step, v).depth - disparity;
+  const double below = scale / moment.camera.Trace(u, v + step).depth - disparity;
+  double light = 0;
+  for (int row = -1; row <= 1; ++row) {
+    for (int column = -1; column <= 1; ++column) {
+      const double here = disparity + column * right + row * below;
+      const double u_projector = u + column * step - here;
+      const double part = Pattern(surface, moment.frame, u_projector, v + row * step);
+      if (part > 0 && !moment.IsShadowed(u_projector, v + row * step, scale / here)) light += part;
+    }
+  }
+  return light * returned / 9;
 }
 
 Image<float> StructuredLightSensor::Irradiance(const Scene& scene, const Exposure& exposure) const {
-  PinholeCamera projector_camera = options_.camera;
-  projector_camera.width += kProjectorMargin;
-  projector_camera.cx += kProjectorMargin;
-  const Eigen::Translation3d to_projector(options_.baseline, 0, 0);
-  const SceneView view(scene, options_.camera, exposure.T_world_first, exposure.T_world_last);
-  const SceneView projector(scene, projector_camera, exposure.T_world_first * to_projector,
-                            exposure.T_world_last * to_projector);
+  const Moment moment(scene, options_, exposure);
   Image<float> image(options_.camera.width, options_.camera.height);
   for (int v = 0; v < image.height(); ++v) {
     for (int u = 0; u < image.width(); ++u) {
+      if (moment.camera.IsUniform(u, v)) {
+        image(u, v) = static_cast<float>(FaceIntensity(scene, moment, u, v));
+        continue;
+      }
       double sum = 0;
       for (const double dv : kSubRays) {
-        for (const double du : kSubRays) {
-          sum += Intensity(scene, view, projector, u + du, v + dv, exposure.frame);
-        }
+        for (const double du : kSubRays) sum += RayIntensity(scene, moment, u + du, v + dv);
       }
       image(u, v) = static_cast<float>(sum / (kSubRays.size() * kSubRays.size()));
     }

@@ -6,7 +6,8 @@
 
 namespace curvefusion {
 
-class SceneView;
+struct RayHit;
+struct SceneRay;
 
 /// A Kinect V1 or PrimeSense camera.
 struct StructuredLightOptions {
@@ -35,8 +36,13 @@ class StructuredLightSensor : public DepthSensor {
   IntensityImage InfraredImage(const Scene& scene, const Exposure& exposure) const;
 
  private:
-  double Intensity(const Scene& scene, const SceneView& view, const SceneView& projector, double u,
-                   double v, uint64_t frame) const;
+  struct Moment;
+
+  double Pattern(int surface, uint64_t frame, double u_projector, double v) const;
+  double Returned(const Scene& scene, const Moment& moment, const SceneRay& ray, const RayHit& hit,
+                  double v) const;
+  double RayIntensity(const Scene& scene, const Moment& moment, double u, double v) const;
+  double FaceIntensity(const Scene& scene, const Moment& moment, int u, int v) const;
   Image<float> Irradiance(const Scene& scene, const Exposure& exposure) const;
 
   StructuredLightOptions options_;

@@ -85,6 +85,41 @@ TEST(SceneView, TracesTheSameDepthAsSphereTracing) {
   EXPECT_LE(different, kRays / 500);
 }
 
+double NearestOfAll(const Scene& scene, const SceneView& view, double u, double v) {
+  const Vec3 center = view.Center(v);
+  const Vec3 direction = view.PointAt(u, v, 1) - center;
+  double nearest = kNoHit;
+  const auto consider = [&](double depth) {
+    if (depth > 0.02) nearest = std::min(nearest, depth);
+  };
+  for (const SceneCapsule& capsule : scene.capsules) {
+    consider(HitCapsule(CapsuleSeen(capsule, center), direction));
+  }
+  for (const ScenePlane& plane : scene.planes) consider(HitPlane(plane, center, direction));
+  for (const SceneBox& box : scene.boxes) consider(HitBox(box, center, direction));
+  return nearest;
+}
+
+// What tiles leave out is not seen through them: curved and straight wires, boxes, ellipsoids and
+// cups, while the camera turns and moves by two frames.
+TEST(SceneView, TilesLeaveOutNothingThatIsSeen) {
+  const CageView cage;
+  Random random(1, RandomStream::kScene);
+  for (const char* name : {"cage", "spring", "empty"}) {
+    const Scene scene = MakeScene(MakeObject(name), {.furniture = 25}, 4);
+    const SceneView view(scene, kCamera, cage.poses[30], cage.poses[32]);
+    for (int i = 0; i < 20000; ++i) {
+      const double u = random.Uniform(-0.5, kCamera.width - 0.5);
+      const double v = random.Uniform(-0.5, kCamera.height - 0.5);
+      const double nearest = NearestOfAll(scene, view, u, v);
+      ASSERT_NEAR(view.Trace(u, v).depth, nearest, 1e-9) << name << " at " << u << ", " << v;
+      // Nothing is looked for behind a plane.
+      ASSERT_TRUE(view.IsHidden(u, v, nearest + 0.01) || view.IsUniform(u, v));
+      ASSERT_FALSE(view.IsHidden(u, v, nearest));
+    }
+  }
+}
+
 TEST(SceneView, SeesHowAWireTapers) {
   // Thins from 12 to 4 mm on its way up, 0.5 m before the camera.
   WireObject object{"taper", {{{{0, 0, -0.1}, {0, 0, 0.1}}, 0.008, {0.012, 0.004}}}};
