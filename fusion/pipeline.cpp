@@ -45,12 +45,4 @@ Reconstruction Reconstruct(const Sequence& sequence, const PipelineOptions& opti
   return result;
 }
 
-Reconstruction ReconstructAgainst(const TsdfVolume& volume, const Sequence& sequence,
-                                  const PipelineOptions& options, PipelineObserver& observer) {
-  if (const auto* paper = std::get_if<PaperOptions>(&options)) {
-    return ReconstructPaperAgainst(volume, sequence, *paper, observer);
-  }
-  return ReconstructBestAgainst(volume, sequence, std::get<BestOptions>(options), observer);
-}
-
 }  // namespace curvefusion

@@ -6,7 +6,6 @@
 #include "fusion/best/best_options.h"
 #include "fusion/paper/paper_options.h"
 #include "fusion/reconstruction.h"
-#include "fusion/volume/tsdf_volume.h"
 #include "kernel/options.h"
 
 namespace curvefusion {
@@ -35,10 +34,5 @@ DepthUse DepthUseOf(const PipelineOptions& options);
 /// Error for input that cannot be read, and for a sequence without depth where DepthUseOf needs it.
 Reconstruction Reconstruct(const Sequence& sequence, const PipelineOptions& options,
                            PipelineObserver& observer);
-
-/// The rest of the method where the large surfaces are known already: `volume` holds them in the
-/// sequence's world frame and may have seen more frames than the sequence has.
-Reconstruction ReconstructAgainst(const TsdfVolume& volume, const Sequence& sequence,
-                                  const PipelineOptions& options, PipelineObserver& observer);
 
 }  // namespace curvefusion

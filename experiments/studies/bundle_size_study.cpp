@@ -16,6 +16,8 @@
 #include "experiments/studies/reconstruction_run.h"
 #include "experiments/studies/result_table.h"
 #include "experiments/studies/studies.h"
+#include "fusion/best/best_pipeline.h"
+#include "fusion/paper/paper_pipeline.h"
 #include "kernel/error.h"
 
 namespace curvefusion {
@@ -106,13 +108,22 @@ RunOutcome RunVolume(const RunInput& input, const Sequence& bundle, const Skelet
   return KeepSurfaceOfMethod(input, VolumeFusionSurface(bundle, options, input.progress), truth);
 }
 
+// The rest of a profile's method where the room's large surfaces are known already.
+Reconstruction ReconstructIn(const TsdfVolume& room, const Sequence& bundle,
+                             const PipelineOptions& options, PipelineObserver& observer) {
+  if (const auto* paper = std::get_if<PaperOptions>(&options)) {
+    return ReconstructPaperAgainst(room, bundle, *paper, observer);
+  }
+  return ReconstructBestAgainst(room, bundle, std::get<BestOptions>(options), observer);
+}
+
 RunOutcome RunSkeleton(const RunInput& input, const Sequence& scan, const Sequence& bundle,
                        const SkeletonGraph& truth) {
   const Config& config = input.study_case.config;
   const TsdfVolume room =
       FusedVolume(scan, VolumeOptions(config.pipeline), input.progress, kRoomStride);
   InterruptibleObserver observer(input.progress);
-  const Reconstruction result = ReconstructAgainst(room, bundle, config.pipeline, observer);
+  const Reconstruction result = ReconstructIn(room, bundle, config.pipeline, observer);
   return KeepSkeletonOfMethod(input, result.skeleton, result.points, truth);
 }
 
