@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "experiments/simulation/floor.h"
 #include "kernel/geometry.h"
 
 namespace curvefusion {
@@ -58,11 +59,6 @@ class DotPattern {
     std::array<uint16_t, 4> dot{};
   };
 
-  // std::floor without its call.
-  static int Floor(double value) {
-    const int whole = static_cast<int>(value);
-    return value < whole ? whole - 1 : whole;
-  }
   static int FloorDivide(int a, int b) { return a >= 0 ? a / b : -((b - 1 - a) / b); }
   void ThrowDots(uint64_t seed);
   void FillCells();

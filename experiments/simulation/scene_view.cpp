@@ -136,7 +136,7 @@ std::vector<int> SceneView::PlanesBehind() const {
 // Whether a tile shows one face of a convex box and nothing else: all its corners do.
 bool SceneView::IsFilledBy(const SceneBox& box, int tile) const {
   if (box.wall > 0) return false;
-  constexpr double kSameFace = 0.99;  // cosine between normals; of round ones they turn slowly
+  constexpr double kSameFace = 0.99;  // chosen: cosine between normals; round faces turn slowly
   const double left = tile % columns_ * kTile - 0.5;
   const double top = tile / columns_ * kTile - 0.499;
   const double size = kTile - 0.002;
@@ -180,17 +180,15 @@ void SceneView::FillTiles() {
   tile_begin_.push_back(0);
   for (int tile = 0; tile < tiles; ++tile) {
     const int nearest = seen[tile].size() == 1 ? seen[tile][0].primitive : -1;
-    if (nearest >= first_box_ && IsFilledBy(scene_.boxes[nearest - first_box_], tile)) {
-      candidates_.push_back({nearest});
-      tile_begin_.push_back(static_cast<int>(candidates_.size()));
-      continue;
-    }
+    const bool is_box =
+        nearest >= first_box_ && IsFilledBy(scene_.boxes[nearest - first_box_], tile);
     const int alone = behind[tile];
-    for (int plane = 0; plane < static_cast<int>(scene_.planes.size()); ++plane) {
+    for (int plane = 0; !is_box && plane < static_cast<int>(scene_.planes.size()); ++plane) {
       if (alone < 0 || plane == alone) candidates_.push_back({first_plane_ + plane});
     }
     candidates_.insert(candidates_.end(), seen[tile].begin(), seen[tile].end());
     tile_begin_.push_back(static_cast<int>(candidates_.size()));
+    is_uniform_.push_back(is_box || (alone >= 0 && seen[tile].empty()));
   }
 }
 
@@ -222,7 +220,7 @@ RayHit SceneView::Trace(const SceneRay& ray) const {
 bool SceneView::IsHidden(double u, double v, double depth) const {
   if (u < -0.5 || v < -0.5 || u > camera_.width - 0.5 || v > camera_.height - 0.5) return false;
   const int tile = TileAt(u, v);
-  if (IsUniformTile(tile) && candidates_[tile_begin_[tile]].primitive < first_box_) return false;
+  if (ShowsPlane(tile)) return false;
   bool hidden = false;
   ForEachHit(RayThrough(u, v), [&](const RayHit& hit) {
     hidden = hit.depth < depth - kHiddenBy;

@@ -64,7 +64,7 @@ class SceneView {
 
   /// Whether the tile around a pixel can show one plane or one face of a box only, so that one ray
   /// tells all.
-  bool IsUniform(double u, double v) const { return IsUniformTile(TileAt(u, v)); }
+  bool IsUniform(double u, double v) const { return is_uniform_[TileAt(u, v)]; }
 
  private:
   static constexpr int kTile = 2;  // pixels; measured: a fifth less time than with 4
@@ -96,7 +96,9 @@ class SceneView {
     return std::clamp(static_cast<int>(v + 0.5) / kTile, 0, static_cast<int>(rows_.size()) - 1);
   }
   int TileAt(double u, double v) const { return TileRow(v) * columns_ + TileColumn(u); }
-  bool IsUniformTile(int tile) const { return tile_begin_[tile + 1] - tile_begin_[tile] == 1; }
+  bool ShowsPlane(int tile) const {
+    return is_uniform_[tile] && candidates_[tile_begin_[tile]].primitive < first_box_;
+  }
   double SeenMargin(double depth, double radius) const;
   TileRange RowsAround(const RoundedHull& hull) const;
   TileRange ColumnsAround(const RoundedHull& hull, int row) const;
@@ -116,7 +118,8 @@ class SceneView {
   int first_box_;
   int columns_;
   std::vector<RowPose> rows_;
-  std::vector<int> tile_begin_;  // of each tile in candidates_, and the end
+  std::vector<int> tile_begin_;   // of each tile in candidates_, and the end
+  std::vector<char> is_uniform_;  // of each tile: its only candidate fills it
   std::vector<Candidate> candidates_;
   std::vector<CapsuleSeen> capsules_;  // each from every row of tiles that it may be seen in
 };

@@ -183,20 +183,20 @@ double StructuredLightSensor::FaceIntensity(const Scene& scene, const Moment& mo
   if (returned == 0) return 0;
   const int surface = moment.camera.Surface(hit.primitive);
   const double scale = options_.camera.fx * options_.baseline;
-  const double step = kSubRays.back();
   const double disparity = scale / hit.depth;
-  const double right = scale / moment.camera.Trace(u + step, v).depth - disparity;
-  const double below = scale / moment.camera.Trace(u, v + step).depth - disparity;
+  const double step = kSubRays.back();
+  const double right = (scale / moment.camera.Trace(u + step, v).depth - disparity) / step;
+  const double below = (scale / moment.camera.Trace(u, v + step).depth - disparity) / step;
   double light = 0;
-  for (int row = -1; row <= 1; ++row) {
-    for (int column = -1; column <= 1; ++column) {
-      const double here = disparity + column * right + row * below;
-      const double u_projector = u + column * step - here;
-      const double part = Pattern(surface, moment.frame, u_projector, v + row * step);
-      if (part > 0 && !moment.IsShadowed(u_projector, v + row * step, scale / here)) light += part;
+  for (const double dv : kSubRays) {
+    for (const double du : kSubRays) {
+      const double here = disparity + du * right + dv * below;
+      const double u_projector = u + du - here;
+      const double part = Pattern(surface, moment.frame, u_projector, v + dv);
+      if (part > 0 && !moment.IsShadowed(u_projector, v + dv, scale / here)) light += part;
     }
   }
-  return light * returned / 9;
+  return light * returned / (kSubRays.size() * kSubRays.size());
 }
 
 Image<float> StructuredLightSensor::Irradiance(const Scene& scene, const Exposure& exposure) const {

@@ -1,5 +1,7 @@
 #include "experiments/simulation/surface_texture.h"
 
+#include "experiments/simulation/floor.h"
+
 namespace curvefusion {
 namespace {
 
@@ -20,12 +22,6 @@ std::array<double, 8> CornersOf(const std::array<int32_t, 3>& cell, uint32_t see
                                    static_cast<uint32_t>(cell[2]) + (corner >> 2), seed);
   }
   return corners;
-}
-
-// std::floor without its call.
-int32_t Floor(double value) {
-  const auto whole = static_cast<int32_t>(value);
-  return value < whole ? whole - 1 : whole;
 }
 
 double Smooth(double t) { return t * t * (3 - 2 * t); }

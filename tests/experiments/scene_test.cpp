@@ -120,6 +120,22 @@ TEST(SceneView, TilesLeaveOutNothingThatIsSeen) {
   }
 }
 
+// The horizon of a floor without walls crosses a row of tiles, which show it in part.
+TEST(SceneView, IsUniformOnlyWhereAFaceFillsTheTile) {
+  Scene scene;
+  scene.materials.resize(2);
+  scene.planes = {{Vec3::UnitZ(), -0.5}};
+  PinholeCamera camera = kCamera;
+  camera.cy = 240.5;
+  const RigidTransform level = LookAlongY(Vec3::Zero());
+  const SceneView view(scene, camera, level, level);
+  EXPECT_TRUE(view.IsUniform(320, 400));
+  EXPECT_FALSE(view.IsUniform(320, 200));
+  EXPECT_GE(view.Trace(320, 241).primitive, 0);
+  EXPECT_LT(view.Trace(320, 240).primitive, 0);
+  EXPECT_FALSE(view.IsUniform(320, 241));
+}
+
 TEST(SceneView, SeesHowAWireTapers) {
   // Thins from 12 to 4 mm on its way up, 0.5 m before the camera.
   WireObject object{"taper", {{{{0, 0, -0.1}, {0, 0, 0.1}}, 0.008, {0.012, 0.004}}}};
