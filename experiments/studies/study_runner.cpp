@@ -59,26 +59,36 @@ struct ScanGroup {
   std::vector<size_t> cases;                // to be measured
 };
 
-// Counts what is done, and hands interruptions on from any thread.
-class StepCounter {
+// Chosen: data that a case makes itself are as one frame.
+int64_t FramesOf(const SimulationOptions* scan) { return scan == nullptr ? 1 : scan->frames; }
+
+// Counts frames that are simulated or measured, and hands interruptions on from any thread.
+class FrameCounter {
  public:
-  StepCounter(const Progress& progress, std::string stage, int64_t total)
+  FrameCounter(const Progress& progress, std::string stage, int64_t total)
       : progress_(progress), stage_(std::move(stage)), total_(total) {}
 
-  void Advance() { Report(1); }
-
-  // The progress of a single step: it does not count, but may end the study.
-  Progress Within() {
-    return [this](std::string_view, int64_t, int64_t) { Report(0); };
-  }
-
- private:
-  void Report(int64_t steps) {
+  void Advance(int64_t frames) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    done_ += steps;
+    done_ += frames;
     progress_(stage_, done_, total_);
   }
 
+  // The progress of a single case: it does not count, as stages tell no share of the whole, but
+  // may end the study.
+  Progress Within() {
+    return [this](std::string_view, int64_t, int64_t) { Advance(0); };
+  }
+
+  // The progress of a scan that is simulated frame by frame.
+  Progress Simulating() {
+    return [this, counted = int64_t{0}](std::string_view, int64_t frame, int64_t) mutable {
+      Advance(frame - counted);
+      counted = frame;
+    };
+  }
+
+ private:
   const Progress& progress_;
   std::string stage_;
   int64_t total_;
@@ -109,8 +119,8 @@ class StudyRunner {
  private:
   bool IsSimulated(const ScanGroup& group) const;
   std::uintmax_t BytesOf(const std::vector<ScanGroup>& groups) const;
-  void MeasureGroup(const ScanGroup& group, StepCounter& steps);
-  void MeasureCase(size_t index, const fs::path& scan, StepCounter& steps);
+  void MeasureGroup(const ScanGroup& group, FrameCounter& counter);
+  void MeasureCase(size_t index, const fs::path& scan, FrameCounter& counter);
   void RecordFailure(size_t index, const std::string& message);
 
   const Study& study_;
@@ -144,10 +154,11 @@ std::vector<ScanGroup> StudyRunner::Pending() {
 void StudyRunner::Measure(const std::vector<ScanGroup>& groups, const Progress& progress) {
   int64_t total = 0;
   for (const ScanGroup& group : groups) {
-    total += static_cast<int64_t>(group.cases.size()) + (IsSimulated(group) ? 0 : 1);
+    const auto passes = static_cast<int64_t>(group.cases.size()) + (IsSimulated(group) ? 0 : 1);
+    total += passes * FramesOf(group.scan);
   }
   RequireFreeSpace(folder_, BytesOf(groups));
-  StepCounter steps(progress, study_.name, total);
+  FrameCounter counter(progress, study_.name, total);
   std::mutex mutex;
   size_t next = 0;
   std::exception_ptr failure;
@@ -160,7 +171,7 @@ void StudyRunner::Measure(const std::vector<ScanGroup>& groups, const Progress& 
         mine = next++;
       }
       try {
-        MeasureGroup(groups[mine], steps);
+        MeasureGroup(groups[mine], counter);
       } catch (...) {
         const std::lock_guard<std::mutex> lock(mutex);
         if (!failure) failure = std::current_exception();
@@ -192,28 +203,26 @@ std::uintmax_t StudyRunner::BytesOf(const std::vector<ScanGroup>& groups) const 
   return bytes;
 }
 
-void StudyRunner::MeasureGroup(const ScanGroup& group, StepCounter& steps) {
+void StudyRunner::MeasureGroup(const ScanGroup& group, FrameCounter& counter) {
   fs::path scan;
-  const bool is_simulated = IsSimulated(group);
   if (group.scan != nullptr) {
     try {
-      scan = CachedScan(scans_, *group.scan, steps.Within());
+      scan = CachedScan(scans_, *group.scan, counter.Simulating());
     } catch (const Error& error) {
       if (error.kind() == ErrorKind::kInterrupted) throw;
       for (const size_t i : group.cases) RecordFailure(i, error.what());
       return;
     }
   }
-  if (!is_simulated) steps.Advance();
-  for (const size_t i : group.cases) MeasureCase(i, scan, steps);
+  for (const size_t i : group.cases) MeasureCase(i, scan, counter);
 }
 
-void StudyRunner::MeasureCase(size_t index, const fs::path& scan, StepCounter& steps) {
+void StudyRunner::MeasureCase(size_t index, const fs::path& scan, FrameCounter& counter) {
   const StudyCase& study_case = cases_[index];
   const fs::path run_folder = RunFolder(study_, request_, folder_, study_case);
   try {
     PartialFolder partial(run_folder);
-    const Progress within = steps.Within();
+    const Progress within = counter.Within();
     const CaseMeasurement& measure = study_.run ? study_.run : options_.reconstruct;
     const RunOutcome outcome =
         measure({study_case, scan, partial.path(), within, options_.reconstruct});
@@ -227,7 +236,7 @@ void StudyRunner::MeasureCase(size_t index, const fs::path& scan, StepCounter& s
   } catch (const std::exception& error) {
     RecordFailure(index, error.what());
   }
-  steps.Advance();
+  counter.Advance(FramesOf(study_case.scan ? &*study_case.scan : nullptr));
 }
 
 void StudyRunner::RecordFailure(size_t index, const std::string& message) {

@@ -133,6 +133,24 @@ TEST_F(StudyRunner, InterruptedRunLeavesNothingAndTheRestStays) {
   EXPECT_EQ(PlanStudy(study, {.seeds = 1}, folder_).finished, 1);
 }
 
+TEST_F(StudyRunner, ProgressCountsFramesWhileScansAreSimulated) {
+  Study study = Counting();
+  study.cases = [cases = study.cases](const StudyRequest& request) {
+    std::vector<StudyCase> with_scan = cases(request);
+    with_scan.resize(2);
+    for (StudyCase& study_case : with_scan) {
+      study_case.scan = SimulationOptions{.object = "triangles", .sensor = "ideal", .frames = 2};
+    }
+    return with_scan;
+  };
+  std::vector<int64_t> counted;
+  RunStudy(study, {.seeds = 1}, folder_, {}, [&](std::string_view, int64_t done, int64_t total) {
+    EXPECT_EQ(total, 6);  // two frames simulated once and measured twice
+    counted.push_back(done);
+  });
+  EXPECT_THAT(counted, testing::ElementsAre(1, 2, 4, 6));
+}
+
 TEST_F(StudyRunner, RemeasuresWhatAnotherRevisionMeasured) {
   Run(Counting(), {.seeds = 1});
   const fs::path file = folder_ / "runs/counting_train/a_s1/run.json";
