@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "fusion/curve_graph/line_of_sight.h"
 #include "kernel/parallel.h"
 #include "kernel/point_grid.h"
 #include "kernel/thinned.h"
@@ -184,7 +185,7 @@ class CandidateSearch {
   std::optional<Place> PlaceBeside(const Next& next) const {
     const View& view = views_.views()[next.ray.first];
     const Vec3 ray = DirectionOf(next.ray);
-    const StripViews::LineOfSight sight(views_, next.ray.first, ray);
+    const LineOfSight sight(views_, next.ray.first, ray);
     if (sight.IsHidden(next.distance)) return std::nullopt;
     std::vector<Place> places;
     AddPlaces(sight, Baseline(view, ray), next.distance - kFollowRange,
@@ -228,15 +229,21 @@ class CandidateSearch {
   }
 
   // Adds the places of a stretch of a line of sight that agree.
-  void AddPlaces(const StripViews::LineOfSight& sight, double baseline, double from, double to,
+  void AddPlaces(const LineOfSight& sight, double baseline, double from, double to,
                  std::vector<Place>& places) const {
     const double step = Step(0.5 * (from + to), baseline, kFinePx);
-    for (double at = from; at <= to; at += step) {
-      if (sight.QuickLook(at).evidence < 0) continue;
-      const StripAgreement agreement = sight.CloseLook(at);
-      if (agreement.evidence < kFineEvidence || agreement.looked < StripAgreement::kMinLooks)
+    std::vector<double> distances;
+    for (double at = from; at <= to; at += step) distances.push_back(at);
+    const std::vector<StripAgreement> quick = sight.QuickLooks(distances);
+    size_t kept = 0;
+    for (size_t i = 0; i < distances.size(); ++i)
+      if (quick[i].evidence >= 0) distances[kept++] = distances[i];
+    distances.resize(kept);
+    const std::vector<StripAgreement> close = sight.CloseLooks(distances);
+    for (size_t i = 0; i < kept; ++i) {
+      if (close[i].evidence < kFineEvidence || close[i].looked < StripAgreement::kMinLooks)
         continue;
-      places.push_back({sight.At(at), at, agreement});
+      places.push_back({sight.At(distances[i]), distances[i], close[i]});
     }
   }
 
@@ -246,20 +253,22 @@ class CandidateSearch {
     const Vec3 ray = DirectionOf({number, pixel});
     const auto range = RangeWithin(view.center, ray);
     if (!range) return {};
-    const StripViews::LineOfSight sight(views_, number, ray);
+    const LineOfSight sight(views_, number, ray);
     const double baseline = Baseline(view, ray);
+    std::vector<double> distances;
+    for (double at = range->first; at <= range->second && !sight.IsHidden(at);
+         at += Step(at, baseline, kCoarsePx))
+      distances.push_back(at);
+    const std::vector<StripAgreement> looks = sight.FirstLooks(distances);
     std::vector<Place> places;
     double begin = -1;  // of a stretch that agrees roughly
-    for (double at = range->first; at <= range->second;) {
-      if (sight.IsHidden(at)) break;
-      const double step = Step(at, baseline, kCoarsePx);
-      const bool agrees = AgreesRoughly(sight.FirstLook(at));
-      if (agrees && begin < 0) begin = at - step;
+    for (size_t i = 0; i < distances.size(); ++i) {
+      const bool agrees = AgreesRoughly(looks[i]);
+      if (agrees && begin < 0) begin = distances[i] - Step(distances[i], baseline, kCoarsePx);
       if (!agrees && begin >= 0) {
-        AddPlaces(sight, baseline, begin, at, places);
+        AddPlaces(sight, baseline, begin, distances[i], places);
         begin = -1;
       }
-      at += step;
     }
     if (begin >= 0) AddPlaces(sight, baseline, begin, range->second, places);
     return places;

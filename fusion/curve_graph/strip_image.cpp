@@ -15,9 +15,31 @@ namespace {
 constexpr int kPixelStride = 2;      // every so many-th pixel of strips' middles
 constexpr double kSeen = 0.8;        // of the images that look at a wire show a strip there
 constexpr double kMinChance = 0.02;  // that a strip lies there by chance, at least
-constexpr int kAroundCells = 9;
+constexpr double kMiddlePx = 0.7;    // standard deviation of where strips have their middle
+// derived: log of the density of middles at zero over that of chance, even within reach
+constexpr double kAtMiddle = 0.47;
 
 }  // namespace
+
+const std::array<double, StripImage::kExplained + 1> StripImage::kMiddleEvidence = [] {
+  std::array<double, kExplained + 1> evidence{};
+  for (size_t units = 0; units < evidence.size(); ++units) {
+    const double off = static_cast<double>(units) / kDistanceUnits / kMiddlePx;
+    evidence[units] = kAtMiddle - 0.5 * off * off;
+  }
+  return evidence;
+}();
+
+const std::array<std::array<float, 2>, StripImage::kAroundPixels + 1> StripImage::kEvidence = [] {
+  std::array<std::array<float, 2>, kAroundPixels + 1> evidence{};
+  for (size_t pixels = 0; pixels < evidence.size(); ++pixels) {
+    const double share = static_cast<double>(pixels) / kAroundPixels;
+    const double chance = std::clamp(share, kMinChance, kSeen);
+    evidence[pixels] = {static_cast<float>(std::log((1 - kSeen) / (1 - chance))),
+                        static_cast<float>(std::log(kSeen / chance))};
+  }
+  return evidence;
+}();
 
 StripImage::StripImage(int width, int height, const cv::Rect& part, const StripPixels& strips)
     : part_(part), to_strip_(width, height, kExplained - 1), direction_(width, height, 0) {
@@ -83,23 +105,17 @@ void StripImage::SetNearest(const StripPixels& strips) {
 void StripImage::SetEvidence(Look look) {
   const int width = (to_strip_.width() + kCellPx - 1) / kCellPx;
   const int height = (to_strip_.height() + kCellPx - 1) / kCellPx;
-  Image<float> shares(width, height);
+  Image<float> counts(width, height);
   for (int v = part_.y; v < part_.y + part_.height; ++v) {
     const uint8_t* units = to_strip_.row(v);
-    float* cells = shares.row(v / kCellPx);
+    float* cells = counts.row(v / kCellPx);
     for (int u = part_.x; u < part_.x + part_.width; ++u)
       cells[u / kCellPx] += units[u] <= kReachPx[look] * kDistanceUnits;
   }
-  cv::Mat around;
-  cv::blur(MatOf(shares) / (kCellPx * kCellPx), around, cv::Size(kAroundCells, kAroundCells));
-  seen_[look] = not_seen_[look] = Image<float>(width, height);
-  for (int v = 0; v < height; ++v) {
-    for (int u = 0; u < width; ++u) {
-      const double chance = std::clamp<double>(around.at<float>(v, u), kMinChance, kSeen);
-      seen_[look](u, v) = static_cast<float>(std::log(kSeen / chance));
-      not_seen_[look](u, v) = static_cast<float>(std::log((1 - kSeen) / (1 - chance)));
-    }
-  }
+  cv::Mat sums;
+  cv::boxFilter(MatOf(counts), sums, -1, {kAroundCells, kAroundCells}, {-1, -1}, false);
+  around_[look] = Image<uint16_t>(width, height);
+  std::copy(sums.begin<float>(), sums.end<float>(), around_[look].data());
 }
 
 }  // namespace curvefusion

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <opencv2/core/types.hpp>
 #include <vector>
@@ -26,8 +27,10 @@ class StripImage {
   /// Whether a curve covers a pixel.
   bool IsExplained(int u, int v) const { return to_strip_(u, v) == kExplained; }
 
-  /// Pixels to the middle of the nearest strip, at most some 15; of a pixel that is not explained.
-  double DistanceToStrip(int u, int v) const { return to_strip_(u, v) / kDistanceUnits; }
+  /// Whether the middle of a strip is within reach of a pixel that is not explained.
+  bool IsSeen(Look look, int u, int v) const {
+    return to_strip_(u, v) <= kReachPx[look] * kDistanceUnits;
+  }
 
   /// Which way the nearest strip runs, see DirectionUnits.
   uint8_t DirectionOfStrip(int u, int v) const { return direction_(u, v); }
@@ -35,9 +38,11 @@ class StripImage {
   /// What a strip within reach of a pixel tells, or none: the logarithm of how much likelier that
   /// is for a wire than by chance, by the share of pixels around that have a strip within reach.
   double Evidence(Look look, bool is_seen, int u, int v) const {
-    const Image<float>& evidence = is_seen ? seen_[look] : not_seen_[look];
-    return evidence(u / kCellPx, v / kCellPx);
+    return kEvidence[around_[look](u / kCellPx, v / kCellPx)][is_seen];
   }
+
+  /// The same of how near the middle of a strip within close reach is.
+  double MiddleEvidence(int u, int v) const { return kMiddleEvidence[to_strip_(u, v)]; }
 
   /// Some middles of strips that no curve covered when strips were last found.
   const std::vector<Eigen::Vector2i>& unexplained() const { return unexplained_; }
@@ -52,15 +57,20 @@ class StripImage {
   static constexpr double kDistanceUnits = 16;  // in a pixel; derived: 15 pixels fit into a byte
   static constexpr uint8_t kExplained = 255;  // in place of a distance; derived: the greatest byte
   static constexpr int kCellPx = 4;           // chosen: chance is averaged over several cells
+  static constexpr int kAroundCells = 9;      // chosen like those of strip_image.cpp
+  static constexpr int kAroundPixels = kAroundCells * kAroundCells * kCellPx * kCellPx;
+  static const std::array<double, kExplained + 1> kMiddleEvidence;  // by units
+  // Without a strip and with one, by the number of pixels around.
+  static const std::array<std::array<float, 2>, kAroundPixels + 1> kEvidence;
 
   void SetStrips(const StripPixels& strips);
   void SetNearest(const StripPixels& strips);
   void SetEvidence(Look look);
 
   cv::Rect part_;
-  Image<uint8_t> to_strip_;             // units, less than kExplained where no curve covers a pixel
-  Image<uint8_t> direction_;            // of the nearest strip
-  Image<float> seen_[2], not_seen_[2];  // in cells
+  Image<uint8_t> to_strip_;    // units, less than kExplained where no curve covers a pixel
+  Image<uint8_t> direction_;   // of the nearest strip
+  Image<uint16_t> around_[2];  // in cells: how many pixels around have a strip within reach
   std::vector<Eigen::Vector2i> unexplained_;
 };
 

@@ -9,6 +9,7 @@
 
 #include "capture/image_mat.h"
 #include "kernel/quantile.h"
+#include "kernel/wide_lanes.h"
 
 namespace curvefusion {
 
@@ -42,6 +43,18 @@ Planes SmoothPlanes(const ColorImage& color) {
   return planes;
 }
 
+// Of a row of each plane.
+CURVEFUSION_WIDE_LANES
+void RespondInRow(const std::array<const float*, 3>& planes, std::ptrdiff_t offset, int begin,
+                  int end, float* response) {
+  const auto [r, g, b] = planes;
+  for (int u = begin; u < end; ++u) {
+    response[u] = (r[u] - r[u - offset]) * (r[u] - r[u + offset]) +
+                  (g[u] - g[u - offset]) * (g[u] - g[u + offset]) +
+                  (b[u] - b[u - offset]) * (b[u] - b[u + offset]);
+  }
+}
+
 // How much a pixel differs from both sides alike, at so many pixels in one direction: grey levels.
 Image<float> StripResponse(const Planes& planes, int du, int dv) {
   const int width = planes[0].width(), height = planes[0].height();
@@ -49,14 +62,21 @@ Image<float> StripResponse(const Planes& planes, int du, int dv) {
   Image<float> response(width, height, 0);
   const std::ptrdiff_t offset = static_cast<std::ptrdiff_t>(dv) * width + du;
   for (int v = margin; v < height - margin; ++v) {
-    float* out = response.row(v);
-    for (const Image<float>& plane : planes) {
-      const float* in = plane.row(v);
-      for (int u = margin; u < width - margin; ++u)
-        out[u] += (in[u] - in[u - offset]) * (in[u] - in[u + offset]);
-    }
+    RespondInRow({planes[0].row(v), planes[1].row(v), planes[2].row(v)}, offset, margin,
+                 width - margin, response.row(v));
   }
   return response;
+}
+
+CURVEFUSION_WIDE_LANES
+void AddRow(const float* in, float weight, int begin, int end, float* sums) {
+  for (int u = begin; u < end; ++u) sums[u] += weight * in[u];
+}
+
+CURVEFUSION_WIDE_LANES
+void SlideRow(const float* before, const float* added, const float* dropped, float weight,
+              int begin, int end, float* sums) {
+  for (int u = begin; u < end; ++u) sums[u] = before[u] + weight * (added[u] - dropped[u]);
 }
 
 // The mean over some pixels to both sides in one direction (dv is 1, or du is): along strips noise
@@ -72,19 +92,16 @@ Image<float> AveragedAlong(const Image<float>& image, int du, int dv) {
     float* out = mean.row(v);
     const float* in = image.row(v);
     const auto add_all = [&](int begin, int end) {
-      for (int k = -kAlongPx; k <= kAlongPx; ++k)
-        for (int u = begin; u < end; ++u) out[u] += kWeight * in[u + k * step];
+      for (int k = -kAlongPx; k <= kAlongPx; ++k) AddRow(in + k * step, kWeight, begin, end, out);
     };
     if (dv == 0 || v == first) {
       add_all(first, last);
       continue;
     }
     const int begin = std::max(first, first + du), end = std::min(last, last + du);
-    const float* before = out - step;
-    const float* added = in + kAlongPx * step;
-    const float* dropped = in - (kAlongPx + 1) * step;
     add_all(first, begin);
-    for (int u = begin; u < end; ++u) out[u] = before[u] + kWeight * (added[u] - dropped[u]);
+    SlideRow(out - step, in + kAlongPx * step, in - (kAlongPx + 1) * step, kWeight, begin, end,
+             out);
     add_all(end, last);
   }
   return mean;
@@ -101,6 +118,16 @@ float Outstanding(const Image<float>& response) {
   return static_cast<float>(usual + std::max(kMinContrast * kMinContrast, kOutstanding * spread));
 }
 
+// Where a response is large and the largest across a strip.
+CURVEFUSION_WIDE_LANES
+void MarkRow(const float* response, std::ptrdiff_t across, float least, const uint8_t* posterior,
+             int begin, int end, uint8_t* middles) {
+  for (int u = begin; u < end; ++u) {
+    middles[u] |= (response[u] >= least) & (response[u] >= response[u - across]) &
+                  (response[u] >= response[u + across]) & (posterior[u] > kNotWire);
+  }
+}
+
 MaskImage StripMiddles(const Planes& planes, const PosteriorImage& posterior) {
   // Derived: the four directions between neighbouring pixels, across strips and along them.
   constexpr std::pair<std::pair<int, int>, std::pair<int, int>> kDirections[] = {
@@ -115,13 +142,9 @@ MaskImage StripMiddles(const Planes& planes, const PosteriorImage& posterior) {
           AveragedAlong(StripResponse(planes, step * du, step * dv), along.first, along.second);
       const float least = Outstanding(response);
       const std::ptrdiff_t across = static_cast<std::ptrdiff_t>(dv) * width + du;
-      for (int v = step; v + step < height; ++v) {
-        const float* r = response.row(v);
-        for (int u = step; u + step < width; ++u) {
-          if (r[u] < least || r[u] < r[u - across] || r[u] < r[u + across]) continue;
-          if (posterior(u, v) > kNotWire) middles(u, v) = 1;
-        }
-      }
+      for (int v = step; v + step < height; ++v)
+        MarkRow(response.row(v), across, least, posterior.row(v), step, width - step,
+                middles.row(v));
     }
   }
   return middles;

@@ -18,9 +18,6 @@ namespace {
 // vine 1 (docs/lab_notebook.md).
 constexpr double kExplainedPx = 1.2;   // curves cover so much beside their outline
 constexpr double kLargestFocal = 900;  // pixels; images beyond it are halved
-constexpr double kMiddlePx = 0.7;      // standard deviation of where strips have their middle
-// derived: log of the density of middles at zero over that of chance, even within reach
-constexpr double kAtMiddle = 0.47;
 constexpr double kMargin = 0.05;       // metres around what is known of the object
 constexpr double kMarginShare = 0.25;  // likewise, of its size
 constexpr int kRegionMarginPx = 16;    // strips' sides and what is averaged along them
@@ -60,24 +57,14 @@ Eigen::Matrix<float, 3, 4> CameraMatrix(const PinholeCamera& camera, const Rigid
 // Of the angle between the line of sight to a place and a unit direction, both the camera's.
 double SineToSight(const Vec3& p, const Vec3& d) { return d.cross(p.normalized()).norm(); }
 
-// Adds what an image tells that shows a strip so many pixels from a place, or, if not, none.
-void Add(const StripImage& strips, StripImage::Look look, bool is_seen, double told, int u, int v,
-         StripAgreement& agreement) {
-  ++agreement.looked;
-  agreement.seen += is_seen;
-  agreement.evidence += told * strips.Evidence(look, is_seen, u, v);
-  const double off = strips.DistanceToStrip(u, v) / kMiddlePx;
-  if (is_seen) agreement.middle_evidence += told * (kAtMiddle - 0.5 * off * off);
-}
-
-// Of every so many-th image.
-StripAgreement Weighted(StripAgreement sum, size_t stride) {
-  sum.evidence *= StripViews::kCorrelation * static_cast<double>(stride);
-  sum.middle_evidence *= StripViews::kCorrelation;
-  return sum;
-}
-
 }  // namespace
+
+StripAgreement StripAgreement::Weighted(size_t stride) const {
+  StripAgreement weighted = *this;
+  weighted.evidence *= StripViews::kCorrelation * static_cast<double>(stride);
+  weighted.middle_evidence *= StripViews::kCorrelation;
+  return weighted;
+}
 
 StripViews::StripViews(const Sequence& sequence, const std::vector<int>& frames,
                        const std::vector<PosteriorImage>& posteriors,
@@ -182,8 +169,7 @@ inline std::optional<StripViews::Sight> StripViews::RoundedIn(const PinholeCamer
   return Sight{static_cast<int>(u), static_cast<int>(v), pixel};
 }
 
-// What depth says of a place in one view: metres from it to the farthest thing there; 0 = nothing.
-inline float StripViews::Behind(const View& view, const Vec3f& in_depth) const {
+float StripViews::Behind(const View& view, const Vec3f& in_depth) const {
   if (in_depth.z() <= 0) return 0;
   const std::optional<Sight> sight = RoundedIn(depth_camera_, in_depth);
   if (!sight) return 0;
@@ -231,49 +217,18 @@ StripAgreement StripViews::Along(const Vec3& p, const Vec3& direction) const {
     if (!sight) continue;
     const Vec3 p_color = view.T_color_world * p;
     const Vec3 d = view.T_color_world.linear() * direction;
-    const double distance = view.strips.DistanceToStrip(sight->u, sight->v);
-    const bool is_seen = distance <= StripImage::kReachPx[StripImage::kCloseLook] &&
-                         RunsAlong(view, *sight, p_color, d);
+    const auto [u, v, pixel] = *sight;
+    const bool is_seen =
+        view.strips.IsSeen(StripImage::kCloseLook, u, v) && RunsAlong(view, *sight, p_color, d);
     // A curve that runs towards the camera is short in the image, which then tells little of its
     // length.
     const double told = std::min(1.0, SineToSight(p_color, d) / kUsualSine);
-    Add(view.strips, StripImage::kCloseLook, is_seen, told, sight->u, sight->v, agreement);
+    ++agreement.looked;
+    agreement.seen += is_seen;
+    agreement.evidence += told * view.strips.Evidence(StripImage::kCloseLook, is_seen, u, v);
+    if (is_seen) agreement.middle_evidence += told * view.strips.MiddleEvidence(u, v);
   }
-  return Weighted(agreement, 1);
-}
-
-StripViews::LineOfSight::LineOfSight(const StripViews& views, size_t view, const Vec3& direction)
-    : views_(views), view_(view), start_(views.views_[view].center), direction_(direction) {
-  const Eigen::Vector4f start = start_.cast<float>().homogeneous();
-  const Vec3f ray = direction.cast<float>();
-  lines_.reserve(views.views_.size());
-  for (const View& other : views.views_) {
-    lines_.push_back({other.color_from_world * start, other.color_from_world.leftCols<3>() * ray,
-                      other.depth_from_world * start, other.depth_from_world.leftCols<3>() * ray});
-  }
-}
-
-StripAgreement StripViews::LineOfSight::Look(double distance, StripImage::Look look,
-                                             size_t stride) const {
-  const auto at = static_cast<float>(distance);
-  StripAgreement agreement;
-  for (size_t i = 0; i < lines_.size(); i += stride) {
-    const Line& line = lines_[i];
-    const View& view = views_.views_[i];
-    const std::optional<Sight> sight =
-        views_.SightOf(view, line.color + at * line.color_step, line.depth + at * line.depth_step);
-    if (!sight) continue;
-    const bool is_seen =
-        view.strips.DistanceToStrip(sight->u, sight->v) <= StripImage::kReachPx[look];
-    Add(view.strips, look, is_seen, 1, sight->u, sight->v, agreement);
-  }
-  return Weighted(agreement, stride);
-}
-
-bool StripViews::LineOfSight::IsHidden(double distance) const {
-  const Line& line = lines_[view_];
-  const auto at = static_cast<float>(distance);
-  return views_.Behind(views_.views_[view_], line.depth + at * line.depth_step) < -kHiding;
+  return agreement.Weighted(1);
 }
 
 std::vector<StripAgreement> StripViews::AgreementsAlong(const Polyline& points) const {

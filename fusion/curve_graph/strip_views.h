@@ -26,6 +26,9 @@ struct StripAgreement {
   double middle_evidence = 0;  // likewise, of how near the strips' middles are
 
   double Sum() const { return evidence + middle_evidence; }
+
+  /// Where every so many-th image was asked: what they tell all together.
+  StripAgreement Weighted(size_t stride) const;
 };
 
 /// Colour images in which strips stand out that no known curve explains, and what depth shows of
@@ -62,6 +65,7 @@ class StripViews {
   /// looked for.
   const Eigen::AlignedBox3d& bounds() const { return bounds_; }
   const PinholeCamera& color_camera() const { return color_camera_; }
+  const PinholeCamera& depth_camera() const { return depth_camera_; }
 
   /// From now on these curves explain the strips along them, which then do not count as chance.
   void ExplainAll(const SkeletonGraph& skeleton);
@@ -83,48 +87,9 @@ class StripViews {
   /// Whether depth shows something farther behind a place in most of the images that can tell.
   bool IsFree(const Vec3& p) const;
 
-  /// Places on a line of sight, by their distances along it: in every image they lie on a line.
-  class LineOfSight {
-   public:
-    /// From the camera of view number `view` in a unit direction; `views` must outlive this.
-    LineOfSight(const StripViews& views, size_t view, const Vec3& direction);
-
-    Vec3 At(double distance) const { return start_ + distance * direction_; }
-
-    /// By every fifth image and strips within 3.5 pixels: a first look.
-    StripAgreement FirstLook(double distance) const {
-      return Look(distance, StripImage::kFirstLook, kFew);
-    }
-
-    /// By every fifth image and strips within 1.4 pixels: whether a close look is worth its time.
-    StripAgreement QuickLook(double distance) const {
-      return Look(distance, StripImage::kCloseLook, kFew);
-    }
-
-    /// By all images and strips within 1.4 pixels, whichever way these run.
-    StripAgreement CloseLook(double distance) const {
-      return Look(distance, StripImage::kCloseLook, 1);
-    }
-
-    /// Whether the depth of its own view shows only what is nearer.
-    bool IsHidden(double distance) const;
-
-   private:
-    static constexpr size_t kFew = 5;  // chosen: every so many-th image
-
-    // Pixels times depth, and depth: of the start, and what a metre adds.
-    struct Line {
-      Vec3f color, color_step;
-      Vec3f depth, depth_step;
-    };
-
-    StripAgreement Look(double distance, StripImage::Look look, size_t stride) const;
-
-    const StripViews& views_;
-    size_t view_;
-    Vec3 start_, direction_;
-    std::vector<Line> lines_;  // in every view
-  };
+  /// What depth says of a place, in pixels times depth, and depth: metres from it to the farthest
+  /// thing there; 0 = nothing.
+  float Behind(const View& view, const Vec3f& in_depth) const;
 
  private:
   // A pixel that shows a place.
@@ -137,7 +102,6 @@ class StripViews {
   std::optional<Sight> SightOf(const View& view, const Vec3f& in_color,
                                const Vec3f& in_depth) const;
   bool RunsAlong(const View& view, const Sight& sight, const Vec3& p_color, const Vec3& d) const;
-  float Behind(const View& view, const Vec3f& in_depth) const;
   cv::Rect RegionIn(const RigidTransform& T_color_world) const;
   void ExplainIn(View& view, const Polyline& points, const std::vector<double>& radii) const;
 
