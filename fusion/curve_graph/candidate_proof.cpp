@@ -80,7 +80,8 @@ CandidateStretch Judged(const StretchEvidence& evidence, const std::vector<Strip
   stretch.places = {points[part.first], points[(part.first + part.last) / 2], points[part.last]};
   stretch.length = Length(points, part);
   if (support.seen > 0)
-    stretch.middle_evidence = support.middle_evidence / (StripViews::kCorrelation * support.seen);
+    stretch.middle_evidence =
+        support.middle_evidence / (StripAgreement::kCorrelation * support.seen);
   stretch.is_free = FreeShare(views, points, part) > 0.5;
   stretch.colour_log_odds = ColourLogOdds(evidence);
   stretch.found_places = PlacesNear(places, points, part);

@@ -33,52 +33,51 @@ bool LineOfSight::IsHidden(double distance) const {
 std::vector<StripAgreement> LineOfSight::Looks(const std::vector<double>& distances,
                                                StripImage::Look look, size_t stride) const {
   const std::vector<float> at(distances.begin(), distances.end());
-  Pixels in_color(at.size()), in_depth(at.size());
+  std::vector<float> z(at.size());
+  LookedAt places(at.size()), in_depth(at.size());
   std::vector<StripAgreement> agreements(at.size());
   for (size_t i = 0; i < lines_.size(); i += stride) {
-    Project(lines_[i].color, at, PinholeCamera::kNearest, views_.color_camera(), in_color);
-    Project(lines_[i].depth, at, 0, views_.depth_camera(), in_depth);
-    Add(views_.views()[i], look, in_color, in_depth, agreements);
+    const StripViews::View& view = views_.views()[i];
+    Project(lines_[i].color, at, PinholeCamera::kNearest, views_.color_camera(), z, places);
+    if (!view.farthest.empty()) {
+      Project(lines_[i].depth, at, 0, views_.depth_camera(), z, in_depth);
+      LeaveOutHidden(z, in_depth, view.farthest, places);
+    }
+    view.strips.AddTo(look, places, agreements);
   }
   for (StripAgreement& agreement : agreements) agreement = agreement.Weighted(stride);
   return agreements;
 }
 
+// Outside of the image pixels are 0.
 CURVEFUSION_WIDE_LANES
 void LineOfSight::Project(const Line& line, const std::vector<float>& distances, float nearest,
-                          const PinholeCamera& camera, Pixels& pixels) {
+                          const PinholeCamera& camera, std::vector<float>& z, LookedAt& places) {
   const auto width = static_cast<float>(camera.width), height = static_cast<float>(camera.height);
   const Vec3f start = line.start, step = line.step;
   const float* at = distances.data();
-  float* z = pixels.z.data();
-  int *us = pixels.u.data(), *vs = pixels.v.data(), *is_in = pixels.is_in.data();
+  float* depth = z.data();
+  int *us = places.u.data(), *vs = places.v.data(), *is_in = places.is_open.data();
   for (size_t k = 0; k < distances.size(); ++k) {
-    z[k] = start.z() + at[k] * step.z();
-    const float scale = 1 / z[k];
+    depth[k] = start.z() + at[k] * step.z();
+    const float scale = 1 / depth[k];
     const float u = (start.x() + at[k] * step.x()) * scale + 0.5F;
     const float v = (start.y() + at[k] * step.y()) * scale + 0.5F;
-    is_in[k] = (z[k] > 0) & (z[k] >= nearest) & (u >= 0) & (v >= 0) & (u < width) & (v < height);
+    is_in[k] =
+        (depth[k] > 0) & (depth[k] >= nearest) & (u >= 0) & (v >= 0) & (u < width) & (v < height);
     us[k] = is_in[k] ? static_cast<int>(u) : 0;
     vs[k] = is_in[k] ? static_cast<int>(v) : 0;
   }
 }
 
-// Without branches, which would be mispredicted: half of the places are explained or hidden.
-void LineOfSight::Add(const StripViews::View& view, StripImage::Look look, const Pixels& in_color,
-                      const Pixels& in_depth, std::vector<StripAgreement>& agreements) {
-  const Image<float> nothing(1, 1, 0);
-  const Image<float>& farthest = view.farthest.empty() ? nothing : view.farthest;
-  for (size_t k = 0; k < agreements.size(); ++k) {
-    const int u = in_color.u[k], v = in_color.v[k];
-    const float far = farthest(in_depth.u[k] / kDepthCellPx, in_depth.v[k] / kDepthCellPx);
-    const int is_hidden = in_depth.is_in[k] & (far > 0) & (far - in_depth.z[k] < -kHiding);
-    const int is_open = in_color.is_in[k] & !view.strips.IsExplained(u, v) & !is_hidden;
-    const int is_seen = view.strips.IsSeen(look, u, v);
-    StripAgreement& agreement = agreements[k];
-    agreement.looked += is_open;
-    agreement.seen += is_open & is_seen;
-    agreement.evidence += is_open * view.strips.Evidence(look, is_seen, u, v);
-    agreement.middle_evidence += (is_open & is_seen) * view.strips.MiddleEvidence(u, v);
+void LineOfSight::LeaveOutHidden(const std::vector<float>& z, const LookedAt& in_depth,
+                                 const Image<float>& farthest, LookedAt& places) {
+  const float* cells = farthest.data();
+  const int width = farthest.width();
+  for (size_t k = 0; k < z.size(); ++k) {
+    const float far = cells[in_depth.v[k] / kDepthCellPx * width + in_depth.u[k] / kDepthCellPx];
+    const int is_hidden = in_depth.is_open[k] & (far > 0) & (far - z[k] < -kHiding);
+    places.is_open[k] &= 1 - is_hidden;
   }
 }
 

@@ -46,19 +46,13 @@ class LineOfSight {
     Line color, depth;
   };
 
-  // Where places lie in one camera. Outside its image `is_in` is 0, and so are `u` and `v`.
-  struct Pixels {
-    explicit Pixels(size_t count) : z(count), u(count), v(count), is_in(count) {}
-    std::vector<float> z;
-    std::vector<int> u, v, is_in;
-  };
-
   std::vector<StripAgreement> Looks(const std::vector<double>& distances, StripImage::Look look,
                                     size_t stride) const;
   static void Project(const Line& line, const std::vector<float>& distances, float nearest,
-                      const PinholeCamera& camera, Pixels& pixels);
-  static void Add(const StripViews::View& view, StripImage::Look look, const Pixels& in_color,
-                  const Pixels& in_depth, std::vector<StripAgreement>& agreements);
+                      const PinholeCamera& camera, std::vector<float>& z, LookedAt& places);
+  // Those that are not behind what depth shows in one view.
+  static void LeaveOutHidden(const std::vector<float>& z, const LookedAt& in_depth,
+                             const Image<float>& farthest, LookedAt& places);
 
   const StripViews& views_;
   size_t view_;

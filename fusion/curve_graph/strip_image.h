@@ -11,6 +11,30 @@
 
 namespace curvefusion {
 
+/// How many images look at a place, and how many of them show the middle of a strip there.
+struct StripAgreement {
+  static constexpr int kMinLooks = 8;  ///< images; chosen: fewer tell no share
+  /// Chosen: what an image tells counts so much, as neighbouring ones tell the same.
+  static constexpr double kCorrelation = 0.3;
+
+  int looked = 0;
+  int seen = 0;
+  double evidence = 0;         // logarithm of how much likelier that is for a wire than by chance
+  double middle_evidence = 0;  // likewise, of how near the strips' middles are
+
+  double Sum() const { return evidence + middle_evidence; }
+
+  /// Where every so many-th image was asked: what they tell all together.
+  StripAgreement Weighted(size_t stride) const;
+};
+
+/// Where places lie in one image, and 1 if it looks at them. The others' pixels are of no account,
+/// but in the image.
+struct LookedAt {
+  explicit LookedAt(size_t count) : u(count), v(count), is_open(count) {}
+  std::vector<int> u, v, is_open;
+};
+
 /// Strips in one image: how far every pixel is from the nearest, which way that runs, and what it
 /// tells to find one there. Curves explain the strips along them.
 class StripImage {
@@ -43,6 +67,9 @@ class StripImage {
 
   /// The same of how near the middle of a strip within close reach is.
   double MiddleEvidence(int u, int v) const { return kMiddleEvidence[to_strip_(u, v)]; }
+
+  /// Adds what the image tells of places, where no curve covers it.
+  void AddTo(Look look, const LookedAt& places, std::vector<StripAgreement>& agreements) const;
 
   /// Some middles of strips that no curve covered when strips were last found.
   const std::vector<Eigen::Vector2i>& unexplained() const { return unexplained_; }

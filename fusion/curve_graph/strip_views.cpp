@@ -59,13 +59,6 @@ double SineToSight(const Vec3& p, const Vec3& d) { return d.cross(p.normalized()
 
 }  // namespace
 
-StripAgreement StripAgreement::Weighted(size_t stride) const {
-  StripAgreement weighted = *this;
-  weighted.evidence *= StripViews::kCorrelation * static_cast<double>(stride);
-  weighted.middle_evidence *= StripViews::kCorrelation;
-  return weighted;
-}
-
 StripViews::StripViews(const Sequence& sequence, const std::vector<int>& frames,
                        const std::vector<PosteriorImage>& posteriors,
                        const Eigen::AlignedBox3d& around, double scale)

@@ -16,29 +16,12 @@
 
 namespace curvefusion {
 
-/// How many images look at a place, and how many of them show the middle of a strip there.
-struct StripAgreement {
-  static constexpr int kMinLooks = 8;  ///< images; chosen: fewer tell no share
-
-  int looked = 0;
-  int seen = 0;
-  double evidence = 0;         // logarithm of how much likelier that is for a wire than by chance
-  double middle_evidence = 0;  // likewise, of how near the strips' middles are
-
-  double Sum() const { return evidence + middle_evidence; }
-
-  /// Where every so many-th image was asked: what they tell all together.
-  StripAgreement Weighted(size_t stride) const;
-};
-
 /// Colour images in which strips stand out that no known curve explains, and what depth shows of
 /// the space in front of them. Where images are full of strips one more tells little.
 class StripViews {
  public:
   /// Images that are asked, at most. Chosen: time grows with them.
   static constexpr int kMaxViews = 90;
-  /// Chosen: what an image tells counts so much, as neighbouring ones tell the same.
-  static constexpr double kCorrelation = 0.3;
 
   struct View {
     RigidTransform T_color_world;
