@@ -171,7 +171,7 @@ double WorkLeft(const StudyPlan& plan, bool remeasure) {
 std::vector<PlannedStage> StagesOf(const std::vector<PlannedStudy>& studies, bool remeasure) {
   std::vector<PlannedStage> stages;
   for (const PlannedStudy& planned : studies) {
-    stages.push_back({planned.study.name, WorkLeft(planned.plan, remeasure)});
+    stages.push_back({StageOf(planned.study), WorkLeft(planned.plan, remeasure)});
   }
   return stages;
 }

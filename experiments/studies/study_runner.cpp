@@ -158,7 +158,7 @@ void StudyRunner::Measure(const std::vector<ScanGroup>& groups, const Progress& 
     total += passes * FramesOf(group.scan);
   }
   RequireFreeSpace(folder_, BytesOf(groups));
-  FrameCounter counter(progress, study_.name, total);
+  FrameCounter counter(progress, StageOf(study_), total);
   std::mutex mutex;
   size_t next = 0;
   std::exception_ptr failure;
@@ -283,6 +283,8 @@ StudyResults FinishedRuns(const Study& study, const StudyRequest& request, const
   }
   return results;
 }
+
+std::string StageOf(const Study& study) { return study.name + ", frames"; }
 
 StudyResults RunStudy(const Study& study, const StudyRequest& request, const fs::path& folder,
                       const RunnerOptions& options, const Progress& progress) {

@@ -45,15 +45,18 @@ std::filesystem::path RunFolder(const Study& study, const StudyRequest& request,
 StudyResults FinishedRuns(const Study& study, const StudyRequest& request,
                           const std::filesystem::path& folder);
 
+/// "table1, frames"
+std::string StageOf(const Study& study);
+
 /// Measures what is not finished yet, then writes the runs as CSV and JSON and calls the study's
 /// report. Files: scans/KEY (simulated scans, shared by all studies in `folder`), runs/STEM/CASE/
 /// (run.json and what the study keeps), STEM.csv, STEM.json, and what the report writes. A run
 /// appears under its name only when it is complete, so that a second call goes on where the first
 /// was interrupted. Runs that find nothing count; runs that fail are recorded with their message,
-/// do not end the study and are tried again by the next call. `progress` counts scans and runs that
-/// are to do; it may be called from several threads, one at a time. Throws Error(kUsage) as
-/// PlanStudy, kInterrupted, and kResource before anything is measured where there is a report and
-/// no gnuplot.
+/// do not end the study and are tried again by the next call. `progress` counts frames that are
+/// simulated or measured, as the stage StageOf; it may be called from several threads, one at a
+/// time. Throws Error(kUsage) as PlanStudy, kInterrupted, and kResource before anything is measured
+/// where there is a report and no gnuplot.
 StudyResults RunStudy(const Study& study, const StudyRequest& request,
                       const std::filesystem::path& folder, const RunnerOptions& options,
                       const Progress& progress);

@@ -144,10 +144,12 @@ TEST_F(StudyRunner, ProgressCountsFramesWhileScansAreSimulated) {
     return with_scan;
   };
   std::vector<int64_t> counted;
-  RunStudy(study, {.seeds = 1}, folder_, {}, [&](std::string_view, int64_t done, int64_t total) {
+  const Progress count = [&](std::string_view stage, int64_t done, int64_t total) {
+    EXPECT_EQ(stage, "counting, frames");
     EXPECT_EQ(total, 6);  // two frames simulated once and measured twice
     counted.push_back(done);
-  });
+  };
+  RunStudy(study, {.seeds = 1}, folder_, {}, count);
   EXPECT_THAT(counted, testing::ElementsAre(1, 2, 4, 6));
 }
 
