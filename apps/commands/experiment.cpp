@@ -157,12 +157,10 @@ bool WantsPage(const std::vector<std::string>& names) {
 // Chosen: about what a frame of table1 takes on two cores, simulated and reconstructed.
 constexpr double kSecondsPerFrame = 0.2;
 
-// Seconds for what is not finished. Chosen: data that a study makes itself are as one frame.
+// Seconds for what is not finished.
 double WorkLeft(const StudyPlan& plan, bool remeasure) {
   double frames = 0;
-  for (const StudyCase& study_case : plan.cases) {
-    frames += study_case.scan ? study_case.scan->frames : 1;
-  }
+  for (const StudyCase& study_case : plan.cases) frames += FramesOf(study_case);
   const double kept = plan.finished - (remeasure ? plan.other_revision : 0);
   return kSecondsPerFrame * frames *
          (1 - kept / std::max(1.0, static_cast<double>(plan.cases.size())));

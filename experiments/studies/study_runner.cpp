@@ -59,9 +59,6 @@ struct ScanGroup {
   std::vector<size_t> cases;                // to be measured
 };
 
-// Chosen: data that a case makes itself are as one frame.
-int64_t FramesOf(const SimulationOptions* scan) { return scan == nullptr ? 1 : scan->frames; }
-
 // Counts frames that are simulated or measured, and hands interruptions on from any thread.
 class FrameCounter {
  public:
@@ -154,8 +151,8 @@ std::vector<ScanGroup> StudyRunner::Pending() {
 void StudyRunner::Measure(const std::vector<ScanGroup>& groups, const Progress& progress) {
   int64_t total = 0;
   for (const ScanGroup& group : groups) {
-    const auto passes = static_cast<int64_t>(group.cases.size()) + (IsSimulated(group) ? 0 : 1);
-    total += passes * FramesOf(group.scan);
+    if (!IsSimulated(group)) total += group.scan->frames;
+    for (const size_t i : group.cases) total += FramesOf(cases_[i]);
   }
   RequireFreeSpace(folder_, BytesOf(groups));
   FrameCounter counter(progress, StageOf(study_), total);
@@ -236,7 +233,7 @@ void StudyRunner::MeasureCase(size_t index, const fs::path& scan, FrameCounter& 
   } catch (const std::exception& error) {
     RecordFailure(index, error.what());
   }
-  counter.Advance(FramesOf(study_case.scan ? &*study_case.scan : nullptr));
+  counter.Advance(FramesOf(study_case));
 }
 
 void StudyRunner::RecordFailure(size_t index, const std::string& message) {
@@ -283,6 +280,8 @@ StudyResults FinishedRuns(const Study& study, const StudyRequest& request, const
   }
   return results;
 }
+
+int FramesOf(const StudyCase& study_case) { return study_case.scan ? study_case.scan->frames : 1; }
 
 std::string StageOf(const Study& study) { return study.name + ", frames"; }
 

@@ -45,6 +45,9 @@ std::filesystem::path RunFolder(const Study& study, const StudyRequest& request,
 StudyResults FinishedRuns(const Study& study, const StudyRequest& request,
                           const std::filesystem::path& folder);
 
+/// Frames that a case measures. Chosen: data that it makes itself are as one.
+int FramesOf(const StudyCase& study_case);
+
 /// "table1, frames"
 std::string StageOf(const Study& study);
 

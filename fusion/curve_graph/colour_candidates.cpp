@@ -17,11 +17,12 @@ namespace {
 // All chosen while looking at training scans chair 3, furnished 1, rack 2, tree 2, umbrella 1 and
 // vine 1 (docs/lab_notebook.md).
 constexpr size_t kReferenceStride = 3;  // lines of sight start in every so many-th image
-constexpr double kCoarsePx = 4.2;       // steps along a line of sight, in the view that moves most;
-                                        // derived: a strip within close reach between two of them
-                                        // is within first reach of one
-constexpr double kFinePx = 0.5;         // likewise; chosen
-constexpr double kCoarseEvidence = 1;   // least log-likelihood ratio
+// Steps along a line of sight, in the view that moves most. The coarse ones are derived: a strip
+// within close reach between two of them is within first reach of one.
+constexpr double kCoarsePx = 2 * (StripImage::kReachPx[StripImage::kFirstLook] -
+                                  StripImage::kReachPx[StripImage::kCloseLook]);
+constexpr double kFinePx = 0.5;
+constexpr double kCoarseEvidence = 1;  // least log-likelihood ratio
 constexpr double kFineEvidence = 3.5;
 constexpr double kAmbiguous = 1.5;     // less of it between two places of one line of sight
 constexpr double kMinBaseline = 0.02;  // metres

@@ -26,7 +26,7 @@ LineOfSight::LineOfSight(const StripViews& views, size_t view, const Vec3& direc
 bool LineOfSight::IsHidden(double distance) const {
   const Line& line = lines_[view_].depth;
   const auto at = static_cast<float>(distance);
-  return views_.Behind(views_.views()[view_], line.start + at * line.step) < -kHiding;
+  return views_.IsHidden(views_.views()[view_], line.start + at * line.step);
 }
 
 // Image by image, in each of which places lie side by side: the images do not fit into caches.

@@ -59,7 +59,7 @@ void StripImage::AddTo(Look look, const LookedAt& places,
   const uint8_t* to_strip = to_strip_.data();
   const uint16_t* around = around_[look].data();
   const int width = to_strip_.width(), cells = around_[look].width();
-  const int reach = static_cast<int>(kReachPx[look] * kDistanceUnits);
+  const int reach = ReachUnits(look);
   const auto* evidence = kEvidence.data();
   const double* middle_evidence = kMiddleEvidence.data();
   for (size_t i = 0; i < agreements.size(); ++i) {
@@ -135,12 +135,12 @@ void StripImage::SetNearest(const StripPixels& strips) {
 void StripImage::SetEvidence(Look look) {
   const int width = (to_strip_.width() + kCellPx - 1) / kCellPx;
   const int height = (to_strip_.height() + kCellPx - 1) / kCellPx;
+  const int reach = ReachUnits(look);
   Image<float> counts(width, height);
   for (int v = part_.y; v < part_.y + part_.height; ++v) {
     const uint8_t* units = to_strip_.row(v);
     float* cells = counts.row(v / kCellPx);
-    for (int u = part_.x; u < part_.x + part_.width; ++u)
-      cells[u / kCellPx] += units[u] <= kReachPx[look] * kDistanceUnits;
+    for (int u = part_.x; u < part_.x + part_.width; ++u) cells[u / kCellPx] += units[u] <= reach;
   }
   cv::Mat sums;
   cv::boxFilter(MatOf(counts), sums, -1, {kAroundCells, kAroundCells}, {-1, -1}, false);

@@ -52,9 +52,7 @@ class StripImage {
   bool IsExplained(int u, int v) const { return to_strip_(u, v) == kExplained; }
 
   /// Whether the middle of a strip is within reach of a pixel that is not explained.
-  bool IsSeen(Look look, int u, int v) const {
-    return to_strip_(u, v) <= kReachPx[look] * kDistanceUnits;
-  }
+  bool IsSeen(Look look, int u, int v) const { return to_strip_(u, v) <= ReachUnits(look); }
 
   /// Which way the nearest strip runs, see DirectionUnits.
   uint8_t DirectionOfStrip(int u, int v) const { return direction_(u, v); }
@@ -90,6 +88,9 @@ class StripImage {
   // Without a strip and with one, by the number of pixels around.
   static const std::array<std::array<float, 2>, kAroundPixels + 1> kEvidence;
 
+  static constexpr int ReachUnits(Look look) {
+    return static_cast<int>(kReachPx[look] * kDistanceUnits);
+  }
   void SetStrips(const StripPixels& strips);
   void SetNearest(const StripPixels& strips);
   void SetEvidence(Look look);

@@ -162,12 +162,17 @@ inline std::optional<StripViews::Sight> StripViews::RoundedIn(const PinholeCamer
   return Sight{static_cast<int>(u), static_cast<int>(v), pixel};
 }
 
-float StripViews::Behind(const View& view, const Vec3f& in_depth) const {
+// What depth says of a place in one view: metres from it to the farthest thing there; 0 = nothing.
+inline float StripViews::Behind(const View& view, const Vec3f& in_depth) const {
   if (in_depth.z() <= 0) return 0;
   const std::optional<Sight> sight = RoundedIn(depth_camera_, in_depth);
   if (!sight) return 0;
   const float farthest = view.farthest(sight->u / kDepthCellPx, sight->v / kDepthCellPx);
   return farthest > 0 ? farthest - in_depth.z() : 0;
+}
+
+bool StripViews::IsHidden(const View& view, const Vec3f& in_depth) const {
+  return Behind(view, in_depth) < -kHiding;
 }
 
 bool StripViews::IsFree(const Vec3& p) const {
@@ -186,7 +191,7 @@ inline std::optional<StripViews::Sight> StripViews::SightOf(const View& view, co
   if (in_color.z() < PinholeCamera::kNearest) return std::nullopt;
   const std::optional<Sight> sight = RoundedIn(color_camera_, in_color);
   if (!sight || view.strips.IsExplained(sight->u, sight->v)) return std::nullopt;
-  if (Behind(view, in_depth) < -kHiding) return std::nullopt;
+  if (IsHidden(view, in_depth)) return std::nullopt;
   return sight;
 }
 

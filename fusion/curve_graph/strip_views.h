@@ -70,9 +70,8 @@ class StripViews {
   /// Whether depth shows something farther behind a place in most of the images that can tell.
   bool IsFree(const Vec3& p) const;
 
-  /// What depth says of a place, in pixels times depth, and depth: metres from it to the farthest
-  /// thing there; 0 = nothing.
-  float Behind(const View& view, const Vec3f& in_depth) const;
+  /// Whether depth shows only what is nearer than a place, in pixels times depth, and depth.
+  bool IsHidden(const View& view, const Vec3f& in_depth) const;
 
  private:
   // A pixel that shows a place.
@@ -85,6 +84,7 @@ class StripViews {
   std::optional<Sight> SightOf(const View& view, const Vec3f& in_color,
                                const Vec3f& in_depth) const;
   bool RunsAlong(const View& view, const Sight& sight, const Vec3& p_color, const Vec3& d) const;
+  float Behind(const View& view, const Vec3f& in_depth) const;
   cv::Rect RegionIn(const RigidTransform& T_color_world) const;
   void ExplainIn(View& view, const Polyline& points, const std::vector<double>& radii) const;
 
