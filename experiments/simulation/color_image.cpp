@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "capture/image_mat.h"
+#include "experiments/simulation/gaussian_blur.h"
 #include "experiments/simulation/random.h"
 #include "experiments/simulation/scene_view.h"
 #include "experiments/simulation/surface_texture.h"
@@ -106,34 +107,6 @@ class ColorRenderer {
   std::vector<SurfaceColor> colors_;  // of the scene's materials
 };
 
-std::vector<float> GaussianTaps(double sigma) {
-  const int radius = static_cast<int>(std::ceil(3 * sigma));
-  std::vector<float> taps;
-  double total = 0;
-  for (int k = -radius; k <= radius; ++k) total += std::exp(-k * k / (2 * sigma * sigma));
-  for (int k = -radius; k <= radius; ++k) {
-    taps.push_back(static_cast<float>(std::exp(-k * k / (2 * sigma * sigma)) / total));
-  }
-  return taps;
-}
-
-// One pass of the separable blur: along rows, or along columns.
-LinearImage BlurredAlong(const LinearImage& image, const std::vector<float>& taps, int du, int dv) {
-  const int radius = static_cast<int>(taps.size()) / 2;
-  LinearImage blurred(image.width(), image.height());
-  for (int v = 0; v < image.height(); ++v) {
-    for (int u = 0; u < image.width(); ++u) {
-      Vec3f sum = Vec3f::Zero();
-      for (int k = -radius; k <= radius; ++k) {
-        sum += taps[k + radius] * image(std::clamp(u + k * du, 0, image.width() - 1),
-                                        std::clamp(v + k * dv, 0, image.height() - 1));
-      }
-      blurred(u, v) = sum;
-    }
-  }
-  return blurred;
-}
-
 // Through a red-green / green-blue filter mosaic with noise, and back to three channels.
 ColorImage Developed(const LinearImage& light, double noise_sigma, Random random) {
   cv::Mat mosaic(light.height(), light.width(), CV_8UC1);
@@ -179,8 +152,7 @@ ColorImage RenderColor(const Scene& scene, const ColorShot& shot, const ColorCam
   for (int v = 0; v < light.height(); ++v) {
     for (int u = 0; u < light.width(); ++u) light(u, v) = renderer.Pixel(u, v).cast<float>();
   }
-  const std::vector<float> taps = GaussianTaps(options.blur_sigma_px);
-  light = BlurredAlong(BlurredAlong(light, taps, 1, 0), taps, 0, 1);
+  BlurByGaussian(light, options.blur_sigma_px);
   Expose(shot.gain, options.vignetting, light);
   return Developed(light, options.noise_sigma,
                    Random(seed, RandomStream::kColorNoise, shot.moments.front().frame));

@@ -10,8 +10,9 @@ double HitCuboid(const SceneBox& box, const Vec3& o, const Vec3& d) {
   double enter = -kNoHit;
   double leave = kNoHit;
   for (int axis = 0; axis < 3; ++axis) {
-    const double near = (-box.half_size[axis] - o[axis]) / d[axis];
-    const double far = (box.half_size[axis] - o[axis]) / d[axis];
+    const double inverse = 1 / d[axis];
+    const double near = (-box.half_size[axis] - o[axis]) * inverse;
+    const double far = (box.half_size[axis] - o[axis]) * inverse;
     enter = std::max(enter, std::min(near, far));
     leave = std::min(leave, std::max(near, far));
   }
@@ -101,8 +102,12 @@ CapsuleSeen::CapsuleSeen(const SceneCapsule& capsule, const Vec3& origin)
       end_c(from_end.squaredNorm() - capsule.radius * capsule.radius),
       cylinder_c(axis_axis * start_c - axis_from_start * axis_from_start) {}
 
-double HitBox(const SceneBox& box, const Vec3& origin, const Vec3& direction) {
-  const Vec3 o = box.rotation.transpose() * (origin - box.center);
+BoxSeen::BoxSeen(const SceneBox& seen, const Vec3& from)
+    : box(&seen), origin(seen.rotation.transpose() * (from - seen.center)) {}
+
+double HitBox(const BoxSeen& seen, const Vec3& direction) {
+  const SceneBox& box = *seen.box;
+  const Vec3& o = seen.origin;
   const Vec3 d = box.rotation.transpose() * direction;
   if (box.shape == BoxShape::kEllipsoid) return HitEllipsoid(box, o, d);
   return box.shape == BoxShape::kBox ? HitCuboid(box, o, d) : HitCylinder(box, o, d);

@@ -54,7 +54,15 @@ inline double HitPlane(const ScenePlane& plane, const Vec3& origin, const Vec3& 
   return approach < 0 ? (plane.offset - plane.normal.dot(origin)) / approach : kNoHit;
 }
 
-double HitBox(const SceneBox& box, const Vec3& origin, const Vec3& direction);
+/// A box and where rays begin, in its own axes.
+struct BoxSeen {
+  BoxSeen(const SceneBox& box, const Vec3& origin);
+
+  const SceneBox* box;
+  Vec3 origin;
+};
+
+double HitBox(const BoxSeen& seen, const Vec3& direction);
 
 /// Outward unit normal at a point of the surface.
 Vec3 CapsuleNormal(const SceneCapsule& capsule, const Vec3& p);

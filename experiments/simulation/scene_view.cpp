@@ -134,7 +134,8 @@ std::vector<int> SceneView::PlanesBehind() const {
 }
 
 // Whether a tile shows one face of a convex box and nothing else: all its corners do.
-bool SceneView::IsFilledBy(const SceneBox& box, int tile) const {
+bool SceneView::IsFilledBy(const BoxSeen& seen, int tile) const {
+  const SceneBox& box = *seen.box;
   if (box.wall > 0) return false;
   constexpr double kSameFace = 0.99;  // chosen: cosine between normals; round faces turn slowly
   const double left = tile % columns_ * kTile - 0.5;
@@ -143,7 +144,7 @@ bool SceneView::IsFilledBy(const SceneBox& box, int tile) const {
   Vec3 face;
   for (int corner = 0; corner < 4; ++corner) {
     const SceneRay ray = RayThrough(left + corner % 2 * size, top + corner / 2 * size);
-    const double depth = HitBox(box, ray.center, ray.direction);
+    const double depth = HitBox(seen, ray.direction);
     if (!(depth > kNearest && depth < kNoHit)) return false;
     const Vec3 normal = BoxNormal(box, ray.At(depth));
     if (corner == 0) face = normal;
@@ -155,16 +156,13 @@ bool SceneView::IsFilledBy(const SceneBox& box, int tile) const {
 void SceneView::FillTiles() {
   const int tiles = columns_ * static_cast<int>(rows_.size());
   std::vector<std::vector<Candidate>> seen(tiles);
-  const auto bin = [&](int primitive, const RoundedHull& hull, const SceneCapsule* capsule) {
+  // `see` keeps what a row of tiles sees of the primitive and returns its index.
+  const auto bin = [&](int primitive, const RoundedHull& hull, const auto& see) {
     const TileRange rows = RowsAround(hull);
     for (int row = rows.first; row <= rows.last; ++row) {
       const TileRange columns = ColumnsAround(hull, row);
       if (columns.first > columns.last) continue;
-      Candidate candidate{primitive};
-      if (capsule != nullptr) {
-        candidate.capsule = static_cast<int>(capsules_.size());
-        capsules_.emplace_back(*capsule, rows_[row].center);
-      }
+      const Candidate candidate{primitive, see(rows_[row].center)};
       for (int column = columns.first; column <= columns.last; ++column) {
         seen[row * columns_ + column].push_back(candidate);
       }
@@ -172,16 +170,23 @@ void SceneView::FillTiles() {
   };
   int primitive = 0;
   for (const SceneCapsule& capsule : scene_.capsules) {
-    bin(primitive++, {{capsule.start, capsule.end}, capsule.radius}, &capsule);
+    bin(primitive++, {{capsule.start, capsule.end}, capsule.radius}, [&](const Vec3& center) {
+      capsules_.emplace_back(capsule, center);
+      return static_cast<int>(capsules_.size()) - 1;
+    });
   }
   primitive += static_cast<int>(scene_.planes.size());
-  for (const SceneBox& box : scene_.boxes) bin(primitive++, {Corners(box), 0}, nullptr);
+  for (const SceneBox& box : scene_.boxes) {
+    bin(primitive++, {Corners(box), 0}, [&](const Vec3& center) {
+      boxes_.emplace_back(box, center);
+      return static_cast<int>(boxes_.size()) - 1;
+    });
+  }
   const std::vector<int> behind = PlanesBehind();
   tile_begin_.push_back(0);
   for (int tile = 0; tile < tiles; ++tile) {
-    const int nearest = seen[tile].size() == 1 ? seen[tile][0].primitive : -1;
-    const bool is_box =
-        nearest >= first_box_ && IsFilledBy(scene_.boxes[nearest - first_box_], tile);
+    const bool is_box = seen[tile].size() == 1 && seen[tile][0].primitive >= first_box_ &&
+                        IsFilledBy(boxes_[seen[tile][0].seen], tile);
     const int alone = behind[tile];
     for (int plane = 0; !is_box && plane < static_cast<int>(scene_.planes.size()); ++plane) {
       if (alone < 0 || plane == alone) candidates_.push_back({first_plane_ + plane});
@@ -199,10 +204,10 @@ void SceneView::ForEachHit(const SceneRay& ray, const Found& found) const {
   for (const Candidate* it = candidates_.data() + tile_begin_[ray.tile]; it != end; ++it) {
     const int primitive = it->primitive;
     const double depth =
-        primitive < first_plane_ ? HitCapsule(capsules_[it->capsule], ray.direction)
+        primitive < first_plane_ ? HitCapsule(capsules_[it->seen], ray.direction)
         : primitive < first_box_
             ? HitPlane(scene_.planes[primitive - first_plane_], ray.center, ray.direction)
-            : HitBox(scene_.boxes[primitive - first_box_], ray.center, ray.direction);
+            : HitBox(boxes_[it->seen], ray.direction);
     if (depth > kNearest && depth < kNoHit && found(RayHit{primitive, depth})) return;
   }
 }
@@ -233,6 +238,14 @@ Vec3 SceneView::Normal(int primitive, const Vec3& p_world) const {
   if (primitive < first_plane_) return CapsuleNormal(scene_.capsules[primitive], p_world);
   if (primitive < first_box_) return scene_.planes[primitive - first_plane_].normal;
   return BoxNormal(scene_.boxes[primitive - first_box_], p_world);
+}
+
+// On the plane normal . (p - point) = 0 depth is normal . (point - center) / normal . direction.
+Vec2 SceneView::InverseDepthSlope(const SceneRay& ray, const RayHit& hit) const {
+  const Vec3 from_center = hit.depth * ray.direction;
+  const Vec3 normal = Normal(hit.primitive, ray.center + from_center);
+  const RowPose& pose = rows_[ray.tile / columns_];
+  return Vec2(normal.dot(pose.right), normal.dot(pose.down)) / normal.dot(from_center);
 }
 
 int SceneView::Surface(int primitive) const {

@@ -59,6 +59,10 @@ class SceneView {
   /// Outward unit normal of a primitive at a point of its surface.
   Vec3 Normal(int primitive, const Vec3& p_world) const;
 
+  /// By how much 1 / depth grows a pixel to the right and a pixel down, at a ray's hit, on the
+  /// plane that touches the surface there.
+  Vec2 InverseDepthSlope(const SceneRay& ray, const RayHit& hit) const;
+
   /// Index into Scene::materials of a primitive.
   int Surface(int primitive) const;
 
@@ -86,7 +90,7 @@ class SceneView {
   // What rays of a tile may hit.
   struct Candidate {
     int primitive;
-    int capsule = -1;  // index into capsules_, -1 for what is none
+    int seen = -1;  // index into capsules_ or boxes_; of no plane
   };
 
   int TileColumn(double u) const {
@@ -105,7 +109,7 @@ class SceneView {
   int NearestPlane(double u, double v) const;
   int PlaneBehind(int column, int row, int tiles) const;
   std::vector<int> PlanesBehind() const;
-  bool IsFilledBy(const SceneBox& box, int tile) const;
+  bool IsFilledBy(const BoxSeen& seen, int tile) const;
   void FillTiles();
   template <class Found>
   void ForEachHit(const SceneRay& ray, const Found& found) const;
@@ -122,6 +126,7 @@ class SceneView {
   std::vector<char> is_uniform_;  // of each tile: its only candidate fills it
   std::vector<Candidate> candidates_;
   std::vector<CapsuleSeen> capsules_;  // each from every row of tiles that it may be seen in
+  std::vector<BoxSeen> boxes_;         // the same
 };
 
 }  // namespace curvefusion

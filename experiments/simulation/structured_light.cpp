@@ -184,13 +184,11 @@ double StructuredLightSensor::FaceIntensity(const Scene& scene, const Moment& mo
   const int surface = moment.camera.Surface(hit.primitive);
   const double scale = options_.camera.fx * options_.baseline;
   const double disparity = scale / hit.depth;
-  const double step = kSubRays.back();
-  const double right = (scale / moment.camera.Trace(u + step, v).depth - disparity) / step;
-  const double below = (scale / moment.camera.Trace(u, v + step).depth - disparity) / step;
+  const Vec2 slope = scale * moment.camera.InverseDepthSlope(ray, hit);
   double light = 0;
   for (const double dv : kSubRays) {
     for (const double du : kSubRays) {
-      const double here = disparity + du * right + dv * below;
+      const double here = disparity + du * slope.x() + dv * slope.y();
       const double u_projector = u + du - here;
       const double part = Pattern(surface, moment.frame, u_projector, v + dv);
       if (part > 0 && !moment.IsShadowed(u_projector, v + dv, scale / here)) light += part;

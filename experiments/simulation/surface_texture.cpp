@@ -26,6 +26,8 @@ std::array<double, 8> CornersOf(const std::array<int32_t, 3>& cell, uint32_t see
 
 double Smooth(double t) { return t * t * (3 - 2 * t); }
 
+double Lerp(double a, double b, double t) { return a + t * (b - a); }
+
 }  // namespace
 
 FractalNoise::FractalNoise(double frequency, int octaves, uint64_t seed) : frequency_(frequency) {
@@ -43,18 +45,17 @@ double FractalNoise::At(const Vec3& p) {
   double frequency = frequency_;
   for (Octave& octave : octaves_) {
     const Vec3 at = frequency * p;
-    const std::array<int32_t, 3> cell = {Floor(at.x()), Floor(at.y()), Floor(at.z())};
-    if (cell != octave.cell) octave = {octave.seed, cell, CornersOf(cell, octave.seed)};
-    double side[3][2];  // weights of the corners below and above along each axis
-    for (int axis = 0; axis < 3; ++axis) {
-      side[axis][1] = Smooth(at[axis] - cell[axis]);
-      side[axis][0] = 1 - side[axis][1];
+    const int32_t x = Floor(at.x()), y = Floor(at.y()), z = Floor(at.z());
+    if (x != octave.cell[0] || y != octave.cell[1] || z != octave.cell[2]) {
+      octave = {octave.seed, {x, y, z}, CornersOf({x, y, z}, octave.seed)};
     }
-    double value = 0;
-    for (uint32_t corner = 0; corner < 8; ++corner) {
-      value += side[0][corner & 1] * side[1][corner >> 1 & 1] * side[2][corner >> 2] *
-               octave.corners[corner];
+    const Vec3 share(Smooth(at.x() - x), Smooth(at.y() - y), Smooth(at.z() - z));
+    std::array<double, 4> along_x;
+    for (size_t k = 0; k < 4; ++k) {
+      along_x[k] = Lerp(octave.corners[2 * k], octave.corners[2 * k + 1], share.x());
     }
+    const double value = Lerp(Lerp(along_x[0], along_x[1], share.y()),
+                              Lerp(along_x[2], along_x[3], share.y()), share.z());
     sum += amplitude * value;
     total += amplitude;
     amplitude *= kFalloff;

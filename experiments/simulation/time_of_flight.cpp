@@ -6,6 +6,7 @@
 #include <complex>
 #include <numbers>
 
+#include "experiments/simulation/gaussian_blur.h"
 #include "experiments/simulation/random.h"
 #include "experiments/simulation/scene_view.h"
 
@@ -22,9 +23,8 @@ using Phasors = std::array<Phasor, 3>;
 using PhasorImage = Image<Phasors>;
 
 // What one ray adds: its light, with the phase of the way there and back at each frequency.
-Phasors RayPhasors(const Scene& scene, const SceneView& view, double u, double v) {
-  const SceneRay ray = view.RayThrough(u, v);
-  const RayHit hit = view.Trace(ray);
+Phasors RayPhasors(const Scene& scene, const SceneView& view, const SceneRay& ray,
+                   const RayHit& hit) {
   if (hit.primitive < 0) return {};
   const Vec3 p = ray.At(hit.depth);
   const Vec3 to_camera = ray.center - p;
@@ -42,48 +42,36 @@ Phasors RayPhasors(const Scene& scene, const SceneView& view, double u, double v
   return {amplitude * two, amplitude * five * five, amplitude * five * five * five};
 }
 
+// Of a pixel that shows several things. Those behind the wires are smooth within it: one ray tells
+// of each.
+Phasors PixelPhasors(const Scene& scene, const SceneView& view, int u, int v) {
+  constexpr auto kShare = 1.0f / (kSubRays * kSubRays);
+  Phasors sum{};
+  Phasors known{};
+  int known_primitive = -1;
+  for (int k = 0; k < kSubRays * kSubRays; ++k) {
+    const SceneRay ray = view.RayThrough(u + (k % kSubRays + 0.5) / kSubRays - 0.5,
+                                         v + (k / kSubRays + 0.5) / kSubRays - 0.5);
+    const RayHit hit = view.Trace(ray);
+    if (hit.primitive < 0) continue;
+    const bool wire = view.Surface(hit.primitive) == 0;
+    if (wire || hit.primitive != known_primitive) known = RayPhasors(scene, view, ray, hit);
+    known_primitive = wire ? -1 : hit.primitive;
+    for (int f = 0; f < 3; ++f) sum[f] += kShare * known[f];
+  }
+  return sum;
+}
+
 PhasorImage SumPhasors(const Scene& scene, const SceneView& view, const PinholeCamera& camera) {
   PhasorImage image(camera.width, camera.height);
   for (int v = 0; v < camera.height; ++v) {
     for (int u = 0; u < camera.width; ++u) {
-      if (view.IsUniform(u, v)) {
-        image(u, v) = RayPhasors(scene, view, u, v);
-        continue;
-      }
-      Phasors sum{};
-      for (int k = 0; k < kSubRays * kSubRays; ++k) {
-        const Phasors ray = RayPhasors(scene, view, u + (k % kSubRays + 0.5) / kSubRays - 0.5,
-                                       v + (k / kSubRays + 0.5) / kSubRays - 0.5);
-        for (int f = 0; f < 3; ++f) sum[f] += ray[f] / static_cast<float>(kSubRays * kSubRays);
-      }
-      image(u, v) = sum;
+      const SceneRay ray = view.RayThrough(u, v);
+      image(u, v) = view.IsUniform(u, v) ? RayPhasors(scene, view, ray, view.Trace(ray))
+                                         : PixelPhasors(scene, view, u, v);
     }
   }
   return image;
-}
-
-PhasorImage BlurredAlong(const PhasorImage& image, double sigma, int du, int dv) {
-  const int radius = static_cast<int>(std::ceil(3 * sigma));
-  std::vector<float> taps;
-  float total = 0;
-  for (int k = -radius; k <= radius; ++k) {
-    taps.push_back(static_cast<float>(std::exp(-k * k / (2 * sigma * sigma))));
-    total += taps.back();
-  }
-  for (float& tap : taps) tap /= total;
-  PhasorImage blurred(image.width(), image.height());
-  for (int v = 0; v < image.height(); ++v) {
-    for (int u = 0; u < image.width(); ++u) {
-      Phasors sum{};
-      for (int k = -radius; k <= radius; ++k) {
-        const Phasors& other = image(std::clamp(u + k * du, 0, image.width() - 1),
-                                     std::clamp(v + k * dv, 0, image.height() - 1));
-        for (int f = 0; f < 3; ++f) sum[f] += taps[k + radius] * other[f];
-      }
-      blurred(u, v) = sum;
-    }
-  }
-  return blurred;
 }
 
 struct FilteredPhasors {
@@ -91,37 +79,54 @@ struct FilteredPhasors {
   MaskImage smooth;  // 1 where the phases around a pixel differ little
 };
 
+// exp(-5 x) for x from 0 to 1: to a thousandth.
+class Decay {
+ public:
+  Decay() {
+    for (int i = 0; i < kSteps; ++i) values_[i] = std::exp(-5 * (i + 0.5f) / kSteps);
+  }
+  float At(float x) const {
+    return values_[std::clamp(static_cast<int>(x * kSteps), 0, kSteps - 1)];
+  }
+
+ private:
+  static constexpr int kSteps = 4096;
+  std::array<float, kSteps> values_;
+};
+
 // Joint bilateral filter over 3x3 pixels: neighbours of another phase count less. A pixel whose
-// neighbours' phases differ by more than kMaxEdge in sum is an edge.
+// neighbours' phases differ by more than kMaxEdge in sum is an edge. Without light there is no
+// phase; noise leaves no pixel so.
 FilteredPhasors FilterPhasors(const PhasorImage& image) {
-  constexpr float kExponent = 5;
   constexpr float kMaxEdge = 2.5f;
   constexpr float kKernel[3] = {0.5f, 1.0f, 0.5f};
+  static const Decay decay;
   FilteredPhasors filtered{image, MaskImage(image.width(), image.height(), 1)};
-  Image<std::array<float, 3>> norms(image.width(), image.height());
-  for (size_t i = 0; i < image.size(); ++i)
-    for (int f = 0; f < 3; ++f) norms.data()[i][f] = std::abs(image.data()[i][f]);
+  PhasorImage units = image;  // of length 1
+  for (size_t i = 0; i < units.size(); ++i) {
+    for (Phasor& phasor : units.data()[i]) phasor /= std::sqrt(std::norm(phasor));
+  }
   for (int v = 1; v + 1 < image.height(); ++v) {
     for (int u = 1; u + 1 < image.width(); ++u) {
-      for (int f = 0; f < 3; ++f) {
-        const Phasor self = image(u, v)[f];
-        Phasor sum = 0;
-        float total = 0;
-        float edge = 0;
-        for (int k = 0; k < 9; ++k) {
-          const int x = u + k % 3 - 1, y = v + k / 3 - 1;
-          const Phasor other = image(x, y)[f];
-          const float norm = norms(x, y)[f] * norms(u, v)[f];
-          if (norm == 0) continue;
-          const float cosine = (self.real() * other.real() + self.imag() * other.imag()) / norm;
-          const float difference = 0.5f * (1 - cosine);
-          const float weight = kKernel[k % 3] * kKernel[k / 3] * std::exp(-kExponent * difference);
-          sum += weight * other;
-          total += weight;
-          edge += difference;
+      float edge[3] = {};
+      float total[3] = {};
+      Phasors sum{};
+      for (int k = 0; k < 9; ++k) {
+        const int x = u + k % 3 - 1, y = v + k / 3 - 1;
+        const float kernel = kKernel[k % 3] * kKernel[k / 3];
+        for (int f = 0; f < 3; ++f) {
+          const Phasor self = units(u, v)[f], other = units(x, y)[f];
+          const float difference =
+              0.5f * (1 - (self.real() * other.real() + self.imag() * other.imag()));
+          const float weight = kernel * decay.At(difference);
+          sum[f] += weight * image(x, y)[f];
+          total[f] += weight;
+          edge[f] += difference;
         }
-        if (total > 0) filtered.phasors(u, v)[f] = sum / total;
-        if (edge >= kMaxEdge) filtered.smooth(u, v) = 0;
+      }
+      for (int f = 0; f < 3; ++f) {
+        filtered.phasors(u, v)[f] = sum[f] / total[f];
+        if (edge[f] >= kMaxEdge) filtered.smooth(u, v) = 0;
       }
     }
   }
@@ -180,9 +185,8 @@ DepthImage WithoutEdges(const DepthImage& depth, const Image<float>& brightness,
 DepthImage TimeOfFlightSensor::Measure(const Scene& scene, const Exposure& exposure) const {
   const PinholeCamera& camera = options_.camera;
   const SceneView view(scene, camera, exposure.T_world_first, exposure.T_world_last);
-  const double sigma = options_.blur_sigma_px;
   PhasorImage sums = SumPhasors(scene, view, camera);
-  sums = BlurredAlong(BlurredAlong(sums, sigma, 1, 0), sigma, 0, 1);
+  BlurByGaussian(sums, options_.blur_sigma_px);
   Random random(seed_, RandomStream::kDepthNoise, exposure.frame);
   for (size_t i = 0; i < sums.size(); ++i) {
     for (Phasor& phasor : sums.data()[i]) {
