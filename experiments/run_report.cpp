@@ -195,6 +195,7 @@ Json TrustJson(const Trust& trust) {
           {"pose_shift_mm", trust.pose_shift / kMillimetre},
           {"max_pose_shift_mm", trust.max_pose_shift / kMillimetre},
           {"pose_turn_degrees", trust.pose_turn * 180 / std::numbers::pi},
+          {"view_angle_degrees", trust.view_angle * 180 / std::numbers::pi},
           {"doubts", Doubts(trust)}};
 }
 

@@ -20,6 +20,8 @@ struct Trust {
   double pose_shift = 0;      ///< metres: by which poses were moved, median over frames
   double max_pose_shift = 0;  ///< metres
   double pose_turn = 0;       ///< radians, median
+  /// Radians: between the lines of sight to the curves' middle that differ most.
+  double view_angle = 0;
 
   /// Whether anything is known: the paper does not judge its results.
   bool is_judged() const { return length > 0; }
@@ -32,5 +34,9 @@ std::vector<std::string> Doubts(const Trust& trust);
 /// What to know about where curves lie that could not be adjusted to colours; empty where they
 /// were, or where there is no result. For results whose colour images were to be used.
 std::string PlacesWarning(const Trust& trust);
+
+/// What to know about curves that were seen from nearly one side; empty where they were not, or
+/// where there is no result.
+std::string ViewWarning(const Trust& trust);
 
 }  // namespace curvefusion

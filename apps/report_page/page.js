@@ -152,8 +152,10 @@ const ReportPage = (() => {
     const moved = `The camera's positions were corrected by ${number(trust.pose_shift_mm, 1)} mm and ${
       number(trust.pose_turn_degrees, 2)} degrees (median), at most by ${
       number(trust.max_pose_shift_mm, 1)} mm.`;
+    const seen = `The camera saw the object from ${
+      number(trust.view_angle_degrees, 0)} degrees of directions.`;
     byId("trust").replaceChildren(element("div", { class: "trust" }, ...rows),
-                                  element("p", {}, adjusted, " ", moved));
+                                  element("p", {}, adjusted, " ", moved, " ", seen));
   }
 
   function showFunnel(data) {

@@ -187,6 +187,8 @@ void RefineAndJudge(const PosedScan& scan, const LearnedWires& wires, RunSize si
   result.trust = MeasureTrust(scan.given, result);
   const std::string places = PlacesWarning(result.trust);
   if (options.colour_adjustment.enabled && !places.empty()) result.warnings.push_back(places);
+  const std::string view = ViewWarning(result.trust);
+  if (!view.empty()) result.warnings.push_back(view);
   result.stages = reporter.log.stages();
 }
 

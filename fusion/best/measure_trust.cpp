@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "kernel/angle.h"
 #include "kernel/polyline.h"
 #include "kernel/quantile.h"
 
@@ -79,6 +80,23 @@ void MeasurePoses(const Sequence& given, const Sequence& corrected, Trust& trust
   trust.pose_turn = Median(std::move(turns));
 }
 
+// Along an arc, the direction that differs most from the first is one of the two.
+double ViewAngle(const Sequence& sequence, const SkeletonGraph& skeleton) {
+  const Vec3 middle = BoundsOf(skeleton).center();
+  std::vector<Vec3> directions;
+  for (const SequenceFrame& frame : sequence.frames) {
+    directions.push_back((frame.T_world_camera.translation() - middle).normalized());
+  }
+  if (directions.empty()) return 0;
+  const auto farthest = [&](const Vec3& from) {
+    return *std::min_element(
+        directions.begin(), directions.end(),
+        [&](const Vec3& a, const Vec3& b) { return a.dot(from) < b.dot(from); });
+  };
+  const Vec3 first = farthest(directions.front());
+  return AngleBetween(first, farthest(first));
+}
+
 }  // namespace
 
 Trust MeasureTrust(const Sequence& given, const Reconstruction& result) {
@@ -86,6 +104,7 @@ Trust MeasureTrust(const Sequence& given, const Reconstruction& result) {
   MeasureShares(result, trust);
   trust.wire_length = std::min(trust.wire_length, trust.length);  // curves were cut since
   MeasurePoses(given, result.sequence, trust);
+  if (trust.is_judged()) trust.view_angle = ViewAngle(result.sequence, result.skeleton);
   return trust;
 }
 

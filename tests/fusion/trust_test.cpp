@@ -6,6 +6,7 @@
 
 #include "fusion/best/measure_trust.h"
 #include "fusion/curve_graph/wire_proof.h"
+#include "kernel/angle.h"
 
 namespace curvefusion {
 namespace {
@@ -68,6 +69,23 @@ TEST(Trust, TellsHowFarPosesWereMoved) {
   EXPECT_NEAR(trust.pose_shift, 0.003, 1e-12);
   EXPECT_NEAR(trust.max_pose_shift, 0.008, 1e-12);
   EXPECT_NEAR(trust.pose_turn, 0.01, 1e-9);
+}
+
+// On an arc about the middle of the curves, at (.05, .25, 0).
+TEST(Trust, WarnsWhereTheCameraSawOneSideOnly) {
+  for (const double degrees : {20.0, 60.0}) {
+    TwoEdges two;
+    for (const int i : {0, 1, 2}) {
+      const double angle = (i - 1) * 0.5 * degrees * kDegree;
+      two.result.sequence.frames[i].T_world_camera.translation() =
+          Vec3(0.05 + 0.6 * std::sin(angle), 0.25, -0.6 * std::cos(angle));
+    }
+    const Trust trust = two.Measure();
+    EXPECT_NEAR(trust.view_angle, degrees * kDegree, 1e-9);  // rounding
+    EXPECT_EQ(ViewWarning(trust).find("from 20 degrees") != std::string::npos, degrees < 25);
+    EXPECT_EQ(ViewWarning(trust).empty(), degrees > 25);
+  }
+  EXPECT_EQ(ViewWarning(Trust()), "");  // no result
 }
 
 TEST(Trust, IsHardlyWireWhereLittleMoreThanHalfIs) {
