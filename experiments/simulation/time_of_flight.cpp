@@ -213,6 +213,7 @@ TimeOfFlightOptions AzureKinect() {
   TimeOfFlightOptions options;
   options.camera = {640, 576, 504, 504, 319.5, 287.5};
   options.farthest = 3.86;
+  options.color_scale = 640.0 / 504;  // 1280 pixels over 90 degrees: the smallest images it gives
   return options;
 }
 

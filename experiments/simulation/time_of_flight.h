@@ -9,6 +9,8 @@ struct TimeOfFlightOptions {
   PinholeCamera camera{512, 424, 365, 365, 255.5, 211.5};
   double blur_sigma_px = 0.9;  ///< the lens; decides which wires survive
   double noise = 0.006;        ///< of each phasor's parts, relative to white at 1 m
+  /// Focal length of colour over that of depth: 1920x1080 pixels of 1081, at half their size.
+  double color_scale = 540.5 / 365;
   double nearest = 0.5;
   double farthest = 4.5;
 };
@@ -25,6 +27,7 @@ class TimeOfFlightSensor : public DepthSensor {
   const PinholeCamera& camera() const override { return options_.camera; }
   DepthRange Range() const override { return {options_.nearest, options_.farthest}; }
   double WorkingDistance() const override { return 0.7; }
+  double ColorScale() const override { return options_.color_scale; }
   DepthImage Measure(const Scene& scene, const Exposure& exposure) const override;
 
  private:
