@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
+#include "kernel/angle.h"
 #include "kernel/geometry.h"
 
 namespace curvefusion {
@@ -81,13 +81,12 @@ std::string TrustLines(const Trust& trust) {
                         trust.residual_px, trust.residual_before_px)
           : ", not adjusted to colour";
   return fmt::format(
-      "  evidence  diameter measured on {} of the length, seen in depth on {}, in colour on {}; "
-      "from "
-      "{:.0f} degrees of directions\n"
+      "  evidence  diameter measured on {} of the length, seen in depth on {}, in colour on {}, "
+      "from {:.0f} degrees of directions\n"
       "  poses     moved by {:.1f} mm and {:.2f} degrees (median), {:.1f} mm at most{}\n",
       Percent(trust.measured_share), Percent(trust.depth_share), Percent(trust.colour_share),
-      trust.view_angle * 180 / std::numbers::pi, trust.pose_shift / kMillimetre,
-      trust.pose_turn * 180 / std::numbers::pi, trust.max_pose_shift / kMillimetre, residual);
+      trust.view_angle / kDegree, trust.pose_shift / kMillimetre, trust.pose_turn / kDegree,
+      trust.max_pose_shift / kMillimetre, residual);
 }
 
 std::string UncertainLine(const UnprovenLengths& lengths) {

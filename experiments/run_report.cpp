@@ -4,10 +4,10 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "capture/camera_json.h"
 #include "graph/graph_figures.h"
+#include "kernel/angle.h"
 
 namespace curvefusion {
 
@@ -194,8 +194,8 @@ Json TrustJson(const Trust& trust) {
           {"residual_px", PixelsJson(trust.residual_px)},
           {"pose_shift_mm", trust.pose_shift / kMillimetre},
           {"max_pose_shift_mm", trust.max_pose_shift / kMillimetre},
-          {"pose_turn_degrees", trust.pose_turn * 180 / std::numbers::pi},
-          {"view_angle_degrees", trust.view_angle * 180 / std::numbers::pi},
+          {"pose_turn_degrees", trust.pose_turn / kDegree},
+          {"view_angle_degrees", trust.view_angle / kDegree},
           {"doubts", Doubts(trust)}};
 }
 
