@@ -2,9 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <numbers>
 #include <utility>
 #include <vector>
+
+#include "kernel/angle.h"
 
 namespace curvefusion {
 
@@ -152,8 +153,7 @@ std::string TopologyRows(const Evaluation& evaluation) {
 std::string AlignmentRow(const RigidTransform& T_truth_result) {
   const Eigen::AngleAxisd rotation(T_truth_result.rotation());
   return fmt::format("\n{:<25}{:.2f} mm, {:.3f} degrees\n", "alignment",
-                     T_truth_result.translation().norm() / kMillimetre,
-                     rotation.angle() * 180 / std::numbers::pi);
+                     T_truth_result.translation().norm() / kMillimetre, rotation.angle() / kDegree);
 }
 
 }  // namespace

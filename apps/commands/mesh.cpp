@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <limits>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -17,6 +16,7 @@
 #include "fusion/solid_parts/solid_parts.h"
 #include "graph/io/graph_io.h"
 #include "graph/set_radius.h"
+#include "kernel/angle.h"
 #include "kernel/cancellation.h"
 #include "kernel/error.h"
 #include "meshing/hybrid_mesh.h"
@@ -84,8 +84,7 @@ void PrintReport(const WatertightReport& report, MeshUnit unit) {
   fmt::print("  vertices {}, faces {}, separate pieces {}, genus {}\n", report.vertices,
              report.faces, report.components, report.genus);
   fmt::print("  volume {:.6g} cm3, area {:.6g} cm2, worst angle {:.3g} degrees\n",
-             report.volume * cm * cm * cm, report.area * cm * cm,
-             report.min_angle * 180 / std::numbers::pi);
+             report.volume * cm * cm * cm, report.area * cm * cm, report.min_angle / kDegree);
 }
 
 // What is wrong with a mesh, in one sentence.

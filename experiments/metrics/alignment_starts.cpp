@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 #include "experiments/metrics/alignment_points.h"
+#include "kernel/angle.h"
 
 namespace curvefusion {
 namespace {
@@ -29,7 +29,7 @@ std::vector<RigidTransform> Shifts() {
 
 // A start as it is, and turned about the axes by what moves the truth by 1.5 steps.
 std::vector<RigidTransform> Turns(const RigidTransform& start, const PointSpread& truth) {
-  constexpr double kMost = 10 * std::numbers::pi / 180;  // of small objects
+  constexpr double kMost = 10 * kDegree;  // of small objects
   const double angle = std::min(kMost, 1.5 * kStep / truth.radius);
   std::vector<RigidTransform> turns = {start};
   for (int axis = 0; axis < 3; ++axis) {

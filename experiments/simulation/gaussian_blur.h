@@ -4,7 +4,8 @@
 
 namespace curvefusion {
 
-/// Of an image of `channels` values a pixel; beyond an edge its pixels are repeated.
+/// Of an image of `channels` values a pixel; beyond an edge its pixels are repeated. Single
+/// multiplications and additions, unlike OpenCV's: the same bits on every machine.
 void BlurByGaussian(float* values, int width, int height, int channels, double sigma_px);
 
 /// Of pixels that hold nothing but floats.

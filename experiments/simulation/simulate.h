@@ -15,7 +15,7 @@ namespace curvefusion {
 
 /// To be raised with every change of the bytes of a simulated scan: what keeps scans under a name
 /// then makes them anew.
-inline constexpr int kSimulatorVersion = 2;
+inline constexpr int kSimulatorVersion = 3;
 
 /// A scan to simulate.
 struct SimulationOptions {

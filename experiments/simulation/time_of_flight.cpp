@@ -66,9 +66,12 @@ PhasorImage SumPhasors(const Scene& scene, const SceneView& view, const PinholeC
   PhasorImage image(camera.width, camera.height);
   for (int v = 0; v < camera.height; ++v) {
     for (int u = 0; u < camera.width; ++u) {
+      if (!view.IsUniform(u, v)) {
+        image(u, v) = PixelPhasors(scene, view, u, v);
+        continue;
+      }
       const SceneRay ray = view.RayThrough(u, v);
-      image(u, v) = view.IsUniform(u, v) ? RayPhasors(scene, view, ray, view.Trace(ray))
-                                         : PixelPhasors(scene, view, u, v);
+      image(u, v) = RayPhasors(scene, view, ray, view.Trace(ray));
     }
   }
   return image;
@@ -96,15 +99,17 @@ class Decay {
 
 // Joint bilateral filter over 3x3 pixels: neighbours of another phase count less. A pixel whose
 // neighbours' phases differ by more than kMaxEdge in sum is an edge. Without light there is no
-// phase; noise leaves no pixel so.
+// phase.
 FilteredPhasors FilterPhasors(const PhasorImage& image) {
   constexpr float kMaxEdge = 2.5f;
   constexpr float kKernel[3] = {0.5f, 1.0f, 0.5f};
   static const Decay decay;
   FilteredPhasors filtered{image, MaskImage(image.width(), image.height(), 1)};
-  PhasorImage units = image;  // of length 1
+  PhasorImage units = image;  // of length 1, or 0 without light
   for (size_t i = 0; i < units.size(); ++i) {
-    for (Phasor& phasor : units.data()[i]) phasor /= std::sqrt(std::norm(phasor));
+    for (Phasor& phasor : units.data()[i]) {
+      if (phasor != Phasor(0)) phasor /= std::sqrt(std::norm(phasor));
+    }
   }
   for (int v = 1; v + 1 < image.height(); ++v) {
     for (int u = 1; u + 1 < image.width(); ++u) {
@@ -116,6 +121,7 @@ FilteredPhasors FilterPhasors(const PhasorImage& image) {
         const float kernel = kKernel[k % 3] * kKernel[k / 3];
         for (int f = 0; f < 3; ++f) {
           const Phasor self = units(u, v)[f], other = units(x, y)[f];
+          if (self == Phasor(0) || other == Phasor(0)) continue;
           const float difference =
               0.5f * (1 - (self.real() * other.real() + self.imag() * other.imag()));
           const float weight = kernel * decay.At(difference);
@@ -125,7 +131,7 @@ FilteredPhasors FilterPhasors(const PhasorImage& image) {
         }
       }
       for (int f = 0; f < 3; ++f) {
-        filtered.phasors(u, v)[f] = sum[f] / total[f];
+        if (total[f] > 0) filtered.phasors(u, v)[f] = sum[f] / total[f];
         if (edge[f] >= kMaxEdge) filtered.smooth(u, v) = 0;
       }
     }

@@ -1,6 +1,5 @@
 #include "experiments/studies/method_outcome.h"
 
-#include <numbers>
 #include <string>
 
 #include "experiments/metrics/evaluation_files.h"
@@ -9,6 +8,7 @@
 #include "experiments/pictures/orthographic_view.h"
 #include "experiments/pictures/png.h"
 #include "experiments/studies/reconstruction_run.h"
+#include "kernel/angle.h"
 
 namespace curvefusion {
 
@@ -70,7 +70,7 @@ void AddSurfaceFigures(const TriangleMesh& mesh, const Evaluation& evaluation,
   static_assert(kDistanceThresholds[2] == 5 * kMillimetre);
   const std::optional<double> error =
       MeanNormalError(Transformed(mesh, evaluation.T_truth_result), truth);
-  if (error) figures["normal_error_deg"] = *error * 180 / std::numbers::pi;
+  if (error) figures["normal_error_deg"] = *error / kDegree;
 }
 
 }  // namespace

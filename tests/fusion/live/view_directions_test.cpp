@@ -3,12 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
+
+#include "kernel/angle.h"
 
 namespace curvefusion {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 // Directions are known to the width of a bin: 18 degrees in the middle of a cube's face, more
 // towards its corners.
 constexpr double kBin = 25 * kDegree;
