@@ -174,7 +174,8 @@ CheckReport CheckSequence(const std::filesystem::path& folder, const Progress& p
   const FindingHandler collect = [&report](const CheckFinding& finding) {
     report.findings.push_back(finding);
   };
-  if (const auto sequence = TryReadSequence(folder, collect)) {
+  if (auto sequence = TryReadSequence(folder, collect)) {
+    sequence->color_levels = MeasureColorLevels(*sequence);
     Summarize(*sequence, report);
     ReportMissingPoses(*sequence, collect);
     report.image_sizes = SurveyImages(*sequence, collect);

@@ -73,6 +73,11 @@ Sequence WithoutDepth(Sequence sequence) {
   return sequence;
 }
 
+Sequence WithColorAsStored(Sequence sequence) {
+  sequence.color_levels = {};
+  return sequence;
+}
+
 Sequence OpenSequence(const std::filesystem::path& folder, PoseUse poses, DepthUse depth) {
   std::vector<std::string> warnings;
   const FindingHandler throw_errors = [&warnings](const CheckFinding& finding) {
@@ -82,6 +87,7 @@ Sequence OpenSequence(const std::filesystem::path& folder, PoseUse poses, DepthU
   Sequence sequence = ReadSequence(folder, poses, depth, throw_errors);
   SurveyImages(sequence, throw_errors);
   if (sequence.has_depth) RequirePlausibleDepth(sequence, throw_errors);
+  sequence.color_levels = MeasureColorLevels(sequence);
   sequence.warnings = std::move(warnings);
   return sequence;
 }
@@ -122,8 +128,11 @@ ColorImage LoadColor(const Sequence& sequence, int frame) {
   const auto color = StoredColor(sequence, entry);
   RequireSize(sequence, ImageName(entry.color_path, entry.color_part), color->width(),
               color->height(), sequence.color_camera);
-  if (sequence.color_distortion.IsZero()) return *color;
-  return Undistorted(*color, sequence.color_camera, sequence.color_distortion);
+  ColorImage image = sequence.color_distortion.IsZero()
+                         ? *color
+                         : Undistorted(*color, sequence.color_camera, sequence.color_distortion);
+  ApplyLevels(sequence.color_levels, image);
+  return image;
 }
 
 }  // namespace curvefusion

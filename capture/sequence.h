@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "capture/color_levels.h"
 #include "capture/distortion.h"
 #include "capture/image_part.h"
 #include "kernel/camera.h"
@@ -37,6 +38,7 @@ struct Sequence {
   PinholeCamera color_camera;
   Distortion depth_distortion;  ///< of the images as stored: LoadDepth and LoadColor undo it
   Distortion color_distortion;
+  ColorLevels color_levels;  ///< by which LoadColor stretches the images as stored
   RigidTransform T_color_depth = RigidTransform::Identity();
   double depth_scale = 5000;          ///< depth units per metre
   int invalid_depth = 0;              ///< raw value that means "no measurement", besides 0
@@ -77,6 +79,9 @@ Sequence KeepingImages(Sequence sequence);
 /// The sequence as if it had colour images and poses only.
 Sequence WithoutDepth(Sequence sequence);
 
+/// The sequence, whose colour images LoadColor gives as they are stored.
+Sequence WithColorAsStored(Sequence sequence);
+
 /// Detects the format of a folder or a recording in one file (docs/formats_input.md) and reads
 /// everything but the images, of which it looks at the headers and at the depths of a few frames.
 /// Throws Error(kBadInput) naming file, line or frame, value and remedy at the first defect that
@@ -100,7 +105,8 @@ bool IsVideo(const Sequence& sequence);
 /// 8-bit or wrongly sized image.
 DepthImage LoadDepth(const Sequence& sequence, int frame);
 
-/// Decodes one colour image and undoes the lens distortion. Thread-safe. Throws like LoadDepth.
+/// Decodes one colour image, undoes the lens distortion and stretches its levels. Thread-safe.
+/// Throws like LoadDepth.
 ColorImage LoadColor(const Sequence& sequence, int frame);
 
 }  // namespace curvefusion

@@ -133,11 +133,12 @@ bool ColourSurvey::IsFeatureless() const { return frames > 0 && contrast < kFeat
 bool ColourSurvey::IsGrey() const { return frames > 0 && !IsFeatureless() && chroma < kGreyChroma; }
 
 ColourSurvey SurveyColour(const Sequence& sequence, int max_frames) {
-  const std::vector<int> frames = EvenlyThinned(AllFrames(sequence), max_frames);
+  const Sequence stored = WithColorAsStored(sequence);
+  const std::vector<int> frames = EvenlyThinned(AllFrames(stored), max_frames);
   std::vector<FrameFigures> figures(frames.size());
   ParallelFor(0, static_cast<int64_t>(frames.size()), 1, [&](int64_t i) {
     try {
-      figures[static_cast<size_t>(i)] = LookAt(LoadColor(sequence, frames[static_cast<size_t>(i)]));
+      figures[static_cast<size_t>(i)] = LookAt(LoadColor(stored, frames[static_cast<size_t>(i)]));
     } catch (const Error&) {  // the survey of the images names it
     }
   });

@@ -4,7 +4,7 @@
 
 namespace curvefusion {
 
-/// What the colour images of a sequence are like: figures of some frames.
+/// What the colour images of a sequence are like as stored: figures of some frames.
 struct ColourSurvey {
   int frames = 0;            ///< looked at
   double brightness = 0;     ///< median over the frames of their median grey level, 0 to 255

@@ -101,6 +101,7 @@ void LiveReconstruction::AddToSample(const SequenceFrame& frame) {
 void LiveReconstruction::LearnIfDue() {
   if (frame_count_ < learn_at_) return;
   const ProcessorTimer timer(cost_.learning);
+  sample_.color_levels = bundle_.color_levels = MeasureColorLevels(sample_);
   model_ = LearnSegmentation(sample_, volume_, options_.segmentation);
   model_.frame_stride = kFrameStride;
   learn_at_ = 3 * frame_count_;

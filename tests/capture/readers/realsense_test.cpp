@@ -70,7 +70,7 @@ class SpoiledBag : public testing::Test {
 class Compressions : public testing::TestWithParam<const char*> {};
 
 TEST_P(Compressions, CamerasFramesAndPixelsAreThoseRecorded) {
-  const Sequence sequence = OpenSequence(BagPath(GetParam()), PoseUse::kIfGiven);
+  const Sequence sequence = WithColorAsStored(OpenSequence(BagPath(GetParam()), PoseUse::kIfGiven));
   EXPECT_EQ(sequence.format, "realsense bag");
   EXPECT_FALSE(sequence.has_poses);
   EXPECT_EQ(sequence.depth_camera.width, 16);
