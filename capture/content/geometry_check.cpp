@@ -199,6 +199,15 @@ class SampledDepth {
     return agreement->residual;
   }
 
+  // The same in the mean: some pairs on which poses disagree move no median.
+  std::optional<double> MeanMisfit(const Sequence& poses) const {
+    const std::optional<PoseAgreement> agreement = Agreement(poses);
+    if (!agreement) return std::nullopt;
+    double sum = 0;
+    for (const PairAgreement& pair : agreement->pairs) sum += pair.is_usable ? pair.residual : 0;
+    return sum / agreement->usable;
+  }
+
  private:
   std::optional<PoseAgreement> Agreement(const Sequence& poses) const {
     if (views_.empty()) return std::nullopt;
@@ -284,11 +293,15 @@ std::optional<double> ScaleByDepth(const Sequence& sequence) {
   return 1 + kScaleStep * steps;
 }
 
-std::optional<double> DepthGain(const Sequence& given, const Sequence& corrected) {
-  const SampledDepth depth(given, SpreadPairs(given.frame_count(), kSampledStarts));
-  const std::optional<double> before = depth.Misfit(given), after = depth.Misfit(corrected);
-  if (!before || !after || *after <= 0) return std::nullopt;
-  return *before / *after;
+std::optional<DepthGain> GainOfDepth(const Sequence& given, const Sequence& corrected) {
+  const auto ratio = [](const std::optional<double>& before, const std::optional<double>& after) {
+    return before && after && *after > 0 ? std::optional(*before / *after) : std::nullopt;
+  };
+  const SampledDepth near(given, SpreadPairs(given.frame_count(), kSampledStarts));
+  const std::optional<double> near_gain = ratio(near.Misfit(given), near.Misfit(corrected));
+  if (!near_gain) return std::nullopt;
+  const SampledDepth far(given, PairsFarApart(given));
+  return DepthGain{*near_gain, ratio(far.MeanMisfit(given), far.MeanMisfit(corrected)).value_or(1)};
 }
 
 }  // namespace curvefusion

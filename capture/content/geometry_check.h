@@ -79,13 +79,19 @@ void RequireFittingPoses(Sequence& sequence);
 /// Decodes about 30 depth images.
 bool DepthDisagrees(const Sequence& sequence);
 
-/// By which factor the cameras' positions are to be multiplied so that depth agrees best: what poses
-/// that were found without depth are too large by; nothing where it cannot tell. Tried are .94 to
-/// 1.06. Decodes 16 depth images.
+/// By which factor the cameras' positions are to be multiplied so that depth agrees best: what
+/// poses that were found without depth are too large by; nothing where it cannot tell. Tried are
+/// .94 to 1.06. Decodes 16 depth images.
 std::optional<double> ScaleByDepth(const Sequence& sequence);
 
-/// How many times less depth disagrees with the poses of `corrected` than with those of `given`, a
-/// sequence of the same images; nothing where it cannot tell. Decodes about 30 depth images.
-std::optional<double> DepthGain(const Sequence& given, const Sequence& corrected);
+/// How many times less depth disagrees with some poses than with others.
+struct DepthGain {
+  double near = 1;  ///< of frames up to 30 apart
+  double far = 1;   ///< of any frames, in the mean: where poses jump once, only this tells
+};
+
+/// With the poses of `corrected` against those of `given`, a sequence of the same images; nothing
+/// where frames up to 30 apart cannot tell. Decodes about 45 depth images.
+std::optional<DepthGain> GainOfDepth(const Sequence& given, const Sequence& corrected);
 
 }  // namespace curvefusion

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "capture/content/geometry_check.h"
 #include "capture/detect_format.h"
 #include "capture/frame_stream.h"
 #include "fusion/tracking/camera_tracker.h"
@@ -70,9 +69,9 @@ std::optional<HeldPoses> HeldToItsSurfaces(const Sequence& given, const Progress
     if (tracked.is_tracked) before = i;
     progress("hold to surfaces", decoded.index + 1, count);
   });
-  const double gain = DepthGain(given, held).value_or(0);
-  if (gain < kLeastGain) return std::nullopt;
-  return HeldPoses{std::move(held), gain};
+  const std::optional<DepthGain> gain = GainOfDepth(given, held);
+  if (!gain || gain->near < kLeastGain) return std::nullopt;
+  return HeldPoses{std::move(held), *gain};
 }
 
 std::optional<TrackingResult> FindPoses(Sequence& sequence, const Progress& progress) {

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "capture/content/geometry_check.h"
 #include "capture/sequence.h"
 #include "capture/trajectory.h"
 #include "fusion/tracking/track_sequence.h"
@@ -24,7 +25,7 @@ std::string DoubtOfPoses(const Sequence& tracked);
 /// A sequence whose poses fit the surfaces that its depth shows.
 struct HeldPoses {
   Sequence sequence;
-  double gain = 1;  ///< how many times less depth images disagree (DepthGain), at least 1.05
+  DepthGain gain;  ///< GainOfDepth: 1.05 and more near by
 };
 
 /// The poses of a sequence held to surfaces, from the first given one on: each frame moves as given

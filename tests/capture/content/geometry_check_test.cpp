@@ -345,6 +345,21 @@ TEST_F(RoomFiles, DepthTellsTheScaleOfPoses) {
   EXPECT_FALSE(ScaleByDepth(scan));  // farther off than what was tried
 }
 
+TEST_F(RoomFiles, FramesFarApartTellOfASingleJump) {
+  const Sequence right = OpenSequence(folder());
+  Sequence jumped = right;
+  for (size_t i = jumped.frames.size() * 2 / 3; i < jumped.frames.size(); ++i) {
+    jumped.frames[i].T_world_camera.pretranslate(Vec3(0.012, -0.006, 0.008));
+  }
+  const std::optional<DepthGain> gain = GainOfDepth(jumped, right);
+  ASSERT_TRUE(gain);
+  EXPECT_GT(gain->far, 1.5 * gain->near);
+  const std::optional<DepthGain> none = GainOfDepth(right, right);
+  ASSERT_TRUE(none);
+  EXPECT_EQ(none->near, 1);
+  EXPECT_EQ(none->far, 1);
+}
+
 TEST(GeometryCheck, ACameraThatStandsTellsNoScale) {
   const TemporaryFolder files;
   WriteRoomScan(MakeRoomScan(0), files.path() / "scan");
