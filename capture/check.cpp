@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "capture/content/colour_findings.h"
@@ -29,19 +31,21 @@ struct FrameCheck {
   Image<uint16_t> depth_thumbnail;
   Image<uint8_t> grey_thumbnail;
   std::vector<std::string> defects;
-  std::string remark;  // on the colour image
+  std::vector<std::string> unreadable;  // names of images
+  std::string remark;                   // on the colour image
 };
 
 // Calls `decode` for an image whose header is sound: other defects are in the survey of the
 // headers.
 template <class Decode>
-void CollectDefect(const ImageHeader& header, const Decode& decode, FrameCheck& check) {
-  if (!header.defect.empty()) return;
+void CollectDefect(const std::string& name, const ImageHeader& header, const Decode& decode,
+                   FrameCheck& check) {
   try {
-    decode();
+    if (header.defect.empty()) return decode();
   } catch (const Error& error) {
     check.defects.emplace_back(error.what());
   }
+  check.unreadable.push_back(name);
 }
 
 void CheckDepth(const Sequence& sequence, const SequenceFrame& frame, FrameCheck& check) {
@@ -51,7 +55,8 @@ void CheckDepth(const Sequence& sequence, const SequenceFrame& frame, FrameCheck
     check.depth.Add(MetricDepth(raw, sequence.depth_scale, sequence.invalid_depth));
   };
   const ImageHeader depth = ReadImageHeader(frame.depth_path, frame.depth_part);
-  if (depth.bits == 16) CollectDefect(depth, decode, check);
+  if (depth.bits != 16 && depth.defect.empty()) return;
+  CollectDefect(ImageName(frame.depth_path, frame.depth_part), depth, decode, check);
 }
 
 FrameCheck CheckFrame(const Sequence& sequence, const SequenceFrame& frame) {
@@ -61,10 +66,10 @@ FrameCheck CheckFrame(const Sequence& sequence, const SequenceFrame& frame) {
     check.grey_thumbnail =
         ShrunkColor(sequence, DecodeColorImage(frame.color_path, frame.color_part, &check.remark));
   };
-  CollectDefect(ReadImageHeader(frame.color_path, frame.color_part), decode_color, check);
+  const std::string name = ImageName(frame.color_path, frame.color_part);
+  CollectDefect(name, ReadImageHeader(frame.color_path, frame.color_part), decode_color, check);
   if (!check.remark.empty()) {
-    check.remark = fmt::format("{}: may be damaged ({})",
-                               ImageName(frame.color_path, frame.color_part), check.remark);
+    check.remark = fmt::format("{}: may be damaged ({})", name, check.remark);
   }
   return check;
 }
@@ -73,9 +78,11 @@ FrameCheck CheckFrame(const Sequence& sequence, const SequenceFrame& frame) {
 struct DecodedContent {
   DepthSamples depth;
   Thumbnails thumbnails;
+  std::set<std::string> unreadable;  // names of images
 
   void Add(int frame, FrameCheck& check) {
     depth.Add(check.depth);
+    unreadable.insert(check.unreadable.begin(), check.unreadable.end());
     if (thumbnails.depth.empty()) return;
     thumbnails.depth[static_cast<size_t>(frame)] = std::move(check.depth_thumbnail);
     thumbnails.grey[static_cast<size_t>(frame)] = std::move(check.grey_thumbnail);
@@ -147,6 +154,21 @@ GeometryReport CheckPoses(const Sequence& sequence, const Thumbnails& thumbnails
   return CheckGeometry(sequence, thumbnails, on_finding);
 }
 
+// A corrected copy has no frames whose images cannot be read.
+void LeaveOut(const std::set<std::string>& unreadable, const Sequence& sequence,
+              std::optional<SequenceCorrection>& correction) {
+  if (unreadable.empty()) return;
+  SequenceCorrection corrected = correction.value_or(SequenceCorrection{sequence, false, {}});
+  const size_t left_out = std::erase_if(corrected.sequence.frames, [&](const SequenceFrame& frame) {
+    return unreadable.contains(ImageName(frame.depth_path, frame.depth_part)) ||
+           unreadable.contains(ImageName(frame.color_path, frame.color_part));
+  });
+  if (corrected.sequence.frames.empty()) return;
+  corrected.made.push_back(fmt::format("{} frame{} left out whose images cannot be read", left_out,
+                                       left_out == 1 ? "" : "s"));
+  correction = std::move(corrected);
+}
+
 void Summarize(const Sequence& sequence, CheckReport& report) {
   report.format = sequence.format;
   report.has_poses = sequence.has_poses;
@@ -186,6 +208,7 @@ CheckReport CheckSequence(const std::filesystem::path& folder, const Progress& p
     report.depth_validity = depth.validity;
     report.geometry = CheckPoses(*sequence, content.thumbnails, collect);
     const bool is_explained = report.geometry.correction.has_value();
+    LeaveOut(content.unreadable, *sequence, report.geometry.correction);
     if (has_samples && !is_explained) ReportDepthScale(*sequence, depth, collect);
     if (!report.has_errors()) {
       if (sequence->has_depth) {

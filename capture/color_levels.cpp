@@ -4,13 +4,10 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "capture/frame_stream.h"
 #include "capture/sequence.h"
-#include "kernel/error.h"
-#include "kernel/parallel.h"
 #include "kernel/quantile.h"
 
 namespace curvefusion {
@@ -51,17 +48,9 @@ PixelSample SampleOf(const ColorImage& image) {
 }
 
 PixelSample SampleOf(const Sequence& sequence) {
-  const std::vector<int> frames = EvenlyThinned(AllFrames(sequence), kFrames);
-  std::vector<PixelSample> of_frame(frames.size());
-  ParallelFor(0, static_cast<int64_t>(frames.size()), 1, [&](int64_t i) {
-    try {
-      of_frame[static_cast<size_t>(i)] =
-          SampleOf(LoadColor(sequence, frames[static_cast<size_t>(i)]));
-    } catch (const Error&) {  // whoever needs the image names it
-    }
-  });
   PixelSample all;
-  for (const PixelSample& sample : of_frame) {
+  for (const PixelSample& sample :
+       OfStoredColors(sequence, kFrames, [](const ColorImage& image) { return SampleOf(image); })) {
     all.levels.insert(all.levels.end(), sample.levels.begin(), sample.levels.end());
     all.curvature.insert(all.curvature.end(), sample.curvature.begin(), sample.curvature.end());
   }
@@ -71,7 +60,7 @@ PixelSample SampleOf(const Sequence& sequence) {
 }  // namespace
 
 ColorLevels MeasureColorLevels(const Sequence& sequence) {
-  const PixelSample sample = SampleOf(WithColorAsStored(sequence));
+  const PixelSample sample = SampleOf(sequence);
   if (sample.levels.empty()) return {};
   const double low = Quantile(sample.levels, kShare);
   const double high = Quantile(sample.levels, 1 - kShare);

@@ -1,9 +1,14 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <optional>
+#include <type_traits>
 #include <vector>
 
 #include "capture/sequence.h"
+#include "kernel/error.h"
+#include "kernel/parallel.h"
 
 namespace curvefusion {
 
@@ -37,5 +42,27 @@ std::vector<int> AllFrames(const Sequence& sequence);
 
 /// The frames, or max_frames of them that are evenly spread where there are more.
 std::vector<int> EvenlyThinned(const std::vector<int>& frames, int max_frames);
+
+/// What look gives of the colour images, as stored, of max_frames frames that are evenly spread, or
+/// of all where there are fewer; looks are taken in parallel. Images that cannot be read are left
+/// out: whoever needs one names it.
+template <class Look>
+auto OfStoredColors(const Sequence& sequence, int max_frames, const Look& look) {
+  using Result = std::invoke_result_t<Look, const ColorImage&>;
+  const std::vector<int> frames = EvenlyThinned(AllFrames(sequence), max_frames);
+  std::vector<std::optional<Result>> found(frames.size());
+  ParallelFor(0, static_cast<int64_t>(frames.size()), 1, [&](int64_t i) {
+    const auto k = static_cast<size_t>(i);
+    try {
+      found[k] = look(LoadColorAsStored(sequence, frames[k]));
+    } catch (const Error&) {
+    }
+  });
+  std::vector<Result> results;
+  for (std::optional<Result>& result : found) {
+    if (result) results.push_back(std::move(*result));
+  }
+  return results;
+}
 
 }  // namespace curvefusion

@@ -94,8 +94,7 @@ ImageHeader ParseJpeg(ByteRange range) {
 }
 
 [[noreturn]] void FailDecoding(const std::string& name, const std::string& what) {
-  throw Error(ErrorKind::kBadInput,
-              fmt::format("{}: {}; copy it again or remove the frame", name, what));
+  throw Error(ErrorKind::kBadInput, fmt::format("{}: {}; {}", name, what, kUnreadableImageRemedy));
 }
 
 // Throws where the header tells that the image cannot be decoded; returns it otherwise.

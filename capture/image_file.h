@@ -18,6 +18,10 @@ struct ImageHeader {
   int channels = 0;  ///< 1 grey, 3 colour, 4 with alpha
 };
 
+/// What messages advise where an image cannot be read.
+constexpr const char* kUnreadableImageRemedy =
+    "copy it again, or leave the frame out (curvefusion check --repair DIR does so)";
+
 /// Reads the header of a PNG or JPEG file, or of the part of a recording, and looks for its end
 /// marker: a file cut off is told from a whole one, which decoders do not do for JPEG. Does not
 /// throw for bad files.

@@ -39,7 +39,7 @@ void Examine(const std::filesystem::path& path, const ImagePart& part, bool is_d
   const ImageHeader header = ReadImageHeader(path, part);
   const std::string name = ImageName(path, part);
   if (!header.defect.empty()) {
-    defects[header.defect + "; copy it again or remove the frame"].push_back(name);
+    defects[fmt::format("{}; {}", header.defect, kUnreadableImageRemedy)].push_back(name);
     return;
   }
   if (is_depth && (header.bits != 16 || header.channels != 1)) {

@@ -73,11 +73,6 @@ Sequence WithoutDepth(Sequence sequence) {
   return sequence;
 }
 
-Sequence WithColorAsStored(Sequence sequence) {
-  sequence.color_levels = {};
-  return sequence;
-}
-
 Sequence OpenSequence(const std::filesystem::path& folder, PoseUse poses, DepthUse depth) {
   std::vector<std::string> warnings;
   const FindingHandler throw_errors = [&warnings](const CheckFinding& finding) {
@@ -124,15 +119,18 @@ DepthImage LoadDepth(const Sequence& sequence, int frame) {
 }
 
 ColorImage LoadColor(const Sequence& sequence, int frame) {
+  ColorImage image = LoadColorAsStored(sequence, frame);
+  ApplyLevels(sequence.color_levels, image);
+  return image;
+}
+
+ColorImage LoadColorAsStored(const Sequence& sequence, int frame) {
   const SequenceFrame& entry = sequence.frames.at(static_cast<size_t>(frame));
   const auto color = StoredColor(sequence, entry);
   RequireSize(sequence, ImageName(entry.color_path, entry.color_part), color->width(),
               color->height(), sequence.color_camera);
-  ColorImage image = sequence.color_distortion.IsZero()
-                         ? *color
-                         : Undistorted(*color, sequence.color_camera, sequence.color_distortion);
-  ApplyLevels(sequence.color_levels, image);
-  return image;
+  if (sequence.color_distortion.IsZero()) return *color;
+  return Undistorted(*color, sequence.color_camera, sequence.color_distortion);
 }
 
 }  // namespace curvefusion

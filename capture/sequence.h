@@ -79,13 +79,11 @@ Sequence KeepingImages(Sequence sequence);
 /// The sequence as if it had colour images and poses only.
 Sequence WithoutDepth(Sequence sequence);
 
-/// The sequence, whose colour images LoadColor gives as they are stored.
-Sequence WithColorAsStored(Sequence sequence);
-
 /// Detects the format of a folder or a recording in one file (docs/formats_input.md) and reads
-/// everything but the images, of which it looks at the headers and at the depths of a few frames.
-/// Throws Error(kBadInput) naming file, line or frame, value and remedy at the first defect that
-/// would spoil a reconstruction; capture/check.h finds all of them. Well under a second.
+/// everything but the images, of which it looks at the headers, at the depths of three frames and
+/// at the colours of twelve. Throws Error(kBadInput) naming file, line or frame, value and remedy
+/// at the first defect that would spoil a reconstruction; capture/check.h finds all of them. Well
+/// under a second.
 Sequence OpenSequence(const std::filesystem::path& folder, PoseUse poses = PoseUse::kNeeded,
                       DepthUse depth = DepthUse::kNeeded);
 
@@ -108,5 +106,8 @@ DepthImage LoadDepth(const Sequence& sequence, int frame);
 /// Decodes one colour image, undoes the lens distortion and stretches its levels. Thread-safe.
 /// Throws like LoadDepth.
 ColorImage LoadColor(const Sequence& sequence, int frame);
+
+/// The same with its levels as they are stored.
+ColorImage LoadColorAsStored(const Sequence& sequence, int frame);
 
 }  // namespace curvefusion

@@ -74,7 +74,7 @@ py::array Color(const Sequence& sequence, int frame) {
   ColorImage image;
   {
     const py::gil_scoped_release released;
-    image = LoadColor(WithColorAsStored(sequence), index);
+    image = LoadColorAsStored(sequence, index);
   }
   return TakeImage<Rgb, uint8_t, 3>(std::move(image));
 }

@@ -7,8 +7,6 @@
 
 #include "capture/content/shrunk_grey.h"
 #include "capture/frame_stream.h"
-#include "kernel/error.h"
-#include "kernel/parallel.h"
 #include "kernel/quantile.h"
 
 namespace curvefusion {
@@ -133,15 +131,7 @@ bool ColourSurvey::IsFeatureless() const { return frames > 0 && contrast < kFeat
 bool ColourSurvey::IsGrey() const { return frames > 0 && !IsFeatureless() && chroma < kGreyChroma; }
 
 ColourSurvey SurveyColour(const Sequence& sequence, int max_frames) {
-  const Sequence stored = WithColorAsStored(sequence);
-  const std::vector<int> frames = EvenlyThinned(AllFrames(stored), max_frames);
-  std::vector<FrameFigures> figures(frames.size());
-  ParallelFor(0, static_cast<int64_t>(frames.size()), 1, [&](int64_t i) {
-    try {
-      figures[static_cast<size_t>(i)] = LookAt(LoadColor(stored, frames[static_cast<size_t>(i)]));
-    } catch (const Error&) {  // the survey of the images names it
-    }
-  });
+  std::vector<FrameFigures> figures = OfStoredColors(sequence, max_frames, LookAt);
   std::erase_if(figures, [](const FrameFigures& frame) { return !frame.is_read; });
   ColourSurvey survey;
   survey.frames = static_cast<int>(figures.size());

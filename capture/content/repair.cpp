@@ -74,6 +74,7 @@ ordered_json GivenIntrinsics(const Sequence& sequence) {
 struct Layout {
   bool is_tum = false;
   bool is_seven_scenes = false;
+  bool has_depth = true;
 
   fs::path Color(const SequenceFrame& frame) const {
     const std::string extension = ColorExtension(frame);
@@ -100,26 +101,27 @@ void WriteImages(const SequenceCorrection& correction, const Layout& layout,
                  const fs::path& folder) {
   for (const SequenceFrame& frame : correction.sequence.frames) {
     fs::create_directories((folder / layout.Color(frame)).parent_path());
-    fs::create_directories((folder / layout.Depth(frame)).parent_path());
+    if (layout.has_depth) fs::create_directories((folder / layout.Depth(frame)).parent_path());
   }
   ParallelFor(0, static_cast<int64_t>(correction.sequence.frames.size()), 1, [&](int64_t i) {
     const SequenceFrame& frame = correction.sequence.frames[static_cast<size_t>(i)];
     WriteColor(frame, folder / layout.Color(frame));
-    WriteDepth(frame, correction.swap_bytes, folder / layout.Depth(frame));
+    if (layout.has_depth) WriteDepth(frame, correction.swap_bytes, folder / layout.Depth(frame));
   });
 }
 
 void WriteTumLists(const SequenceCorrection& correction, const Layout& layout,
                    const fs::path& folder) {
   Trajectory trajectory;
-  std::string pairs;
+  std::string images;
   for (const SequenceFrame& frame : correction.sequence.frames) {
     trajectory.push_back({frame.timestamp, frame.T_world_camera});
-    pairs += fmt::format("{0} {1} {0} {2}\n", frame.name, layout.Color(frame).string(),
-                         layout.Depth(frame).string());
+    images += frame.name + " " + layout.Color(frame).string();
+    if (layout.has_depth) images += " " + frame.name + " " + layout.Depth(frame).string();
+    images += "\n";
   }
-  WriteBytesAtomically(folder / "associations.txt", pairs);
-  WriteTumTrajectory(folder / "trajectory.txt", trajectory);
+  WriteBytesAtomically(folder / (layout.has_depth ? "associations.txt" : "rgb.txt"), images);
+  if (correction.sequence.has_poses) WriteTumTrajectory(folder / "trajectory.txt", trajectory);
 }
 
 void WritePoseFiles(const SequenceCorrection& correction, const Layout& layout,
@@ -142,14 +144,14 @@ void WriteRepairedSequence(const SequenceCorrection& given, const fs::path& fold
   SequenceCorrection correction = given;
   const Sequence& sequence = correction.sequence;
   if (sequence.format == "nerfstudio" || sequence.format == "colmap") NameByNumber(correction);
-  const Layout layout{sequence.format == "tum", sequence.format == "7-scenes"};
+  const Layout layout{sequence.format == "tum", sequence.format == "7-scenes", sequence.has_depth};
   ordered_json intrinsics = GivenIntrinsics(sequence);
-  intrinsics["depth_scale"] = sequence.depth_scale;
+  if (sequence.has_depth) intrinsics["depth_scale"] = sequence.depth_scale;
   WriteFolderAtomically(folder, [&](const fs::path& temporary) {
     WriteImages(correction, layout, temporary);
     if (layout.is_tum) {
       WriteTumLists(correction, layout, temporary);
-    } else {
+    } else if (sequence.has_poses) {
       WritePoseFiles(correction, layout, temporary);
     }
     WriteBytesAtomically(temporary / "intrinsics.json", intrinsics.dump(1) + "\n");

@@ -186,7 +186,7 @@ TEST_F(ImageFileTest, DamagedJpegDataAreNamedWithTheirFile) {
   const std::string message = Rejection([&] { DecodeColorImage(Path("c.jpg")); });
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");  // libjpeg has no word of its own
   EXPECT_THAT(message, HasSubstr("c.jpg: is damaged (Corrupt JPEG data"));
-  EXPECT_THAT(message, HasSubstr("copy it again or remove the frame"));
+  EXPECT_THAT(message, HasSubstr("copy it again, or leave the frame out"));
 }
 
 TEST_F(ImageFileTest, BytesBetweenMarkersAreARemark) {

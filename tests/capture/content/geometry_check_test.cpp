@@ -313,6 +313,35 @@ TEST_F(RoomFiles, ARepairLinksTheImages) {
   EXPECT_THROW(WriteRepairedSequence({OpenSequence(folder()), false, {}}, repaired()), Error);
 }
 
+TEST_F(RoomFiles, ARepairLeavesOutFramesWhoseImagesCannotBeRead) {
+  std::filesystem::resize_file(folder() / "depth/7.png", 100);
+  std::filesystem::remove(folder() / "rgb/9.png");
+  for (const bool are_poses_wrong : {false, true}) {
+    if (are_poses_wrong) InvertPoses();
+    const CheckReport report = CheckSequence(folder(), NoProgress);
+    EXPECT_TRUE(report.has_errors());
+    ASSERT_TRUE(report.geometry.correction);
+    EXPECT_EQ(report.geometry.correction->made.size(), are_poses_wrong ? 2u : 1u);
+    WriteRepairedSequence(*report.geometry.correction, repaired());
+    const CheckReport after = CheckSequence(repaired(), NoProgress);
+    EXPECT_FALSE(after.has_errors());
+    EXPECT_EQ(after.frames, kRoomFrames - 2);
+    std::filesystem::remove_all(repaired());
+  }
+}
+
+TEST_F(RoomFiles, ACopyMayLackDepthOrPoses) {
+  Sequence sequence = OpenSequence(folder());
+  WriteRepairedSequence({WithoutDepth(sequence), false, {}}, repaired());
+  const Sequence copy = OpenSequence(repaired(), PoseUse::kNeeded, DepthUse::kIfGiven);
+  EXPECT_FALSE(copy.has_depth);
+  EXPECT_EQ(copy.frame_count(), kRoomFrames);
+  std::filesystem::remove_all(repaired());
+  sequence.has_poses = false;
+  WriteRepairedSequence({sequence, false, {}}, repaired());
+  EXPECT_FALSE(OpenSequence(repaired(), PoseUse::kIfGiven).has_poses);
+}
+
 TEST_F(RoomFiles, SwappedBytesAreWrittenAnew) {
   RoomScan wrong = Room();
   for (Image<uint16_t>& depth : wrong.thumbnails.depth) {

@@ -70,7 +70,7 @@ class SpoiledBag : public testing::Test {
 class Compressions : public testing::TestWithParam<const char*> {};
 
 TEST_P(Compressions, CamerasFramesAndPixelsAreThoseRecorded) {
-  const Sequence sequence = WithColorAsStored(OpenSequence(BagPath(GetParam()), PoseUse::kIfGiven));
+  const Sequence sequence = OpenSequence(BagPath(GetParam()), PoseUse::kIfGiven);
   EXPECT_EQ(sequence.format, "realsense bag");
   EXPECT_FALSE(sequence.has_poses);
   EXPECT_EQ(sequence.depth_camera.width, 16);
@@ -100,7 +100,7 @@ TEST_P(Compressions, CamerasFramesAndPixelsAreThoseRecorded) {
     Sequence undistorted = sequence;
     undistorted.color_distortion = {};
     const auto red = static_cast<uint8_t>(10 * i + 19);
-    EXPECT_EQ(LoadColor(undistorted, k)(19, 14), (Rgb{red, 114, 200}));
+    EXPECT_EQ(LoadColorAsStored(undistorted, k)(19, 14), (Rgb{red, 114, 200}));
   }
 }
 
