@@ -9,6 +9,7 @@ BestOptions DefaultBestOptions() {
   BestOptions options;
   options.volume.voxel_size = 0.01;
   options.depth.hold_to_surfaces = true;
+  options.depth.magnify_fine_wires = true;
   options.volume_stride = 2;
   options.segmentation.render_divisor = 2;
   options.segmentation.opening.solid_depth = 0.03;
@@ -56,6 +57,11 @@ void VisitOptions(DepthOptions& options, OptionVisitor& visitor) {
                  "Deviation: before all else, poses are corrected to fit the surfaces that depth "
                  "shows behind the wires, where depth images then agree better."},
                 options.hold_to_surfaces);
+  visitor.Visit({"magnify_fine_wires", "", 0, 1,
+                 "Deviation: where depth shows wires thinner than 2.5 mm, all is done once more in "
+                 "a world so much larger that they have 5 mm, of which lengths in these settings "
+                 "then are."},
+                options.magnify_fine_wires);
 }
 
 void VisitOptions(BestOptions& options, OptionVisitor& visitor) {

@@ -33,6 +33,7 @@ const std::string& DepthRoleName(DepthRole role);
 struct DepthOptions {
   DepthRole use = DepthRole::kAuto;
   bool hold_to_surfaces = false;
+  bool magnify_fine_wires = false;
 };
 void VisitOptions(DepthOptions& options, OptionVisitor& visitor);
 

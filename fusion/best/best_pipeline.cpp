@@ -13,6 +13,7 @@
 #include "fusion/best/measure_trust.h"
 #include "fusion/best/scale_of_poses.h"
 #include "fusion/best/weak_colour.h"
+#include "fusion/best/world_scale.h"
 #include "fusion/registration/axis_correction.h"
 #include "fusion/registration/close_wires.h"
 #include "fusion/registration/frame_points.h"
@@ -221,6 +222,32 @@ Reconstruction ReconstructThinParts(const BundleSource& source, const PosedScan&
   return result;
 }
 
+// What both runs of a stage took.
+void AddTimes(const std::vector<StageReport>& before, std::vector<StageReport>& stages) {
+  for (StageReport& stage : stages) {
+    for (const StageReport& same : before) {
+      if (same.name == stage.name) stage.seconds += same.seconds;
+    }
+  }
+}
+
+// Once more in a larger world, where wires are much thinner than those that lengths were chosen on.
+Reconstruction AtScaleOfWires(Reconstruction found, const Sequence& given,
+                              const BestOptions& options, PipelineObserver& observer) {
+  if (!options.depth.magnify_fine_wires) return found;
+  const std::optional<double> magnification = MagnificationFor(found);
+  if (!magnification) return found;
+  observer.OnProgress("magnification", 0, 1);
+  BestOptions once = options;
+  once.depth.magnify_fine_wires = false;
+  ReducingObserver reducing(observer, *magnification);
+  Reconstruction magnified = ReconstructBest(Magnified(given, *magnification), once, reducing);
+  if (magnified.skeleton.empty()) return found;
+  AddTimes(found.stages, magnified.stages);
+  magnified.stages.push_back({"magnification", 0, 0, {{"times", *magnification}}, {}});
+  return Reduced(std::move(magnified), *magnification, given);
+}
+
 void CountVolume(const VolumeFigures& figures, StageLog& log) {
   log.Count("volume", "frames", static_cast<double>(figures.frames));
   log.Count("volume", "blocks", static_cast<double>(figures.blocks));
@@ -256,7 +283,7 @@ Reconstruction ReconstructBest(const Sequence& all, const BestOptions& given_opt
   Reconstruction result = is_used ? ReconstructThinParts(source, scan, options, reporter)
                                   : ReconstructWithoutDepth(scan, options, reporter);
   if (!useless_colour.empty()) result.warnings.push_back(useless_colour);
-  return result;
+  return AtScaleOfWires(std::move(result), all, given_options, observer);
 }
 
 Reconstruction ReconstructBestAgainst(const TsdfVolume& volume, const Sequence& sequence,
@@ -300,7 +327,7 @@ Reconstruction ReconstructBestFrom(const BundleSource& shards, const Sequence& s
   };
   Reconstruction result = ReconstructThinParts(source, scan, options, reporter);
   if (!useless_colour.empty()) result.warnings.push_back(useless_colour);
-  return result;
+  return AtScaleOfWires(std::move(result), sequence, given, observer);
 }
 
 }  // namespace curvefusion

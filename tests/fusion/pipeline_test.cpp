@@ -8,6 +8,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "fusion/best/world_scale.h"
 #include "graph/io/graph_io.h"
 #include "graph/validate.h"
 #include "kernel/parallel.h"
@@ -142,6 +143,24 @@ TEST(Pipeline, PaperProfileFindsTheSimulatedCube) {
   // The paper moves the skeleton along with the bundles, so it ends up in the drifted frame of the
   // last one: 10 mm. Its ghosts cost precision, which is not bounded here.
   EXPECT_GE(ShareWithin(truth, found, 0.010), 0.9);
+}
+
+// As by a close-up scanner: wires of .9 mm, a few centimetres apart.
+TEST(Pipeline, AFifthAsLargeIsFoundAsWell) {
+  const auto folder = SharedData("sim/cubeframe");
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not there";
+  constexpr double kScale = 0.2;
+  const Sequence small = Magnified(OpenSequence(folder), kScale);
+  PipelineObserver silent;
+  const Reconstruction result = Reconstruct(small, ProfileOptions(Profile::kBest), silent);
+  std::vector<Vec3> truth = TrueCurvePoints(SharedData("sim/cubeframe.truth/curves.json"));
+  for (Vec3& p : truth) p *= kScale;
+  const std::vector<Vec3> found = CurvePoints(result.skeleton);
+  EXPECT_GE(ShareWithin(found, truth, kScale * 0.005), 0.95);
+  EXPECT_GE(ShareWithin(truth, found, kScale * 0.005), 0.95);
+  EXPECT_NEAR(JunctionCount(result.skeleton), 13, 3);
+  EXPECT_NEAR(2 * result.radii.global_radius, kScale * 0.0045, kScale * 0.0005);
+  EXPECT_EQ(result.sequence.depth_scale, small.depth_scale);
 }
 
 TEST(Pipeline, NothingThinIsAnEmptySkeleton) {
