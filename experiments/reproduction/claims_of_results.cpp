@@ -78,7 +78,9 @@ std::vector<Claim> OfObjects() {
        .place = "5, paragraph 1",
        .kind = ClaimKind::kFails,
        .study = "poses",
-       .figure = "F at 5 mm of the cat by a raw camera whose colour nobody has registered",
+       .figure =
+           "F at 5 mm of the cat by a raw camera whose colour nobody has registered; the best "
+           "profile fits a colour camera to the images",
        .measure = MedianOf("aligned.curves.5mm.f", {{"colour", "raw"}}),
        .bound = {.value = 0.9},
        .origin = "chosen: nine tenths of the curves"}};

@@ -3,6 +3,7 @@
 // (CurveFusion 5, Effect of different camera calibration). And is the factory calibration between
 // colour and depth good enough, on which no registration was run ("insufficient", 4)? "It is
 // desirable to employ both visual and geometric features": our tracker with and without colour.
+#include "capture/content/colour_findings.h"
 #include "capture/sequence.h"
 #include "capture/trajectory.h"
 #include "experiments/metrics/trajectory_metrics.h"
@@ -69,6 +70,10 @@ double TrajectoryError(const Sequence& sequence, const Trajectory& truth) {
 // With the poses of the case: those of the scan, or tracked without looking at them.
 Sequence PosedSequence(const RunInput& input) {
   Sequence sequence = OpenSequence(input.scan);
+  // As the command does; the paper has the camera's own calibration here.
+  if (std::holds_alternative<BestOptions>(input.study_case.config.pipeline)) {
+    UseFittedColourCamera(sequence);
+  }
   const std::string poses = LabelOf(input.study_case.labels, "poses");
   if (!IsTracked(poses)) return sequence;
   TrackingOptions options;
