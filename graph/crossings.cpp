@@ -15,6 +15,7 @@
 #include "graph/connected_parts.h"
 #include "graph/edge_curve.h"
 #include "graph/open_ends.h"
+#include "kernel/angle.h"
 #include "kernel/quantile.h"
 
 namespace curvefusion {
@@ -26,7 +27,8 @@ constexpr double kDrawn = 10 * kMillimetre;   // so far contraction draws crossi
 constexpr double kFitted = 25 * kMillimetre;  // of each branch beyond that
 constexpr double kLeastFitted = 2.5 * kMillimetre;  // likewise; shorter branches tell nothing
 constexpr double kMaxResidual = 0.8 * kMillimetre;
-constexpr double kMaxTurn = 0.35;  // radians, from branch to branch; wires that meet turn by more
+// Radians. Chosen from what was measured: cables have .35 at most, a star of four arms .64.
+constexpr double kMaxKink = 0.45;
 // Of the sum of the radii. Chosen from what was measured: axes that meet have .14 and less in the
 // median of a scan, cables that touch .9 to 1.2.
 constexpr double kMinApart = 0.6;
@@ -113,11 +115,20 @@ Passage PassageBetween(const Samples& before, const Samples& after) {
   return passage;
 }
 
-// Radians, from the first segment to the last.
-double Turn(const Polyline& points) {
-  const Vec3 first = (points[1] - points[0]).normalized();
-  const Vec3 last = (points.back() - points[points.size() - 2]).normalized();
-  return std::acos(std::clamp(first.dot(last), -1.0, 1.0));
+// Radians by which a wire turns between two branches beyond what they bend themselves: chords of
+// branches lie (kDrawn + length / 2) from the junction each, those of their halves length / 2 from
+// each other.
+double Kink(const Samples& before, const Samples& after) {
+  const auto bend = [](const Samples& s) {
+    const Vec3& middle = s.points[kSamples / 2];
+    return AngleBetween(middle - s.points.front(), s.points.back() - middle);
+  };
+  const auto middle = [](const Samples& s) { return kDrawn + 0.5 * (kSamples - 1) * s.step; };
+  const double turn = AngleBetween(before.points.front() - before.points.back(),
+                                   after.points.back() - after.points.front());
+  const double bent = bend(before) / ((kSamples - 1) * before.step) +
+                      bend(after) / ((kSamples - 1) * after.step);  // radians a metre
+  return turn - bent * (middle(before) + middle(after));
 }
 
 double RadiusOf(const SkeletonGraph& graph, const BranchEnd& branch) {
@@ -137,7 +148,7 @@ std::vector<Passage> PassagesOf(const SkeletonGraph& graph,
   for (size_t i = 0; i < branches.size(); ++i) {
     for (size_t j = 0; j < i; ++j) {
       Passage passage = PassageBetween(samples[i], samples[j]);
-      if (passage.residual > kMaxResidual || Turn(passage.points) > kMaxTurn) continue;
+      if (passage.residual > kMaxResidual || Kink(samples[i], samples[j]) > kMaxKink) continue;
       passage.branches = {branches[i], branches[j]};
       passage.radius = 0.5 * (RadiusOf(graph, branches[i]) + RadiusOf(graph, branches[j]));
       all.push_back(std::move(passage));

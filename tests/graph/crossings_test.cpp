@@ -99,10 +99,13 @@ TEST(SeparateCrossings, LeavesWiresThatEndAtOthers) {
   EXPECT_EQ(SeparateCrossings(graph), 0);
 }
 
-// A rod that is welded to the corner of another.
+// A rod that is welded to the corner of another; a star of four arms, beside whose middle noise
+// leads them past each other.
 TEST(SeparateCrossings, LeavesCorners) {
-  SkeletonGraph graph = Crossing({.apart = 0, .corner = 1});
-  EXPECT_EQ(SeparateCrossings(graph), 0);
+  SkeletonGraph welded = Crossing({.apart = 0, .corner = 1});
+  EXPECT_EQ(SeparateCrossings(welded), 0);
+  SkeletonGraph star = Crossing({.corner = 0.65});
+  EXPECT_EQ(SeparateCrossings(star), 0);
 }
 
 TEST(SeparateCrossings, LeavesWhatHasNoRadii) {
