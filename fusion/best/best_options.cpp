@@ -58,9 +58,9 @@ void VisitOptions(DepthOptions& options, OptionVisitor& visitor) {
                  "shows behind the wires, where depth images then agree better."},
                 options.hold_to_surfaces);
   visitor.Visit({"magnify_fine_wires", "", 0, 1,
-                 "Deviation: where depth shows wires thinner than 2.5 mm, all is done once more in "
-                 "a world so much larger that they have 5 mm, of which lengths in these settings "
-                 "then are."},
+                 "Deviation: where depth shows wires thinner than 2.5 mm, or nothing, in fine "
+                 "pixels, all is done once more in a larger world, in which these wires have 5 mm; "
+                 "lengths in these settings then are of that world."},
                 options.magnify_fine_wires);
 }
 
