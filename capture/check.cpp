@@ -163,7 +163,7 @@ void LeaveOut(const std::set<std::string>& unreadable, const Sequence& sequence,
     return unreadable.contains(ImageName(frame.depth_path, frame.depth_part)) ||
            unreadable.contains(ImageName(frame.color_path, frame.color_part));
   });
-  if (corrected.sequence.frames.empty()) return;
+  if (left_out == 0 || corrected.sequence.frames.empty()) return;
   corrected.made.push_back(fmt::format("{} frame{} left out whose images cannot be read", left_out,
                                        left_out == 1 ? "" : "s"));
   correction = std::move(corrected);

@@ -20,7 +20,8 @@ std::optional<double> MagnificationFor(const Reconstruction& result);
 /// The sequence in a world that is so many times as large.
 Sequence Magnified(Sequence sequence, double magnification);
 
-/// A result for Magnified(given, magnification), in the world of the given sequence.
+/// A result for Magnified(given, magnification), in the world of the given sequence; what its
+/// stages counted stays that of the magnified one.
 Reconstruction Reduced(Reconstruction result, double magnification, const Sequence& given);
 
 /// Hands on what it hears of a run in a magnified world, in the given one; tables and the volume,
