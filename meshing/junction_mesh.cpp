@@ -32,9 +32,10 @@ constexpr double kTinyHollow = 0.05;  // across; radii larger by a fortieth clos
 constexpr double kResampledHollow = 2.0;
 // A tube has a dozen corners on such a grid, and loses 2 % of its section.
 constexpr double kGridSpacing = 0.5;
-// The rim of a flat end loses a cell, which must not reach the end of the collar. Shorter segments
-// than some radii, as of curves with noise, are left to chance.
-constexpr double kLeastGridSpacing = 0.15;
+// The rim of a flat end loses a cell, which should not reach the end of the collar. Mostly the two
+// fit all the same; where they do not, the grid is finer, but no finer than the last of these:
+// segments shorter than some radii, as of curves with noise, are left to chance.
+constexpr std::array kLeastGridSpacings = {kGridSpacing, 0.15};
 
 // A crowded junction has so many creases that some place fails in nearly every attempt, and an
 // attempt takes long: a planar fan of 50 tubes fails in 24 of 24. Up to kUncrowded tubes it has all
@@ -246,10 +247,10 @@ JunctionMeshOptions WithinBudget(const JunctionMeshOptions& options, const Junct
 // It does not depend on how tubes cross; gaps and crotches narrower than the grid may close.
 // Nothing where the ends do not fit. Cost: 3 microseconds for each square of the grid that the
 // surface covers.
-std::optional<UnionMesh> ResampleJunction(const Junction& junction) {
+std::optional<UnionMesh> ResampleJunction(const Junction& junction, double least_spacing) {
   return ReplaceCore(junction, [&](const std::vector<TriangleMesh>& stubs, double overlap) {
     const double spacing = std::min(kGridSpacing * junction.radius, overlap);
-    return ResampleUnion(stubs, std::max(spacing, kLeastGridSpacing * junction.radius));
+    return ResampleUnion(stubs, std::max(spacing, least_spacing * junction.radius));
   });
 }
 
@@ -259,7 +260,11 @@ void TakeLastResort(const Junction& junction, const std::map<Place, int>& rings,
     result.surface = Finished(WrapJunction(junction), junction, rings, kTinyHollow);
     result.last_resort = LastResort::kWrapping;
   } else {
-    result.surface = Finished(ResampleJunction(junction), junction, rings, kResampledHollow);
+    for (const double least_spacing : kLeastGridSpacings) {
+      result.surface =
+          Finished(ResampleJunction(junction, least_spacing), junction, rings, kResampledHollow);
+      if (result.surface) break;
+    }
     result.last_resort = LastResort::kResampling;
   }
 }

@@ -128,8 +128,7 @@ struct WiresOfSheet {
     const Vec3 q = sheet.axes.transpose() * (p - sheet.origin);
     const int u = static_cast<int>(std::lround(q.x() / SheetImage::kStep));
     const int v = static_cast<int>(std::lround(q.y() / SheetImage::kStep));
-    return between.Contains(u, v) && between(u, v) &&
-           std::abs(q.z() - sheet.HeightAt(q.x(), q.y())) < kOnSheet;
+    return between.Contains(u, v) && between(u, v) && std::abs(sheet.Above(p)) < kOnSheet;
   }
 };
 
@@ -144,8 +143,9 @@ void FillDiameters(std::vector<NetWire>& wires) {
     if (wire.diameter == 0) wire.diameter = usual;
 }
 
-WiresOfSheet FindWires(const Sequence& sequence, double noise, NetSheet sheet) {
-  const std::vector<SheetView> views = ViewsOfSheet(sequence, sheet);
+WiresOfSheet FindWires(const Sequence& sequence, const SkeletonGraph& skeleton, double noise,
+                       NetSheet sheet) {
+  const std::vector<SheetView> views = ViewsOfSheet(sequence, skeleton, sheet);
   MoveToWhereImagesAgree(sequence, views, sheet);
   const SheetPixels pixels(sheet, SheetImage::kStep);
   const std::vector<SheetLook> looks = LookAt(sequence, views, pixels, Vec3::Zero());
@@ -206,7 +206,7 @@ NetCurves AddNetCurves(const Sequence& sequence, const Nets& nets, double radius
   NetCurves curves;
   const double before = skeleton.TotalLength();
   for (NetSheet& sheet : SheetsOf(sequence, nets)) {
-    const WiresOfSheet found = FindWires(sequence, nets.noise, std::move(sheet));
+    const WiresOfSheet found = FindWires(sequence, skeleton, nets.noise, std::move(sheet));
     if (found.wires.empty()) continue;
     RemoveReplaced(found, skeleton);
     curves.wires.insert(curves.wires.end(), found.wires.begin(), found.wires.end());

@@ -173,6 +173,11 @@ double NetSheet::HeightAt(double x, double y) const {
          b * ((1 - a) * heights(u0, v0 + 1) + a * heights(u0 + 1, v0 + 1));
 }
 
+double NetSheet::Above(const Vec3& p) const {
+  const Vec3 q = axes.transpose() * (p - origin);
+  return q.z() - HeightAt(q.x(), q.y());
+}
+
 std::vector<NetSheet> SheetsOf(const Sequence& sequence, const Nets& nets) {
   std::vector<NetSheet> sheets;
   if (nets.empty()) return sheets;

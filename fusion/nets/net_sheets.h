@@ -26,6 +26,8 @@ struct NetSheet {
   double HeightAt(double x, double y) const;
   /// The same in the world.
   Vec3 At(double x, double y) const { return origin + axes * Vec3(x, y, HeightAt(x, y)); }
+  /// How far a place in the world is above the surface, or what goes on beside it.
+  double Above(const Vec3& p) const;
 };
 
 /// The sheets of nets as depth shows them: the planes around which most of it lies, one after the

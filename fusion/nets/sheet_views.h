@@ -6,6 +6,7 @@
 
 #include "capture/sequence.h"
 #include "fusion/nets/net_sheets.h"
+#include "graph/skeleton_graph.h"
 #include "kernel/geometry.h"
 #include "kernel/image.h"
 
@@ -16,11 +17,13 @@ struct SheetView {
   ColorImage color;
   DepthImage depth;
   RigidTransform T_camera_world;
+  MaskImage covered;  ///< 1 at the pixels of `color` that show known wires in front of the sheet
 };
 
-/// Up to 40 frames that look at a sheet not too much from the side. Throws Error(kBadInput) for an
-/// image that cannot be read.
-std::vector<SheetView> ViewsOfSheet(const Sequence& sequence, const NetSheet& sheet);
+/// Up to 40 frames that look at a sheet not too much from the side. Depth may not show the wires of
+/// the skeleton that hide it. Throws Error(kBadInput) for an image that cannot be read.
+std::vector<SheetView> ViewsOfSheet(const Sequence& sequence, const SkeletonGraph& skeleton,
+                                    const NetSheet& sheet);
 
 /// What an image shows on a sheet: of every pixel of it a colour, and 1; 0 where it is hidden or
 /// not in the image.

@@ -51,15 +51,27 @@ class Wallpaper {
 // The net spans an opening in a board.
 inline bool IsInNet(double x, double y) { return std::abs(x) < 0.1 && std::abs(y) < 0.08; }
 
-inline bool IsOnWire(double x, double y, double half_width) {
-  const auto off = [](double p) { return std::abs(p - kSpacing * std::round(p / kSpacing)); };
+inline bool IsOnGrid(double x, double y, double spacing, double half_width) {
+  const auto off = [&](double p) { return std::abs(p - spacing * std::round(p / spacing)); };
   return std::min(off(x), off(y)) < half_width;
 }
+
+inline constexpr double kBarsDepth = 0.45;  // metres, of bars that depth does not show
+inline constexpr double kBarSpacing = 0.024;
+inline constexpr double kBar = 0.003;  // their diameter
+
+inline bool IsOnWire(double x, double y, double half_width) {
+  return IsOnGrid(x, y, kSpacing, half_width);
+}
+
+// What hangs before a wall.
+enum class Before { kNothing, kBlackBars };
 
 // A camera that moves past a net before a wall at `wall_depth`: at kNetDepth it is painted on one.
 class NetBefore {
  public:
-  explicit NetBefore(double wall_depth, double lens_px = 0) : lens_px_(lens_px) {
+  explicit NetBefore(double wall_depth, double lens_px = 0, Before before = Before::kNothing)
+      : lens_px_(lens_px), before_(before) {
     std::filesystem::create_directories(folder_);
     cv::imwrite((folder_ / "depth.png").string(),
                 cv::Mat(240, 320, CV_16U, cv::Scalar(5000 * kNetDepth)));
@@ -101,6 +113,11 @@ class NetBefore {
   }
 
   cv::Vec3b ColourAt(const Vec3& camera, double wall_depth, double u, double v) const {
+    const Vec3 on_bars = camera + kCamera.Unproject(u, v, kBarsDepth);
+    if (before_ == Before::kBlackBars &&
+        IsOnGrid(on_bars.x(), on_bars.y(), kBarSpacing, kBar / 2)) {
+      return {};
+    }
     const Vec3 on_net = camera + kCamera.Unproject(u, v, kNetDepth);
     const Vec3 on_wall = camera + kCamera.Unproject(u, v, wall_depth);
     if (!IsInNet(on_net.x(), on_net.y())) return wallpaper_.At(on_net.x(), on_net.y());
@@ -110,6 +127,7 @@ class NetBefore {
 
   std::filesystem::path folder_ = TemporaryPath("net");
   double lens_px_;  // standard deviation of its blur
+  Before before_;
   Wallpaper wallpaper_;
   Sequence sequence_;
 };

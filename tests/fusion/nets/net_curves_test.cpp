@@ -5,7 +5,9 @@
 #include <cmath>
 
 #include "fusion/best/net_stage.h"
+#include "fusion/nets/net_sheets.h"
 #include "fusion/nets/net_wires.h"
+#include "fusion/nets/sheet_views.h"
 #include "graph/validate.h"
 #include "tests/fusion/nets/net_before_wall.h"
 
@@ -107,6 +109,52 @@ TEST_F(NetCurvesTest, AWallGivesNoWires) {
   SkeletonGraph skeleton;
   EXPECT_TRUE(AddNetCurves(painted.sequence(), *nets_, 0.001, skeleton).wires.empty());
   EXPECT_TRUE(skeleton.empty());
+}
+
+// Looks of a sheet, and how many of them are at something black.
+struct Looks {
+  int all = 0;
+  int black = 0;
+};
+
+Looks LookPast(const SkeletonGraph& skeleton, const Sequence& sequence, const NetSheet& sheet) {
+  Looks looks;
+  const std::vector<SheetView> views = ViewsOfSheet(sequence, skeleton, sheet);
+  for (const SheetLook& look : LookAt(sequence, views, SheetPixels(sheet, 0.002), Vec3::Zero())) {
+    for (size_t i = 0; i < look.size(); ++i) {
+      looks.all += look.data()[i][3];
+      looks.black += look.data()[i][3] != 0 && look.data()[i][0] < 20;
+    }
+  }
+  return looks;
+}
+
+// The bars of NetBefore, but so far away.
+SkeletonGraph BarsAt(double depth) {
+  SkeletonGraph bars;
+  for (int i = -8; i <= 8; ++i) {
+    const double off = kBarSpacing * i;
+    for (const Polyline& ends : {Polyline{{-0.2, off, depth}, {0.2, off, depth}},
+                                 Polyline{{off, -0.2, depth}, {off, 0.2, depth}}}) {
+      const Polyline points = Resample(ends, 0.003);
+      bars.SetCurve(bars.AddPolyline(points), points, std::vector<double>(points.size(), kBar / 2));
+    }
+  }
+  return bars;
+}
+
+// Through bars that depth does not show a wall would change from view to view as a net does.
+TEST_F(NetCurvesTest, KnownCurvesBeforeASheetAreNotTakenForIt) {
+  const NetBefore wall(kNetDepth, 0.7, Before::kBlackBars);
+  const std::vector<NetSheet> sheets = SheetsOf(wall.sequence(), *nets_);
+  ASSERT_FALSE(sheets.empty());
+  const Looks unknown = LookPast({}, wall.sequence(), sheets[0]);
+  const Looks before = LookPast(BarsAt(kBarsDepth), wall.sequence(), sheets[0]);
+  const Looks behind = LookPast(BarsAt(kNetDepth + 0.1), wall.sequence(), sheets[0]);
+  EXPECT_GT(unknown.black, 0.05 * unknown.all);
+  EXPECT_EQ(before.black, 0);
+  EXPECT_GT(before.all, 0.2 * unknown.all);
+  EXPECT_EQ(behind.all, unknown.all);
 }
 
 }  // namespace
