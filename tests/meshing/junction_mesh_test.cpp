@@ -109,14 +109,18 @@ TEST(MeshJunction, WrapsACrowdedJunctionWithoutBeingAsked) {
   EXPECT_EQ(wrapped.last_resort, LastResort::kWrapping);
 }
 
-// Thin tubes that cross in one plane, each with segments of 5 mm on both sides of the middle.
-Junction PlanarFan(int count, double radius) {
+// Thin tubes that cross in one plane, each with segments of 5 mm on both sides of the middle, of
+// which the last, beside the cut rings, may be shorter.
+Junction PlanarFan(int count, double radius, double last_segment = 0.005) {
   Junction junction;
   junction.radius = radius;
   for (int i = 0; i < count; ++i) {
     const double turn = std::numbers::pi * i / count;
     const Vec3 direction(std::cos(turn), std::sin(turn), 0);
-    const TubeRings rings = SweepRings(StraightTube(direction, radius), 8, 0.1 * i);
+    TubePath tube = StraightTube(direction, radius);
+    for (const int end : {-1, 1})
+      tube.axis.points[4 + 2 * end] = end * (0.015 - last_segment) * direction;
+    const TubeRings rings = SweepRings(tube, 8, 0.1 * i);
     junction.stubs.push_back(CloseStub(rings, 1, 7));
     for (const int point : {1, 7}) {
       const auto first = rings.vertices.begin() + rings.ring_of_point[point] * rings.sides;
@@ -140,6 +144,19 @@ TEST(MeshJunction, ResamplesTubesThatOverlapForLongWithoutAnAttempt) {
   EXPECT_EQ(report.misoriented_edges, 0);
   EXPECT_EQ(report.components, 1);
   EXPECT_EQ(report.boundary_edges, 2 * 40 * 8);  // the cut rings
+}
+
+// For segments so short a grid that surely reaches them has six times as many triangles.
+TEST(MeshJunction, ResamplesNoFinerThanTheCutRingsNeed) {
+  const JunctionMesh usual = MeshJunction(PlanarFan(40, 0.0004), {}, 1);
+  const JunctionMesh fan = MeshJunction(PlanarFan(40, 0.0004, 0.0003), {}, 1);
+  ASSERT_TRUE(usual.surface && fan.surface);
+  EXPECT_EQ(fan.last_resort, LastResort::kResampling);
+  EXPECT_LT(fan.surface->triangles.size(), 1.5 * usual.surface->triangles.size());
+  const WatertightReport report = ExamineMesh(*fan.surface);
+  EXPECT_EQ(report.self_intersections, 0);
+  EXPECT_EQ(report.non_manifold_edges, 0);
+  EXPECT_EQ(report.boundary_edges, 2 * 40 * 8);
 }
 
 }  // namespace
