@@ -226,6 +226,10 @@ void StartFromColourWhereDepthFails(const PosedScan& scan, const WireColours& co
       given.has_depth
           ? StartFromColour(given, errors, colours, depth_curves, options, reporter, result)
           : StartWithoutDepth(given, options, reporter, result);
+  if (!from_colour && depth_curves == DepthCurves::kDoubtful) {
+    from_colour =
+        StartFromColour(given, errors, {}, DepthCurves::kNoHelp, options, reporter, result);
+  }
   if (from_colour) {
     adjusted = std::move(from_colour->adjusted);
     start = std::move(from_colour->start);

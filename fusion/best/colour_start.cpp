@@ -32,6 +32,11 @@ constexpr double kMinOnCurves = 0.5;
 // worse by images alone, 15 of 16 with .14 and more better (docs/lab_notebook.md).
 constexpr double kTellingShare = 0.1;
 
+// Whether depth's curves tell where wires are and what colours they have.
+bool TellsOfWires(DepthCurves depth_curves) {
+  return depth_curves == DepthCurves::kDoubtful || depth_curves == DepthCurves::kMisplaced;
+}
+
 // Metres of curve, and how many of them the images show as wire.
 struct ShownCurves {
   double length = 0;
@@ -127,7 +132,7 @@ void ReportShown(const ColourFit& fit, StageLog& log) {
 // Those of one row compete; the next row is tried where none of them is better than depth's curves.
 std::vector<std::vector<Attempt>> AttemptsFor(DepthCurves depth_curves) {
   const Attempt whole_images, looked_past = {WireDepth::kLookedPast};
-  if (depth_curves == DepthCurves::kNone) return {{whole_images}, {looked_past}};
+  if (!TellsOfWires(depth_curves)) return {{whole_images}, {looked_past}};
   return {{{.in_thin_pixels = true}, whole_images}, {looked_past}};
 }
 
@@ -160,7 +165,7 @@ bool AreProven(const Reconstruction& colour, const ProofLimits& limits) {
 bool IsAccepted(const ColourFit& fit, DepthCurves depth_curves, const BestOptions& options,
                 const Reconstruction& result, const StageReporter& reporter) {
   const bool is_none = depth_curves == DepthCurves::kNone;
-  const bool shows_thin = fit.attempt.depth == WireDepth::kNotShown && !is_none;
+  const bool shows_thin = fit.attempt.depth == WireDepth::kNotShown && TellsOfWires(depth_curves);
   if (!is_none && !AreProven(fit.colour, LimitsOf(options.evidence))) return false;
   if (fit.attempt.in_thin_pixels)
     return fit.on_curves >= kMinOnCurves && fit.shown.IsShownMoreThan(fit.depth_shown);
@@ -175,12 +180,13 @@ std::optional<ColourCurves> StartFromColour(const Sequence& given, PoseErrors po
                                             const BestOptions& options,
                                             const StageReporter& reporter, Reconstruction& result) {
   const bool is_asked_for = options.depth.use == DepthRole::kBackground;
-  const bool is_none = depth_curves == DepthCurves::kNone;
-  if (!is_asked_for && !is_none && (colours.posterior.empty() || result.points.empty()))
+  if (!is_asked_for && TellsOfWires(depth_curves) &&
+      (colours.posterior.empty() || result.points.empty()))
     return std::nullopt;
   const WireImages images =
       colours.posterior.empty() ? LookForContrast(given) : LookForColours(given, colours);
-  const Eigen::AlignedBox3d around = RegionOf(given, result.points);
+  const Eigen::AlignedBox3d around = TellsOfWires(depth_curves) ? RegionOf(given, result.points)
+                                                                : RegionSeenByMost(given);
 
   const auto fit_curves = [&](const Attempt& attempt) -> std::optional<ColourFit> {
     WireImages learned = images;

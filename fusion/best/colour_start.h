@@ -15,6 +15,7 @@ namespace curvefusion {
 enum class DepthCurves {
   kNone,       ///< depth shows no wire
   kDoubtful,   ///< images do not fit them
+  kNoHelp,     ///< nor do they tell the wires' colours, or where the object is
   kMisplaced,  ///< depth was measured to scatter about the wires that images show
 };
 
@@ -38,10 +39,11 @@ enum class DepthCurves {
 ///   not;
 /// - last, in whole images again, but as depth may not show them at all, strips are followed from
 ///   place to place, and depth must show something behind nearly all of them.
-/// Where depth shows no wire only the latter two are tried: depth must show something behind nearly
-/// all of them, and no more is asked: the proof decides. With DepthRole::kBackground those from
-/// whole images are taken wherever there are any. Where depth has shown nothing thin, places are
-/// sought where most cameras look, in what stands out from its surroundings. Nothing otherwise.
+/// Where depth shows no wire, or is of no help, only the latter two are tried, where most cameras
+/// look, and depth must show something behind nearly all of them. Where it shows no wire no more is
+/// asked: the proof decides. With DepthRole::kBackground those from whole images are taken wherever
+/// there are any. Without colours places are sought in what stands out from its surroundings.
+/// Nothing otherwise.
 /// Throws Error(kBadInput) for an image that cannot be read. Costs about .1 s an image, at most 90
 /// of them.
 std::optional<ColourCurves> StartFromColour(const Sequence& given, PoseErrors pose_errors,

@@ -46,6 +46,12 @@ WireColours ColoursOf(const Sequence& sequence) {
   return {.posterior = model.Posterior()};
 }
 
+double LengthOfWires() {
+  double length = 0;
+  for (const Polyline& wire : kWires) length += Length(wire);
+  return length;
+}
+
 class ColourStart : public testing::Test {
  protected:
   // Starts with curves of depth that are off by so much.
@@ -134,8 +140,7 @@ class ColourStart : public testing::Test {
 TEST_F(ColourStart, FindsWiresThatDepthShowsInWrongPlaces) {
   ASSERT_TRUE(Start(0.04).has_value());
   EXPECT_LT(MedianDistance(), 0.001);
-  double length = 0;
-  for (const Polyline& wire : kWires) length += Length(wire);
+  const double length = LengthOfWires();
   EXPECT_NEAR(result_.skeleton.TotalLength(), length, 0.15 * length);
   EXPECT_EQ(result_.warnings.size(), 1u);
 }
@@ -187,8 +192,7 @@ TEST_F(ColourStart, StartsWithTheCurvesThatHoldMoreOfWhatDepthShowsThin) {
   const Vec3 alone = 0.5 * (kWires[1].front() + kWires[1].back());
   for (int i = 0; i < 8; ++i) result_.points.Add(alone, Vec3::UnitZ(), 1);
   ASSERT_TRUE(StartWithCurves(DefaultBestOptions(), DepthCurves::kDoubtful).has_value());
-  double length = 0;
-  for (const Polyline& wire : kWires) length += Length(wire);
+  const double length = LengthOfWires();
   EXPECT_NEAR(result_.skeleton.TotalLength(), length, 0.15 * length);
   EXPECT_GT(Count("share of depth on curves"), 0.95);
 }
@@ -252,8 +256,7 @@ TEST_F(ColourStart, NeedsNoDepth) {
   ASSERT_TRUE(started.has_value());
   EXPECT_EQ(started->start.depth, WireDepth::kNotShown);
   EXPECT_LT(MedianDistance(), 0.0015);  // images do not tell size and place
-  double length = 0;
-  for (const Polyline& wire : kWires) length += Length(wire);
+  const double length = LengthOfWires();
   EXPECT_NEAR(result_.skeleton.TotalLength(), length, 0.15 * length);
   EXPECT_EQ(result_.warnings.size(), 1u);
 }
@@ -277,6 +280,31 @@ TEST_F(ColourStart, TheSwitchTellsWhatDepthIsUsedFor) {
   EXPECT_EQ(SkeletonToJson(none.skeleton), SkeletonToJson(automatic.skeleton));
   options.depth.use = DepthRole::kWires;
   EXPECT_THROW(reconstruct(WithoutDepth(scan), 1), Error);
+}
+
+// What depth has of something thin may lie elsewhere, and be none.
+TEST_F(ColourStart, LooksWhereCamerasLookWhereDepthShowsNoWire) {
+  AddStrayPoints();
+  ASSERT_TRUE(StartWithCurves(DefaultBestOptions(), DepthCurves::kNone).has_value());
+  EXPECT_LT(MedianDistance(), 0.002);
+  EXPECT_GT(result_.skeleton.TotalLength(), 0.85 * LengthOfWires());
+}
+
+TEST_F(ColourStart, NeedsNeitherPlaceNorColoursOfDepthThatIsOfNoHelp) {
+  AddStrayPoints();
+  AddTestEdge(result_.skeleton, TestLine({-0.2, -0.05, 0}, {-0.2, 0.05, 0}));
+  result_.sequence = scan_.sequence();
+  ASSERT_TRUE(StartFromColour(scan_.sequence(), PoseErrors::kDrift, {}, DepthCurves::kNoHelp,
+                              DefaultBestOptions(), StageReporter{observer_, log_}, result_)
+                  .has_value());
+  EXPECT_LT(MedianDistance(), 0.002);
+  EXPECT_GT(result_.skeleton.TotalLength(), 0.85 * LengthOfWires());
+}
+
+TEST_F(ColourStart, KeepsCurvesOfDepthThatImagesShowEvenWhereItIsOfNoHelp) {
+  result_.skeleton = WiresOffBy(0);
+  for (const Polyline& wire : kWires) AddTestEdge(result_.skeleton, wire);
+  EXPECT_FALSE(StartWithCurves(DefaultBestOptions(), DepthCurves::kNoHelp).has_value());
 }
 
 // Depth's curves are shown twice over, and more of them not at all: no reason to give up what is
