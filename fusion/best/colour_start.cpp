@@ -185,8 +185,8 @@ std::optional<ColourCurves> StartFromColour(const Sequence& given, PoseErrors po
     return std::nullopt;
   const WireImages images =
       colours.posterior.empty() ? LookForContrast(given) : LookForColours(given, colours);
-  const Eigen::AlignedBox3d around = TellsOfWires(depth_curves) ? RegionOf(given, result.points)
-                                                                : RegionSeenByMost(given);
+  const Eigen::AlignedBox3d around =
+      TellsOfWires(depth_curves) ? RegionOf(given, result.points) : RegionSeenByMost(given);
 
   const auto fit_curves = [&](const Attempt& attempt) -> std::optional<ColourFit> {
     WireImages learned = images;
