@@ -19,7 +19,11 @@ Centers CentersOf(const Sequence& sequence) {
   return centers;
 }
 
-Vec3 MiddleOf(const Reconstruction& result) { return BoundsOf(result.skeleton).center(); }
+// The fixed point: poses were adjusted about those of the tracker, curves at some distance were
+// not.
+Vec3 MiddleOfCameras(const Reconstruction& result) {
+  return CentersOf(result.sequence).rowwise().mean();
+}
 
 }  // namespace
 
@@ -28,13 +32,13 @@ void HoldToScaleOf(const Sequence& given, Reconstruction& result) {
   const Centers from = CentersOf(result.sequence), to = CentersOf(given);
   if ((from.colwise() - from.col(0)).isZero() || (to.colwise() - to.col(0)).isZero()) return;
   const Eigen::Matrix4d fitted = Eigen::umeyama(from, to, true);
-  ScaleAbout(MiddleOf(result), fitted.block<3, 1>(0, 0).norm(), result);
+  ScaleAbout(MiddleOfCameras(result), fitted.block<3, 1>(0, 0).norm(), result);
 }
 
 void HoldToScaleOfDepth(Reconstruction& result) {
   if (result.skeleton.empty()) return;
   if (const std::optional<double> scale = ScaleByDepth(result.sequence)) {
-    ScaleAbout(MiddleOf(result), *scale, result);
+    ScaleAbout(MiddleOfCameras(result), *scale, result);
   } else {
     result.warnings.push_back(
         "the depth images do not tell the size of the curves, which is that of the poses: measure "
