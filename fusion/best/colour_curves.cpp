@@ -72,7 +72,7 @@ void ContractPlaces(const StripViews& views, const CandidateOptions& candidates,
 void KeepProven(StripViews& views, const StageReporter& reporter, Reconstruction& colour) {
   const StageLog::Timer timer = reporter.Begin(kWiresFromColour);
   const double measured = colour.radii.unmeasured_radius;
-  KeepProvenCandidates(colour.sequence, colour.points.positions,
+  KeepProvenCandidates(colour.sequence, {}, colour.points.positions,
                        measured > 0 ? measured : kUsualRadius, views, colour.skeleton);
   reporter.log.Count(kWiresFromColour, "proven length, m", colour.skeleton.TotalLength());
 }

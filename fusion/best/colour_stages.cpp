@@ -74,8 +74,8 @@ bool KeepProvenWires(const std::string& stage, const std::string& name, const Pr
                      Reconstruction& result) {
   const StageLog::Timer timer = reporter.Begin(stage);
   const double uncertain = result.uncertain.lengths.Sum();
-  std::vector<StretchEvidence> evidence =
-      CollectEvidence(result.skeleton, result.radii, result.sequence, depth.images);
+  std::vector<StretchEvidence> evidence = CollectEvidence(
+      result.skeleton, result.radii, result.sequence, depth.images, result.skeleton);
   DisregardDepth(depth, result.skeleton, evidence);
   reporter.observer.OnTable(name, [&] { return EvidenceCsv(result.skeleton, evidence); });
   const std::vector<WireProof> proofs =

@@ -156,7 +156,7 @@ bool AreProven(const Reconstruction& colour, const ProofLimits& limits) {
   SkeletonGraph kept = colour.skeleton;
   UncertainCurves uncertain;
   const std::vector<StretchEvidence> evidence =
-      CollectEvidence(kept, colour.radii, colour.sequence, 0);
+      CollectEvidence(kept, colour.radii, colour.sequence, 0, kept);
   KeepProven(evidence, ProveWires(kept, evidence, {}), limits, kept, uncertain);
   return !kept.empty();
 }

@@ -96,7 +96,8 @@ AddedCurves AddCandidateCurves(const Sequence& sequence, const ObservedPoints& c
   SkeletonGraph found = ExtractRidgeSkeleton(candidates, options);
   SnapToStrips(views, found);
   KeepNewWires(known, found);
-  CandidateProof proof = KeepProvenCandidates(sequence, candidates.positions, radius, views, found);
+  CandidateProof proof =
+      KeepProvenCandidates(sequence, skeleton, candidates.positions, radius, views, found);
   AddedCurves added = {0, std::move(proof.stretches)};
   if (found.empty()) return added;
   const double length = skeleton.TotalLength();

@@ -90,6 +90,7 @@ CandidateStretch Judged(const StretchEvidence& evidence, const std::vector<Strip
 
 // Returns all stretches.
 std::vector<CandidateStretch> KeepLikelyStretches(const Sequence& sequence,
+                                                  const SkeletonGraph& known,
                                                   const std::vector<Vec3>& found,
                                                   const StripViews& views, SkeletonGraph& curves) {
   const PointGrid places(found, kNearPlace);
@@ -100,7 +101,7 @@ std::vector<CandidateStretch> KeepLikelyStretches(const Sequence& sequence,
     kept[id];
   }
   std::vector<CandidateStretch> stretches;
-  for (const StretchEvidence& evidence : CollectEvidence(curves, {}, sequence, 0)) {
+  for (const StretchEvidence& evidence : CollectEvidence(curves, {}, sequence, 0, known)) {
     const EdgeId id = evidence.edge;
     const CandidateStretch& stretch = stretches.emplace_back(
         Judged(evidence, along.at(id), views, places, curves.edge(id).points));
@@ -169,13 +170,14 @@ std::string StretchesCsv(const std::vector<CandidateStretch>& stretches) {
   return csv;
 }
 
-CandidateProof KeepProvenCandidates(const Sequence& sequence, const std::vector<Vec3>& places,
-                                    double radius, StripViews& views, SkeletonGraph& curves) {
+CandidateProof KeepProvenCandidates(const Sequence& sequence, const SkeletonGraph& known,
+                                    const std::vector<Vec3>& places, double radius,
+                                    StripViews& views, SkeletonGraph& curves) {
   DropRefutedParts([&views](const Polyline& points) { return views.SharesAlong(points); },
                    kMinStripShare, {}, curves);
   if (curves.empty()) return {};
   CandidateProof proof;
-  proof.stretches = KeepLikelyStretches(sequence, places, views, curves);
+  proof.stretches = KeepLikelyStretches(sequence, known, places, views, curves);
   proof.stand_alone = ExplainAway(radius, views, curves);
   return proof;
 }

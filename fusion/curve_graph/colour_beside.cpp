@@ -17,9 +17,10 @@ namespace {
 constexpr size_t kPlaceStride = 2;  // chosen: of places kPlaceStep apart
 // Chosen: metres beyond the curve's radius, out of its blur and mostly before the next wire.
 constexpr double kDistance[] = {0.004, 0.007, 0.010};
-constexpr double kBlurPx = 1.5;  // around a curve its own colour shows
-constexpr double kBlur = 0.002;  // metres, likewise: at .7 m
-constexpr size_t kMinLooks = 6;  // chosen: images of a point, for a median and how far from it
+constexpr double kHidden = 0.02;  // metres behind another curve; less is beside that
+constexpr double kBlurPx = 1.5;   // around a curve its own colour shows
+constexpr double kBlur = 0.002;   // metres, likewise: at .7 m
+constexpr size_t kMinLooks = 6;   // chosen: images of a point, for a median and how far from it
 // Chosen, for the wall behind the real cable: grey levels between points, for noise and shading,
 constexpr double kEven = 4;
 constexpr double kAnotherColour = 20;  // and from the curve's own colour.
@@ -180,21 +181,23 @@ bool ColourBeside::HasCurvesBeside() const {
 }
 
 void ColourBeside::Look(const ColorImage& smoothed, const PinholeCamera& camera,
-                        const RigidTransform& T_camera_world) {
+                        const RigidTransform& T_camera_world, const CurvesInFront& hide) {
+  const auto look = [&](const Vec2& pixel, double depth, std::vector<Rgb>& colours) {
+    const Eigen::Vector2i at = PinholeCamera::Rounded(pixel);
+    if (!hide.AreNearer(at.x(), at.y(), depth - kHidden))
+      colours.push_back(smoothed(at.x(), at.y()));
+  };
   for (Place& place : places_) {
     const auto line = SeenIn(camera, T_camera_world, place.on_curve);
     if (!line) continue;
-    if (camera.Contains(line->pixel)) {
-      const Eigen::Vector2i at = PinholeCamera::Rounded(line->pixel);
-      place.own.push_back(smoothed(at.x(), at.y()));
-    }
+    const double depth = (T_camera_world * place.on_curve.position).z();
+    if (camera.Contains(line->pixel)) look(line->pixel, depth, place.own);
     for (auto& points : place.beside) {
       for (Point& point : points) {
         if (point.is_on_curve) continue;
         const Vec2 pixel = camera.Project(Vec3(T_camera_world * point.position));
         if (!camera.Contains(pixel) || line->DistanceTo(pixel) < line->own_px) continue;
-        const Eigen::Vector2i at = PinholeCamera::Rounded(pixel);
-        point.colours.push_back(smoothed(at.x(), at.y()));
+        look(pixel, depth, point.colours);
       }
     }
   }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "capture/sequence.h"
+#include "fusion/appearance/curves_in_front.h"
 #include "fusion/curve_graph/depth_profile.h"
 #include "kernel/camera.h"
 #include "kernel/geometry.h"
@@ -48,9 +49,9 @@ class ColourBeside {
   /// Leaves out what lies beside this curve on another one, whose colour stays as a surface's does.
   void LeaveOut(const OnCurves& curves);
 
-  /// Adds an image that has at each pixel the mean of those around it.
+  /// Adds an image that has at each pixel the mean of those around it, but for what curves `hide`.
   void Look(const ColorImage& smoothed, const PinholeCamera& camera,
-            const RigidTransform& T_camera_world);
+            const RigidTransform& T_camera_world, const CurvesInFront& hide);
 
   ColourChange Change() const;
 

@@ -183,17 +183,19 @@ StretchEvidence SummaryOf(const Stretch& stretch) {
   return evidence;
 }
 
-void LookBeside(const Sequence& sequence, std::vector<Stretch>& stretches,
-                std::vector<ColourBeside>& on_surfaces) {
+void LookBeside(const Sequence& sequence, const SkeletonGraph& in_front,
+                std::vector<Stretch>& stretches, std::vector<ColourBeside>& on_surfaces) {
   const PinholeCamera& camera = sequence.color_camera;
   const auto look = [&](const DecodedFrame& frame) {
     const ColorImage smoothed = Smoothed(frame.color);
     const RigidTransform T_color_world = sequence.T_color_world(frame.index);
+    const CurvesInFront hide(in_front, camera, T_color_world);
     constexpr int64_t kGrain = 16;  // chosen: stretches of one task
-    ParallelFor(0, static_cast<int64_t>(stretches.size()), kGrain,
-                [&](int64_t i) { stretches[i].colours->Look(smoothed, camera, T_color_world); });
+    ParallelFor(0, static_cast<int64_t>(stretches.size()), kGrain, [&](int64_t i) {
+      stretches[i].colours->Look(smoothed, camera, T_color_world, hide);
+    });
     ParallelFor(0, static_cast<int64_t>(on_surfaces.size()), kGrain,
-                [&](int64_t i) { on_surfaces[i].Look(smoothed, camera, T_color_world); });
+                [&](int64_t i) { on_surfaces[i].Look(smoothed, camera, T_color_world, hide); });
   };
   ForEachFrame(sequence, EvenlyThinned(AllFrames(sequence), kColourImages),
                {.depth = false, .color = true}, look);
@@ -229,7 +231,7 @@ void AddStrips(const Stretch& stretch, const EdgeRadius& edge,
 
 std::vector<StretchEvidence> CollectEvidence(const SkeletonGraph& skeleton,
                                              const RadiusEstimate& radii, const Sequence& sequence,
-                                             int max_frames) {
+                                             int max_frames, const SkeletonGraph& in_front) {
   std::vector<Stretch> stretches;
   std::vector<CurvePlace> curves;
   for (const EdgeId id : skeleton.Edges()) {
@@ -256,7 +258,7 @@ std::vector<StretchEvidence> CollectEvidence(const SkeletonGraph& skeleton,
   std::vector<ColourBeside> on_surfaces;
   for (const std::vector<CurvePlace>& line : LinesOnSurfaces(sequence))
     on_surfaces.emplace_back(line);
-  LookBeside(sequence, stretches, on_surfaces);
+  LookBeside(sequence, in_front, stretches, on_surfaces);
   const double change_on_surfaces = MedianOfLeast(on_surfaces);
 
   std::map<EdgeId, EdgeRadius> radius_of;

@@ -38,12 +38,13 @@ struct StretchEvidence {
 };
 
 /// Cuts every edge into stretches and looks at each in at most `max_frames` evenly spread depth
-/// images and half as many colour images; `radii` are those of the skeleton (world frame).
-/// Stretches by edge, then along it. Throws Error(kBadInput) for an image that cannot be decoded.
-/// Cost: places (every 4 mm) x frames x 100 pixels.
+/// images and half as many colour images; `radii` are those of the skeleton (world frame). What
+/// curves `in_front` hide in colour images is left out. Stretches by edge, then along it. Throws
+/// Error(kBadInput) for an image that cannot be decoded. Cost: places (every 4 mm) x frames x 100
+/// pixels.
 std::vector<StretchEvidence> CollectEvidence(const SkeletonGraph& skeleton,
                                              const RadiusEstimate& radii, const Sequence& sequence,
-                                             int max_frames);
+                                             int max_frames, const SkeletonGraph& in_front);
 
 /// A table of all evidence, a stretch a row: first, middle and last point in metres, then all that
 /// StretchEvidence holds.

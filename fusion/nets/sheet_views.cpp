@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
 
 #include "capture/frame_stream.h"
-#include "capture/image_mat.h"
 #include "fusion/nets/surface_views.h"
 #include "kernel/bilinear.h"
 #include "kernel/parallel.h"
@@ -18,7 +16,6 @@ namespace {
 constexpr int kViews = 40;
 constexpr size_t kMinLooks = 5;     // of a pixel
 constexpr double kMinCosine = 0.3;  // of the angle between a line of sight and the upright
-constexpr double kBlurredPx = 2;    // to either side of a wire
 constexpr int kRows = 8;            // for a thread at a time
 
 using Colour = std::array<float, 3>;
@@ -40,7 +37,7 @@ class Eye {
     const auto v = static_cast<float>(color_.fy * q.y() / q.z() + color_.cy);
     const bool is_inside = u >= 0 && v >= 0 && u < static_cast<float>(view_.color.width() - 1) &&
                            v < static_cast<float>(view_.color.height() - 1);
-    if (!is_inside || IsCovered(u, v) || IsHidden(T_depth_world_ * p)) return false;
+    if (!is_inside || IsBehindCurves(u, v, q.z()) || IsHidden(T_depth_world_ * p)) return false;
     const Vec3f shown = Bilinear(view_.color, u, v);
     for (int k = 0; k < 3; ++k) colour[k] = static_cast<uint8_t>(shown[k] + 0.5F);
     colour[3] = 1;
@@ -48,8 +45,9 @@ class Eye {
   }
 
  private:
-  bool IsCovered(float u, float v) const {
-    return view_.covered(static_cast<int>(u + 0.5F), static_cast<int>(v + 0.5F)) != 0;
+  bool IsBehindCurves(float u, float v, float depth) const {
+    return view_.known.AreNearer(static_cast<int>(u + 0.5F), static_cast<int>(v + 0.5F),
+                                 depth - view_.nearer);
   }
 
   bool IsHidden(const Vec3f& p) const {
@@ -87,31 +85,6 @@ std::vector<Colour> GainsOf(const std::vector<SheetLook>& looks) {
   return gains;
 }
 
-// 1 at the pixels of an image that show wires in front of the sheet.
-MaskImage CoveredPixels(const Sequence& sequence, const RigidTransform& T_camera_world,
-                        const SkeletonGraph& skeleton, const NetSheet& sheet) {
-  const PinholeCamera& camera = sequence.color_camera;
-  const RigidTransform T_color_world = sequence.T_color_depth * T_camera_world;
-  const bool is_above = sheet.Above(T_color_world.inverse().translation()) > 0;
-  MaskImage covered(camera.width, camera.height, 0);
-  cv::Mat pixels = MatOf(covered);
-  for (const EdgeId id : skeleton.Edges()) {
-    const SkeletonEdge& edge = skeleton.edge(id);
-    for (size_t i = 0; i + 1 < edge.points.size(); ++i) {
-      const Vec3 a = T_color_world * edge.points[i], b = T_color_world * edge.points[i + 1];
-      const double above = sheet.Above(edge.points[i]);
-      const bool is_in_front = (is_above ? above : -above) > SurfaceViews::kNearer;
-      if (!is_in_front || std::min(a.z(), b.z()) < PinholeCamera::kNearest) continue;
-      const double radius = edge.radii.empty() ? 0 : edge.radii[i];
-      const int width = static_cast<int>(std::ceil(2 * (radius * camera.fx / a.z() + kBlurredPx)));
-      const Eigen::Vector2i from = PinholeCamera::Rounded(camera.Project(a));
-      const Eigen::Vector2i to = PinholeCamera::Rounded(camera.Project(b));
-      cv::line(pixels, {from.x(), from.y()}, {to.x(), to.y()}, 1, width);
-    }
-  }
-  return covered;
-}
-
 float MedianOf(std::vector<float>& values) {
   const auto middle = values.begin() + static_cast<int64_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -123,16 +96,21 @@ float MedianOf(std::vector<float>& values) {
 std::vector<SheetView> ViewsOfSheet(const Sequence& sequence, const SkeletonGraph& skeleton,
                                     const NetSheet& sheet) {
   const Vec3 middle = sheet.At(0.5 * sheet.Width(), 0.5 * sheet.Height());
+  const auto cosine = [&](int frame) {
+    const Vec3 sight = middle - sequence.frames[frame].T_world_camera.translation();
+    return std::abs(sight.normalized().dot(sheet.axes.col(2)));
+  };
   std::vector<int> frames;
-  for (int i = 0; i < sequence.frame_count(); ++i) {
-    const Vec3 sight = middle - sequence.frames[i].T_world_camera.translation();
-    if (std::abs(sight.normalized().dot(sheet.axes.col(2))) >= kMinCosine) frames.push_back(i);
-  }
+  for (int i = 0; i < sequence.frame_count(); ++i)
+    if (cosine(i) >= kMinCosine) frames.push_back(i);
   std::vector<SheetView> views;
   ForEachFrame(sequence, EvenlyThinned(frames, kViews), {}, [&](const DecodedFrame& frame) {
     const RigidTransform T_camera_world = sequence.frames[frame.index].T_world_camera.inverse();
-    views.push_back({frame.color, frame.depth, T_camera_world,
-                     CoveredPixels(sequence, T_camera_world, skeleton, sheet)});
+    views.push_back({frame.color,
+                     frame.depth,
+                     T_camera_world,
+                     {skeleton, sequence.color_camera, sequence.T_color_depth * T_camera_world},
+                     SurfaceViews::kNearer / cosine(frame.index)});
   });
   return views;
 }

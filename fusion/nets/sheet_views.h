@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "capture/sequence.h"
+#include "fusion/appearance/curves_in_front.h"
 #include "fusion/nets/net_sheets.h"
 #include "graph/skeleton_graph.h"
 #include "kernel/geometry.h"
@@ -17,7 +18,8 @@ struct SheetView {
   ColorImage color;
   DepthImage depth;
   RigidTransform T_camera_world;
-  MaskImage covered;  ///< 1 at the pixels of `color` that show known wires in front of the sheet
+  CurvesInFront known;  ///< wires in `color`
+  double nearer = 0;    ///< metres of depth: by so much nearer ones hide the sheet
 };
 
 /// Up to 40 frames that look at a sheet not too much from the side. Depth may not show the wires of

@@ -78,7 +78,7 @@ const std::map<std::string, std::map<std::string, std::set<std::string>>> kRooms
       {"silhouettes", {"adjustment", "appearance", "curve_graph", "segmentation", "strips"}},
       {"curve_graph", {"appearance", "strips"}},
       {"tracking", {"volume"}},
-      {"nets", {"tracking"}},
+      {"nets", {"appearance", "tracking"}},
       {"paper", {"", "segmentation", "strips", "volume"}},
       {"best",
        {"", "adjustment", "appearance", "curve_graph", "nets", "registration", "segmentation",

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "kernel/polyline.h"
+
 namespace curvefusion {
 namespace {
 
@@ -48,7 +50,7 @@ ColourChange Change(double plane_z, double contrast, int cameras = 12,
           PinholeCamera::Rounded(kCamera.Project(Vec3(T_camera_world * place.position)));
       for (int v = -3; v <= 3; ++v) image(at.x(), at.y() + v) = {40, 40, 40};
     }
-    beside.Look(image, kCamera, T_camera_world);
+    beside.Look(image, kCamera, T_camera_world, CurvesInFront({}, kCamera, T_camera_world));
   }
   return beside.Change();
 }
@@ -76,7 +78,8 @@ TEST(ColourBeside, WhatIsEvenAndOfAnotherColourIsLeftOut) {
       ColorImage image(kCamera.width, kCamera.height, Rgb{wall, wall, wall});
       for (int v = 0; v < image.height(); ++v)
         for (int u = 164; u <= 172; ++u) image(u, v) = {wire, wire, wire};
-      beside.Look(image, kCamera, RigidTransform::Identity());
+      beside.Look(image, kCamera, RigidTransform::Identity(),
+                  CurvesInFront({}, kCamera, RigidTransform::Identity()));
     }
     return beside.Change();
   };
@@ -103,6 +106,36 @@ TEST(ColourBeside, CurvesThatCrossAreNoSurface) {
       crossing.push_back({1, 0, 0.003, {0.01 + 0.001 * i, y, kDistance}, Vec3::UnitX()});
   const ColourChange taken_for_surface = Change(kDistance + 0.2, 60, 12, {}, crossing);
   EXPECT_GT(Change(kDistance + 0.2, 60, 12, crossing, crossing).most, 1.3 * taken_for_surface.most);
+}
+
+// A line on a surface, before which nearer dark bars stand: each image shows them elsewhere.
+TEST(ColourBeside, BarsInFrontAreNotTakenForWhatLiesBehind) {
+  constexpr double kBar = 0.006, kBarDepth = 0.3;
+  SkeletonGraph bars;
+  for (int i = -8; i <= 8; ++i) {
+    const Polyline points =
+        Resample(Polyline{{0.02 * i, -0.1, kBarDepth}, {0.02 * i, 0.1, kBarDepth}}, 0.005);
+    bars.SetCurve(bars.AddPolyline(points), points, std::vector<double>(points.size(), kBar / 2));
+  }
+  const auto least_change = [&](const SkeletonGraph& known) {
+    ColourBeside beside(Line());
+    for (int i = 0; i < 30; ++i) {
+      const Vec3 center(0.006 * (i - 14.5), 0, 0);
+      RigidTransform T_camera_world = RigidTransform::Identity();
+      T_camera_world.translation() = -center;
+      ColorImage image = ImageOfPlane(center, kDistance, 60);
+      for (int v = 0; v < image.height(); ++v) {
+        for (int u = 0; u < image.width(); ++u) {
+          const double x = (center + kCamera.Unproject(u, v, kBarDepth)).x();
+          if (std::abs(std::remainder(x, 0.02)) < kBar / 2) image(u, v) = {10, 10, 10};
+        }
+      }
+      beside.Look(image, kCamera, T_camera_world, CurvesInFront(known, kCamera, T_camera_world));
+    }
+    return beside.Change().least;
+  };
+  EXPECT_GT(least_change({}), 20);
+  EXPECT_LT(least_change(bars), 0.3 * least_change({}));
 }
 
 TEST(Smoothed, IsTheMeanOfThePixelsAround) {

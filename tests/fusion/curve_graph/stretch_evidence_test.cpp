@@ -37,7 +37,7 @@ class StretchEvidenceTest : public testing::Test {
   ~StretchEvidenceTest() override { std::filesystem::remove_all(folder_); }
 
   std::vector<StretchEvidence> Collect() const {
-    return CollectEvidence(skeleton_, radii_, sequence_, 60);
+    return CollectEvidence(skeleton_, radii_, sequence_, 60, skeleton_);
   }
 
   std::filesystem::path folder_ = TemporaryPath("stretch_evidence");
@@ -95,7 +95,7 @@ TEST_F(StretchEvidenceTest, ATableHoldsEveryStretch) {
 }
 
 TEST_F(StretchEvidenceTest, OfNoCurvesIsNone) {
-  EXPECT_TRUE(CollectEvidence({}, {}, sequence_, 60).empty());
+  EXPECT_TRUE(CollectEvidence({}, {}, sequence_, 60, {}).empty());
 }
 
 }  // namespace
