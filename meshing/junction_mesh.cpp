@@ -243,10 +243,11 @@ JunctionMeshOptions WithinBudget(const JunctionMeshOptions& options, const Junct
 }
 
 // The last resort for a junction whose tubes cannot be united: their union resampled on a grid of
-// half the radius (ResampleUnion), united with the unchanged ends of the stubs at the cut rings.
-// It does not depend on how tubes cross; gaps and crotches narrower than the grid may close.
-// Nothing where the ends do not fit. Cost: 3 microseconds for each square of the grid that the
-// surface covers.
+// half the radius (ResampleUnion), or of what the cut rings allow where that is less, but of at
+// least `least_spacing` radii, united with the unchanged ends of the stubs at the cut rings. It
+// does not depend on how tubes cross; gaps and crotches narrower than the grid may close. Nothing
+// where the ends do not fit. Cost: 3 microseconds for each square of the grid that the surface
+// covers.
 std::optional<UnionMesh> ResampleJunction(const Junction& junction, double least_spacing) {
   return ReplaceCore(junction, [&](const std::vector<TriangleMesh>& stubs, double overlap) {
     const double spacing = std::min(kGridSpacing * junction.radius, overlap);
