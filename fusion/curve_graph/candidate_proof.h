@@ -38,9 +38,9 @@ struct CandidateProof {
 /// nothing farther behind it in depth images, which fill the gaps between close wires, these must
 /// tell that no surface goes on there (ColourLogOdds). Then every strip speaks for one curve only:
 /// that with most evidence is taken first and explains its strips in `views`, and a curve stays
-/// only where enough of the others are left to it. `radius` (metres) is that of all curves; `known`
-/// ones hide what is behind them. Throws
-/// Error(kBadInput) for an image that cannot be decoded.
+/// only where enough of the others are left to it. `radius` (metres) is that of all curves; what
+/// `known` ones hide in images is left out. Throws Error(kBadInput) for an image that cannot be
+/// decoded.
 CandidateProof KeepProvenCandidates(const Sequence& sequence, const SkeletonGraph& known,
                                     const std::vector<Vec3>& places, double radius,
                                     StripViews& views, SkeletonGraph& curves);

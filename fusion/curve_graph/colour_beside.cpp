@@ -17,7 +17,7 @@ namespace {
 constexpr size_t kPlaceStride = 2;  // chosen: of places kPlaceStep apart
 // Chosen: metres beyond the curve's radius, out of its blur and mostly before the next wire.
 constexpr double kDistance[] = {0.004, 0.007, 0.010};
-constexpr double kHidden = 0.02;  // metres behind another curve; less is beside that
+constexpr double kHidden = 0.02;  // metres behind a curve; chosen: less is beside it
 constexpr double kBlurPx = 1.5;   // around a curve its own colour shows
 constexpr double kBlur = 0.002;   // metres, likewise: at .7 m
 constexpr size_t kMinLooks = 6;   // chosen: images of a point, for a median and how far from it
