@@ -220,9 +220,17 @@ class SampledDepth {
   DepthViews views_;
 };
 
-// All pairs of some frames: those that are far apart tell most of scale.
-std::vector<FramePair> PairsFarApart(const Sequence& sequence) {
-  const std::vector<int> frames = EvenlyThinned(AllFrames(sequence), kStarts);
+// Frames 10 and 30 apart, where a sequence is that long: errors of poses have grown between them.
+std::vector<FramePair> WidePairs(const Sequence& sequence) {
+  std::vector<FramePair> pairs = SpreadPairs(sequence.frame_count(), kSampledStarts);
+  const auto narrow = std::stable_partition(
+      pairs.begin(), pairs.end(), [](const FramePair& pair) { return pair.gap() >= kWideGap; });
+  if (narrow != pairs.begin()) pairs.erase(narrow, pairs.end());
+  return pairs;
+}
+
+// All pairs of some frames: those that are far apart tell most of scale, and of single jumps.
+std::vector<FramePair> AllPairs(const std::vector<int>& frames) {
   std::vector<FramePair> pairs;
   for (size_t i = 0; i < frames.size(); ++i)
     for (size_t j = i + 1; j < frames.size(); ++j) pairs.push_back({frames[i], frames[j]});
@@ -279,7 +287,7 @@ bool DepthDisagrees(const Sequence& sequence) {
 }
 
 std::optional<double> ScaleByDepth(const Sequence& sequence) {
-  const SampledDepth depth(sequence, PairsFarApart(sequence));
+  const SampledDepth depth(sequence, AllPairs(EvenlyThinned(AllFrames(sequence), kStarts)));
   std::vector<double> misfits;
   for (int step = -kScaleSteps; step <= kScaleSteps; ++step) {
     const auto misfit = depth.MisfitOfAll(WithPositionsTimes(1 + kScaleStep * step, sequence));
@@ -293,14 +301,16 @@ std::optional<double> ScaleByDepth(const Sequence& sequence) {
   return 1 + kScaleStep * steps;
 }
 
+std::vector<int> FramesOfGain(const Sequence& sequence) { return FramesOf(WidePairs(sequence)); }
+
 std::optional<DepthGain> GainOfDepth(const Sequence& given, const Sequence& corrected) {
   const auto ratio = [](const std::optional<double>& before, const std::optional<double>& after) {
     return before && after && *after > 0 ? std::optional(*before / *after) : std::nullopt;
   };
-  const SampledDepth near(given, SpreadPairs(given.frame_count(), kSampledStarts));
+  const SampledDepth near(given, WidePairs(given));
   const std::optional<double> near_gain = ratio(near.Misfit(given), near.Misfit(corrected));
   if (!near_gain) return std::nullopt;
-  const SampledDepth far(given, PairsFarApart(given));
+  const SampledDepth far(given, AllPairs(FramesOfGain(given)));
   return DepthGain{*near_gain, ratio(far.MeanMisfit(given), far.MeanMisfit(corrected)).value_or(1)};
 }
 

@@ -90,8 +90,11 @@ struct DepthGain {
   double far = 1;   ///< of any frames, in the mean: where poses jump once, only this tells
 };
 
+/// The frames that GainOfDepth compares: two dozen, or less where a sequence is short; ascending.
+std::vector<int> FramesOfGain(const Sequence& sequence);
+
 /// With the poses of `corrected` against those of `given`, a sequence of the same images; nothing
-/// where frames up to 30 apart cannot tell. Decodes about 45 depth images.
+/// where frames up to 30 apart cannot tell. Decodes FramesOfGain.
 std::optional<DepthGain> GainOfDepth(const Sequence& given, const Sequence& corrected);
 
 }  // namespace curvefusion

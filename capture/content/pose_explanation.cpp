@@ -31,7 +31,6 @@ constexpr double kScaleStep = 1.2;      // inside the basin of the right scale: 
 constexpr double kMaxScale = 3000;
 constexpr double kNoScale = 1.07;      // what calibration may be off by
 constexpr double kScaleMargin = 1.15;  // chosen: of the cost at three times and a third of a scale
-constexpr int kWideGap = 10;           // frames
 
 bool IsEnough(const PoseAgreement& agreement) {
   return agreement.usable >= kMinUsablePairs &&

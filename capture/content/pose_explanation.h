@@ -46,8 +46,10 @@ PoseSearch ExplainMisfit(const MisfitEvidence& evidence);
 /// do: then nothing is to be explained. Costs a tenth of ExplainMisfit.
 bool FitsAsGiven(const MisfitEvidence& evidence, const PoseAgreement& given);
 
-/// Median residual of the pairs with the widest gaps that can be judged, where errors of poses
-/// have grown.
+/// Chosen: frames between which errors of poses have grown.
+inline constexpr int kWideGap = 10;
+
+/// Median residual of the pairs of kWideGap and more frames, or of all where too few can be judged.
 double WideResidual(const std::vector<FramePair>& pairs, const PoseAgreement& agreement);
 
 /// The greatest such residual of usable poses, relative to distance.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "capture/content/geometry_check.h"
 #include "fusion/adjustment/colour_frames.h"
 #include "fusion/curve_graph/strip_views.h"
 #include "graph/graph_figures.h"
@@ -29,7 +30,8 @@ constexpr double kMostRounds = 1.5, kUnknownRounds = 0.5;
 struct Amounts {
   double size;         // of images, in kPixels
   double looked_size;  // of those that strips are looked for in
-  double held;         // frames whose poses are held to surfaces
+  double tried;        // frames whose poses are held to surfaces to tell whether all are to be
+  double held;         // frames whose poses are then held
   double integrated;   // frames of the volume
   double frames;       // segmented
   double bundles;
@@ -53,7 +55,10 @@ Amounts AmountsOf(const Sequence& sequence, const BestOptions& options, const Ru
       ChooseColourFrames(sequence, options.colour_adjustment.frame_stride).size());
   return {.size = SizeOf(sequence.depth_camera),
           .looked_size = SizeOf(StripViews::CameraLookedThrough(sequence.color_camera)),
-          .held = options.depth.hold_to_surfaces ? frames : 0,
+          .tried = options.depth.hold_to_surfaces
+                       ? static_cast<double>(FramesOfGain(sequence).size())
+                       : 0,
+          .held = size.holds_poses ? frames : 0,
           .integrated = frames / options.volume_stride,
           .frames = frames,
           .bundles = frames / options.segmentation.bundle.frames,
@@ -92,7 +97,8 @@ class Costs {
   PlannedStage Wires() const { return {"wires from colour", 0.02 * a_.searched}; }
 
   std::vector<PlannedStage> UntilContracted() const {
-    return {{"hold to surfaces", 0.035 * a_.size * a_.held},
+    return {{"hold to surfaces", 0.035 * a_.size * a_.tried},
+            {"hold to surfaces", 0.035 * a_.size * a_.held},
             {"volume", 0.0083 * a_.size * a_.integrated},
             {"surfaces and colours", 0.09 * a_.size * a_.learned},
             {"segmentation", 0.031 * a_.size * a_.frames + 0.5 * a_.points},
@@ -103,9 +109,10 @@ class Costs {
             {"contraction", 0.05 + 0.25 * a_.points}};
   }
 
-  // Where curves are sought in colour images alone: places that these agree on, twice.
+  // Where curves are sought in colour images alone, in some scans with poses that are held now:
+  // places that these agree on, twice.
   std::vector<PlannedStage> ByColour() const {
-    std::vector<PlannedStage> stages;
+    std::vector<PlannedStage> stages = {{"hold to surfaces", 0}};
     for (int round = 0; round < 2; ++round) {
       stages.insert(stages.end(),
                     {{"wires from colour", 0.06 * a_.searched}, Radius(), Adjustment()});

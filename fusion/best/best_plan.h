@@ -19,6 +19,7 @@ struct RunSize {
   double points = 0;             ///< of all bundles
   double length = 0;             ///< metres of curve
   std::optional<int> free_ends;  ///< of the curves
+  bool holds_poses = false;      ///< whether those of all frames are held to surfaces
   bool by_colour = false;        ///< whether curves are sought in colour images alone
   int rounds = 0;                ///< of colour after the first one that have begun
   bool has_last_round = false;   ///< whether no round follows these

@@ -198,10 +198,15 @@ void TellPlan(RunSize& size, const BestOptions& options, const StageReporter& re
   reporter.observer.OnPlan(PlanBest(result.sequence, options, size));
 }
 
-// The poses held to surfaces, where there are any, and how they err.
-const Sequence& HeldPoses(const PosedScan& scan) { return scan.held ? *scan.held : scan.sequence; }
-PoseErrors HeldErrors(const PosedScan& scan) {
-  return scan.held ? PoseErrors::kJitter : scan.errors;
+// A scan with the poses that curves from colour alone are looked for with, and how they err.
+struct HeldScan {
+  Sequence sequence;
+  PoseErrors errors;
+};
+
+HeldScan Held(const PosedScan& scan) {
+  return scan.hold ? HeldScan{scan.hold(), PoseErrors::kJitter}
+                   : HeldScan{scan.sequence, scan.errors};
 }
 
 // Curves from colour alone where depth does not serve, and what depth then was used for.
@@ -210,15 +215,14 @@ void StartFromColourWhereDepthFails(const PosedScan& scan, const WireColours& co
                                     const StageReporter& reporter, AdjustmentStart& start,
                                     std::optional<ColourAdjustment>& adjusted,
                                     Reconstruction& result) {
-  const Sequence& given = HeldPoses(scan);
-  const PoseErrors errors = HeldErrors(scan);
-  const std::string why = WhyColourStart(given, options, adjusted, result);
+  const std::string why = WhyColourStart(scan.given, options, adjusted, result);
   const bool is_asked_for = options.depth.use == DepthRole::kWires;
   result.depth = {DepthRoleName(DepthRole::kWires),
                   is_asked_for ? kAskedFor : "colour gave no reason against its curves"};
   if (why.empty()) return;
   size.by_colour = true;
   TellPlan(size, options, reporter, result);
+  const auto [given, errors] = Held(scan);
   const DepthCurves depth_curves = result.skeleton.empty() ? DepthCurves::kNone
                                    : adjusted              ? DepthCurves::kMisplaced
                                                            : DepthCurves::kDoubtful;
@@ -253,9 +257,9 @@ void FitWithoutDepth(const PosedScan& scan, SkeletonGraph unadjusted, const Best
   if (!is_given || !adjusted) return;
   const double scatter = adjusted->depth_scatter;
   if (scatter <= kDoubtfulScatter || scatter > kWrongScatter) return;
-  std::optional<ColourCurves> fitted =
-      FitToColourAlone(std::move(unadjusted), HeldPoses(scan), HeldErrors(scan), start.colours,
-                       options, reporter, result);
+  const auto [held, errors] = Held(scan);
+  std::optional<ColourCurves> fitted = FitToColourAlone(std::move(unadjusted), held, errors,
+                                                        start.colours, options, reporter, result);
   if (!fitted) return;
   result.depth.why = fmt::format(
       "depth scatters about the curves {:.1f} times as much as about a plane: they were fitted to "

@@ -50,9 +50,10 @@ DepthImage NearestWithin(const DepthImage& kept, int radius) {
 bool IsThin(float depth, float rendered, float kept, float nearest_kept,
             const DifferenceSetOptions& options) {
   if (depth < options.min_depth || depth > options.max_depth) return false;
+  if (depth > nearest_kept - options.front_distance) return false;  // most pixels: before all noise
   if (rendered <= 0 && !options.accept_where_nothing_rendered) return false;
   const double noise = kClearDeviations * DepthNoise(depth);
-  if (depth > nearest_kept - std::max(options.front_distance, noise)) return false;
+  if (depth > nearest_kept - noise) return false;
   const bool removed = rendered > 0 && kept <= 0;
   return !removed || depth < rendered + std::max(kBehindRemoved, noise);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "capture/content/geometry_check.h"
 #include "capture/detect_format.h"
 #include "capture/frame_stream.h"
 #include "fusion/tracking/camera_tracker.h"
@@ -12,9 +13,6 @@ namespace curvefusion {
 
 namespace {
 
-// Chosen: less is chance. A real cable has 1.01 and is lost with its held poses, a real
-// kitchen 1.11 and gives edges without.
-constexpr double kLeastGain = 1.05;
 // Pixels. Chosen: with 320 poses are no better, with 160 worse (docs/tracking.md).
 constexpr int kHeldImageWidth = 213;
 
@@ -47,17 +45,18 @@ std::string DoubtOfPoses(const Sequence& tracked) {
          "system (docs/tracking.md)";
 }
 
-std::optional<HeldPoses> HeldToItsSurfaces(const Sequence& given, const Progress& progress) {
-  if (given.frames.empty()) return std::nullopt;
+Sequence HeldToItsSurfaces(const Sequence& given, const std::vector<int>& frames,
+                           const Progress& progress) {
+  Sequence held = given;
+  if (frames.empty()) return held;
   const TrackingCameras cameras = CamerasOf(given);
   TrackingOptions options;
   options.image_width = kHeldImageWidth;
-  options.use_color = false;  // colour cameras lie some pixels beside depth
-  CameraTracker tracker(cameras, options, given.frames.front().T_world_camera);
-  Sequence held = given;
-  size_t before = 0;  // the frame tracked last
-  const int count = given.frame_count();
-  ForEachFrame(given, 0, count, {.depth = true, .color = false}, [&](const DecodedFrame& decoded) {
+  options.use_color = false;                          // colour cameras lie some pixels beside depth
+  auto before = static_cast<size_t>(frames.front());  // the frame tracked last
+  CameraTracker tracker(cameras, options, given.frames[before].T_world_camera);
+  int64_t done = 0;
+  ForEachFrame(given, frames, {.depth = true, .color = false}, [&](const DecodedFrame& decoded) {
     const auto i = static_cast<size_t>(decoded.index);
     const RigidTransform T_before_now =
         given.frames[before].T_world_camera.inverse() * given.frames[i].T_world_camera;
@@ -67,11 +66,9 @@ std::optional<HeldPoses> HeldToItsSurfaces(const Sequence& given, const Progress
                                         ? tracked.T_world_camera
                                         : held.frames[before].T_world_camera * T_before_now;
     if (tracked.is_tracked) before = i;
-    progress("hold to surfaces", decoded.index + 1, count);
+    progress("hold to surfaces", ++done, static_cast<int64_t>(frames.size()));
   });
-  const std::optional<DepthGain> gain = GainOfDepth(given, held);
-  if (!gain || gain->near < kLeastGain) return std::nullopt;
-  return HeldPoses{std::move(held), *gain};
+  return held;
 }
 
 std::optional<TrackingResult> FindPoses(Sequence& sequence, const Progress& progress) {

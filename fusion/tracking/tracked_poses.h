@@ -2,8 +2,8 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
-#include "capture/content/geometry_check.h"
 #include "capture/sequence.h"
 #include "capture/trajectory.h"
 #include "fusion/tracking/track_sequence.h"
@@ -22,17 +22,12 @@ Trajectory PosesOf(const Sequence& sequence);
 /// agree, or where that cannot be told. About .1 s.
 std::string DoubtOfPoses(const Sequence& tracked);
 
-/// A sequence whose poses fit the surfaces that its depth shows.
-struct HeldPoses {
-  Sequence sequence;
-  DepthGain gain;  ///< GainOfDepth: 1.05 and more near by
-};
-
-/// The poses of a sequence held to surfaces, from the first given one on: each frame moves as given
-/// since the one before, unless what stands behind the wires tells otherwise
-/// (CameraTracker::TrackNear). Nothing where depth images do not agree better then. Exceptions of
-/// `progress` pass through, and those for images that cannot be read. Costs 30 ms a frame.
-std::optional<HeldPoses> HeldToItsSurfaces(const Sequence& given, const Progress& progress);
+/// The sequence with the poses of these frames, ascending, held to surfaces, from the first of them
+/// as given on: each moves as given since the one before, unless what stands behind the wires tells
+/// otherwise (CameraTracker::TrackNear). Other frames stay as given. Exceptions of `progress` pass
+/// through, and those for images that cannot be read. Costs 30 ms a frame.
+Sequence HeldToItsSurfaces(const Sequence& given, const std::vector<int>& frames,
+                           const Progress& progress);
 
 /// What a reconstruction needs of the poses of a sequence: those that it has must fit its depth;
 /// where it has none, they are tracked from the one that its folder gives to the first frame. The

@@ -162,19 +162,6 @@ float RefineCrossing(const CellCorners& corners, const BlockRay& ray, const int 
   return t;
 }
 
-// Depth of the crossing from positive to negative between t_enter and t_exit inside a cell; 0 =
-// none.
-float CrossCell(const CellCorners& corners, const BlockRay& ray, const int cell[3], float t_enter,
-                float t_exit) {
-  // A crossing on the very face between two cells may round to just below zero in both.
-  // Chosen: in truncations, far above what interpolation rounds.
-  constexpr float kRounding = 1e-4f;
-  const float before = Interpolate(corners, cell, ray.At(t_enter));
-  const float behind = Interpolate(corners, cell, ray.At(t_exit));
-  if (before < -kRounding || behind > 0 || before <= behind) return 0;
-  return RefineCrossing(corners, ray, cell, {t_enter, std::max(before, 0.0f)}, {t_exit, behind});
-}
-
 // Walks the cells of a block's box along a ray (Amanatides and Woo 1987) to the first crossing; 0 =
 // none.
 float CrossBlock(const CellCorners& corners, const SurfaceBlock& block, const BlockRay& ray) {
@@ -200,14 +187,25 @@ float CrossBlock(const CellCorners& corners, const SurfaceBlock& block, const Bl
     const float face = static_cast<float>(cell[axis] + (step[axis] > 0));
     t_next[axis] = (face - ray.origin[axis]) * per_direction[axis];
   }
+  // A crossing on the very face between two cells of different blocks may round to just below zero
+  // in both. Chosen: in truncations, far above what interpolation rounds.
+  constexpr float kRounding = 1e-4f;
+  bool is_known = false;  // the value at t_enter, of the cell before
+  float value = 0;
   for (;;) {
     const int axis =
         t_next[0] < t_next[1] ? (t_next[0] < t_next[2] ? 0 : 2) : (t_next[1] < t_next[2] ? 1 : 2);
     const float t_exit = t_next[axis];
-    if (block.cells[cell[1] + kBlockSide * cell[2]] >> cell[0] & 1) {
-      const float t = CrossCell(corners, ray, cell, t_enter, t_exit);
-      if (t > 0) return t;
+    const bool is_surface = block.cells[cell[1] + kBlockSide * cell[2]] >> cell[0] & 1;
+    if (is_surface) {
+      const float before = is_known ? value : Interpolate(corners, cell, ray.At(t_enter));
+      value = Interpolate(corners, cell, ray.At(t_exit));
+      if (before >= -kRounding && value <= 0 && before > value) {
+        return RefineCrossing(corners, ray, cell, {t_enter, std::max(before, 0.0f)},
+                              {t_exit, value});
+      }
     }
+    is_known = is_surface;
     cell[axis] += step[axis];
     if (cell[axis] < block.box.low[axis] || cell[axis] >= block.box.high[axis]) return 0;
     t_next[axis] += std::abs(per_direction[axis]);

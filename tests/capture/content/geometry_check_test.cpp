@@ -383,6 +383,14 @@ TEST_F(RoomFiles, FramesFarApartTellOfASingleJump) {
   const std::optional<DepthGain> gain = GainOfDepth(jumped, right);
   ASSERT_TRUE(gain);
   EXPECT_GT(gain->far, 1.5 * gain->near);
+  Sequence sparse = jumped;
+  const std::vector<int> compared = FramesOfGain(jumped);
+  EXPECT_LT(compared.size(), jumped.frames.size());
+  for (const int i : compared) sparse.frames[i].T_world_camera = right.frames[i].T_world_camera;
+  const std::optional<DepthGain> of_some = GainOfDepth(jumped, sparse);
+  ASSERT_TRUE(of_some);
+  EXPECT_EQ(of_some->near, gain->near);
+  EXPECT_EQ(of_some->far, gain->far);
   const std::optional<DepthGain> none = GainOfDepth(right, right);
   ASSERT_TRUE(none);
   EXPECT_EQ(none->near, 1);
