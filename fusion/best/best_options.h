@@ -8,7 +8,7 @@
 #include "fusion/registration/carried_points.h"
 #include "fusion/registration/frame_registration.h"
 #include "fusion/segmentation/segmentation.h"
-#include "fusion/silhouettes/silhouette_topology.h"
+#include "fusion/silhouettes/wire_silhouettes.h"
 #include "fusion/silhouettes/view_evidence.h"
 #include "fusion/strips/radius.h"
 #include "fusion/volume/tsdf_volume.h"
