@@ -28,4 +28,16 @@ std::optional<size_t> SharpestCorner(const Polyline& points, double min_turn) {
   return sharpest;
 }
 
+void SplitAtCorners(SkeletonGraph& graph, double min_turn) {
+  std::vector<EdgeId> edges = graph.Edges();
+  while (!edges.empty()) {
+    const EdgeId edge = edges.back();
+    edges.pop_back();
+    const std::optional<size_t> corner = SharpestCorner(graph.edge(edge).points, min_turn);
+    if (!corner) continue;
+    const NodeId node = graph.SplitEdge(edge, *corner);
+    for (const EdgeId half : graph.IncidentEdges(node)) edges.push_back(half);
+  }
+}
+
 }  // namespace curvefusion

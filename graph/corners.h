@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <optional>
 
+#include "graph/skeleton_graph.h"
 #include "kernel/polyline.h"
 
 namespace curvefusion {
@@ -11,5 +12,8 @@ namespace curvefusion {
 /// 10 mm before it to the 10 mm after it: two wires that meet, drawn as one, rather than a bent
 /// rod, which turns by 10 mm over the radius of its bend.
 std::optional<size_t> SharpestCorner(const Polyline& points, double min_turn);
+
+/// Makes every such corner of an edge a node.
+void SplitAtCorners(SkeletonGraph& graph, double min_turn);
 
 }  // namespace curvefusion

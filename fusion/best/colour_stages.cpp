@@ -13,13 +13,11 @@
 #include "fusion/best/finish_curves.h"
 #include "fusion/curve_graph/candidate_curves.h"
 #include "fusion/curve_graph/colour_candidates.h"
-#include "fusion/curve_graph/refuted_parts.h"
 #include "fusion/curve_graph/selection.h"
 #include "fusion/curve_graph/strip_views.h"
 #include "fusion/curve_graph/tip_tracking.h"
 #include "fusion/curve_graph/wire_proof.h"
 #include "fusion/silhouettes/colour_pruning.h"
-#include "fusion/silhouettes/silhouette_continuations.h"
 #include "graph/edge_parts.h"
 #include "graph/intersections.h"
 #include "graph/sampled_curves.h"
@@ -96,9 +94,7 @@ StripViews LookForStrips(const ColourAdjustment& adjusted, const StageReporter& 
   return {result.sequence, adjusted.frames, adjusted.posteriors, BoundsOf(result.skeleton)};
 }
 
-// Deviation: what images look past is dropped, and wires are continued where images show them
-// ahead: CurveFusion uses colour for ghosts and radii only, but depth shows wires side by side as
-// one, and none at all that run along the line of sight.
+// Deviation: what images look past is dropped, and what they show besides is added.
 void CorrectBySilhouettes(const ColourAdjustment& adjusted, const StripViews& strips,
                           WireDepth depth, const BestOptions& options,
                           const StageReporter& reporter, Reconstruction& result) {
@@ -119,14 +115,15 @@ void CorrectBySilhouettes(const ColourAdjustment& adjusted, const StripViews& st
     shown_by_depth = PlacesShownByDepth(
         CountViews(result.skeleton, result.sequence, options.evidence), result.skeleton);
   }
-  const double removed =
-      DropRefutedParts([&strips](const Polyline& points) { return strips.SharesAlong(points); },
-                       kMinStripShare, shown_by_depth, result.skeleton);
-  const int continued = ContinueWires(silhouettes, result.skeleton);
+  const SilhouetteChanges changes = CorrectTopology(
+      silhouettes, [&strips](const Polyline& points) { return strips.SharesAlong(points); },
+      options.silhouettes, shown_by_depth, result.skeleton);
   TidyRidgeSkeleton(result.skeleton, options.ridge);
-  result.funnel.curves.looked_past += removed;
-  reporter.log.CountMore(stage, "removed, m", removed);
-  reporter.log.CountMore(stage, "continued", continued);
+  result.funnel.curves.looked_past += changes.removed;
+  reporter.log.CountMore(stage, "removed, m", changes.removed);
+  reporter.log.CountMore(stage, "continued", changes.continued);
+  reporter.log.CountMore(stage, "bridges", changes.bridges);
+  reporter.log.CountMore(stage, "joins", changes.joins);
   reporter.observer.OnGraph("corrected", result.skeleton);
 }
 
@@ -284,7 +281,7 @@ void CompleteByColour(const AdjustmentStart& start, std::optional<StripViews> st
     const double added =
         AddWiresFromColour(*strips, start.depth, round, options.ridge, reporter, result);
     strips.reset();  // its images take as much memory as the next adjustment
-    // Without depth, wires have been continued that nothing was adjusted to yet.
+    // Without depth, silhouettes have bridged gaps that nothing was adjusted to yet.
     const bool is_rough = round == 0 && !result.sequence.has_depth;
     const bool is_little = added <= 0 || added < kLittle * result.skeleton.TotalLength();
     size.has_last_round = is_little && !is_rough;

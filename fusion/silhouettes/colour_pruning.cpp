@@ -6,6 +6,7 @@
 #include "capture/frame_stream.h"
 #include "fusion/appearance/wire_posterior.h"
 #include "fusion/curve_graph/refuted_parts.h"
+#include "fusion/silhouettes/wire_silhouettes.h"
 
 namespace curvefusion {
 

@@ -4,7 +4,7 @@
 
 #include "capture/sequence.h"
 #include "fusion/segmentation/colour_gate.h"
-#include "fusion/silhouettes/wire_silhouettes.h"
+#include "fusion/silhouettes/silhouette_topology.h"
 #include "graph/skeleton_graph.h"
 
 namespace curvefusion {

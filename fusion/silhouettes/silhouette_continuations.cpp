@@ -13,7 +13,6 @@ namespace {
 // Chosen, kMinCovered on a rack and five chairs (training seeds): six false paths lie in a sheet,
 // 23 true ones that meet a side on at most .37 of their places (docs/lab_notebook.md).
 constexpr int kMaxRounds = 8;
-constexpr double kMinShare = 0.9;       // of the images that must show each place as wire
 constexpr double kStep = 0.002;         // metres
 constexpr double kMinLength = 0.012;    // metres; shorter paths lie beside curves
 constexpr double kEndReach = 0.008;     // metres; so near to its ends a path lies beside others
@@ -42,7 +41,8 @@ bool RunsBeside(const Polyline& curve, const Polyline& other) {
 
 // Whether images show wire on both sides of a curve along most of it, in a direction across: the
 // curve lies in a sheet of wires that no image looks through, which shows any curve as wire.
-bool IsInSheet(const WireSilhouettes& silhouettes, const Polyline& curve, const Vec3& across) {
+bool IsInSheet(const WireSilhouettes& silhouettes, double min_share, const Polyline& curve,
+               const Vec3& across) {
   const Vec3 along = (curve.back() - curve.front()).normalized();
   const Vec3 aside = across - across.dot(along) * along;
   if (aside.norm() < kMinAcross) return false;
@@ -54,24 +54,24 @@ bool IsInSheet(const WireSilhouettes& silhouettes, const Polyline& curve, const 
     if (!is_inside) continue;
     ++looked;
     covered +=
-        silhouettes.Share(p + beside) >= kMinShare && silhouettes.Share(p - beside) >= kMinShare;
+        silhouettes.Share(p + beside) >= min_share && silhouettes.Share(p - beside) >= min_share;
   }
   return looked > 0 && covered >= kMinCovered * looked;
 }
 
 // Whether a path ends inside an edge, where it may cross a sheet of wires seen along their plane.
-bool CrossesSheet(const WireSilhouettes& silhouettes, const SkeletonGraph& skeleton,
-                  const BranchContinuation& path) {
+bool CrossesSheet(const WireSilhouettes& silhouettes, double min_share,
+                  const SkeletonGraph& skeleton, const BranchContinuation& path) {
   if (path.to >= 0) return false;
   const Polyline& target = skeleton.edge(path.target.edge).points;
   const std::vector<double> arc_length = CumulativeLength(target);
   const Vec3 across = PointAt(target, arc_length, path.target.arc_length + kStep) -
                       PointAt(target, arc_length, path.target.arc_length - kStep);
-  return IsInSheet(silhouettes, path.curve, across.normalized());
+  return IsInSheet(silhouettes, min_share, path.curve, across.normalized());
 }
 
 // Of all paths ahead those that are wire, each turned to where the images show it best.
-std::vector<BranchContinuation> WiresAhead(const WireSilhouettes& silhouettes,
+std::vector<BranchContinuation> WiresAhead(const WireSilhouettes& silhouettes, double min_share,
                                            const SkeletonGraph& skeleton) {
   std::vector<BranchContinuation> wires;
   for (const BranchContinuation& path : FindContinuations(skeleton)) {
@@ -83,8 +83,8 @@ std::vector<BranchContinuation> WiresAhead(const WireSilhouettes& silhouettes,
       most = least;
       best = std::move(turned);
     }
-    if (most < kMinShare || Length(best.curve) < kMinLength ||
-        CrossesSheet(silhouettes, skeleton, best))
+    if (most < min_share || Length(best.curve) < kMinLength ||
+        CrossesSheet(silhouettes, min_share, skeleton, best))
       continue;
     const Polyline curve = Resample(best.curve, kStep);
     if (std::none_of(wires.begin(), wires.end(),
@@ -96,10 +96,10 @@ std::vector<BranchContinuation> WiresAhead(const WireSilhouettes& silhouettes,
 
 }  // namespace
 
-int ContinueWires(const WireSilhouettes& silhouettes, SkeletonGraph& skeleton) {
+int ContinueWires(const WireSilhouettes& silhouettes, double min_share, SkeletonGraph& skeleton) {
   int count = 0;
   for (int round = 0; round < kMaxRounds; ++round) {
-    const auto wires = WiresAhead(silhouettes, skeleton);
+    const auto wires = WiresAhead(silhouettes, min_share, skeleton);
     if (wires.empty()) break;
     AddContinuations(skeleton, wires);
     count += static_cast<int>(wires.size());

@@ -6,10 +6,10 @@
 namespace curvefusion {
 
 /// Continues wires that end at another on one side of it, or freely, to the next curve ahead
-/// (FindContinuations), straight through places that nine tenths of the images show as wire, but
-/// not into the side of a wire where the images show all around as wire (IsInSheet); what was added
-/// is continued in turn. Wires along the line of sight, which depth loses between those that cross
-/// them, come back so. Needs radii. Returns how many pieces were added.
-int ContinueWires(const WireSilhouettes& silhouettes, SkeletonGraph& skeleton);
+/// (FindContinuations), straight through places that at least `min_share` of the images show as
+/// wire, but not into the side of a wire where the images show all around as wire (IsInSheet); what
+/// was added is continued in turn. Wires along the line of sight, which depth loses
+/// between those that cross them, come back so. Needs radii. Returns how many pieces were added.
+int ContinueWires(const WireSilhouettes& silhouettes, double min_share, SkeletonGraph& skeleton);
 
 }  // namespace curvefusion

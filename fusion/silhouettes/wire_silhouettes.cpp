@@ -2,21 +2,16 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <utility>
 
 #include "capture/farthest_depth.h"
 #include "capture/frame_stream.h"
 #include "fusion/curve_graph/strip_views.h"
 #include "kernel/parallel.h"
-#include "kernel/quantile.h"
 
 namespace curvefusion {
 
 namespace {
 
-// Chosen: nearly all images show places of true curves of simulated scans as wire, at most .65 of
-// them those of false links (docs/topology.md#why-it-works).
-constexpr double kTrustedShare = 0.9;
 constexpr uint8_t kWire = 128;  // derived, half of 255: least posterior of a pixel that shows wire
 
 // The greatest depth within the 3 x 3 cells around each cell: block matching widens thin things.
@@ -34,18 +29,6 @@ Image<float> FarthestAround(const DepthImage& depth) {
 }
 
 }  // namespace
-
-void VisitOptions(SilhouetteOptions& options, OptionVisitor& visitor) {
-  visitor.Visit({"max_frames", "frames", 0, 1000000,
-                 "Deviation: images in whose silhouettes curves are looked for; more are thinned "
-                 "evenly, 0 = none."},
-                options.max_frames);
-  visitor.Visit(
-      {"min_share", "", 0, 1,
-       "Deviation: without an adjustment to colours, parts of close wires that a smaller share of "
-       "the images shows as wire are false."},
-      options.min_share);
-}
 
 WireSilhouettes::WireSilhouettes(const Sequence& sequence, const std::vector<int>& frames,
                                  const std::vector<PosteriorImage>& posteriors, int max_frames)
@@ -97,15 +80,6 @@ std::vector<double> WireSilhouettes::SharesAlong(const Polyline& points, double 
   ParallelFor(0, static_cast<int64_t>(points.size()), kPointsPerChunk,
               [&](int64_t i) { shares[i] = Share(points[i], untold); });
   return shares;
-}
-
-bool TellWires(const WireSilhouettes& silhouettes, const SkeletonGraph& skeleton) {
-  std::vector<double> shares;
-  for (const EdgeId id : skeleton.Edges()) {
-    const std::vector<double> along = silhouettes.SharesAlong(skeleton.edge(id).points);
-    shares.insert(shares.end(), along.begin(), along.end());
-  }
-  return !shares.empty() && Median(std::move(shares)) >= kTrustedShare;
 }
 
 }  // namespace curvefusion

@@ -5,19 +5,9 @@
 #include "capture/sequence.h"
 #include "fusion/appearance/wire_posterior.h"
 #include "fusion/silhouettes/view_evidence.h"
-#include "graph/skeleton_graph.h"
-#include "kernel/options.h"
 #include "kernel/polyline.h"
 
 namespace curvefusion {
-
-/// What the silhouettes of the wires decide about their curves. Units, ranges and sources stand in
-/// VisitOptions.
-struct SilhouetteOptions {
-  int max_frames = 60;
-  double min_share = 0.7;
-};
-void VisitOptions(SilhouetteOptions& options, OptionVisitor& visitor);
 
 /// The colour images in which wires have been told from what is behind them. A wire is seen as wire
 /// in every image that it lies in, whether it stands before the others or behind them; what is not
@@ -56,8 +46,5 @@ class WireSilhouettes {
   PinholeCamera color_camera_;
   std::vector<View> views_;
 };
-
-/// Whether the silhouettes tell the wires: most of the skeleton is seen as wire nearly always.
-bool TellWires(const WireSilhouettes& silhouettes, const SkeletonGraph& skeleton);
 
 }  // namespace curvefusion

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "graph/validate.h"
 #include "tests/graph/graph_fixtures.h"
 
 namespace curvefusion {
@@ -27,6 +28,20 @@ TEST(SharpestCorner, IsNoneWhereNothingTurns) {
   EXPECT_FALSE(SharpestCorner({{0, 0, 0}, {0.05, 0, 0}}, kQuarter).has_value());
   EXPECT_FALSE(SharpestCorner({{0, 0, 0}, {0.005, 0, 0}, {0.005, 0.005, 0}}, kQuarter).has_value());
   EXPECT_FALSE(SharpestCorner({{0, 0, 0}}, kQuarter).has_value());
+}
+
+TEST(SplitAtCorners, MakesANodeOfEachAndMovesNothing) {
+  SkeletonGraph graph;
+  const Polyline zigzag = {{0, 0, 0}, {0.03, 0, 0}, {0.03, 0.03, 0}, {0.06, 0.03, 0}};
+  graph.AddPolyline(zigzag);
+  graph.AddPolyline({{0, 0, 0.05}, {0.06, 0, 0.05}});
+  SplitAtCorners(graph, kQuarter);
+  EXPECT_EQ(graph.edge_count(), 4);
+  EXPECT_EQ(graph.ComponentCount(), 2);
+  EXPECT_DOUBLE_EQ(graph.TotalLength(), 0.15);
+  EXPECT_TRUE(Faults(graph).empty());
+  SplitAtCorners(graph, kQuarter);
+  EXPECT_EQ(graph.edge_count(), 4);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 namespace curvefusion {
 namespace {
 
+constexpr double kMinShare = 0.9;
 constexpr double kHalfBar = 0.05;
 constexpr double kRows[] = {-0.04, 0, 0.04};
 
@@ -37,7 +38,7 @@ std::vector<Polyline> Wires(double end) {
 TEST(SilhouetteContinuations, GoFromWireToWire) {
   const SilhouetteScan scan(Wires(kRows[2]));
   SkeletonGraph graph = BarsWithStub();
-  EXPECT_EQ(ContinueWires(scan.Silhouettes(), graph), 2);
+  EXPECT_EQ(ContinueWires(scan.Silhouettes(), kMinShare, graph), 2);
   EXPECT_EQ(graph.ComponentCount(), 1);
   EXPECT_EQ(graph.CycleRank(), 0);
   // Places to reach lie every 1.5 mm.
@@ -48,14 +49,14 @@ TEST(SilhouetteContinuations, GoFromWireToWire) {
 TEST(SilhouetteContinuations, EndWhereTheWireEnds) {
   const SilhouetteScan scan(Wires(kRows[1]));
   SkeletonGraph graph = BarsWithStub();
-  EXPECT_EQ(ContinueWires(scan.Silhouettes(), graph), 1);
+  EXPECT_EQ(ContinueWires(scan.Silhouettes(), kMinShare, graph), 1);
   EXPECT_EQ(graph.ComponentCount(), 2);
 }
 
 TEST(SilhouetteContinuations, AreNoneWhereImagesLookBetween) {
   const SilhouetteScan scan(Wires(kRows[0]));
   SkeletonGraph graph = BarsWithStub();
-  EXPECT_EQ(ContinueWires(scan.Silhouettes(), graph), 0);
+  EXPECT_EQ(ContinueWires(scan.Silhouettes(), kMinShare, graph), 0);
   EXPECT_EQ(graph.edge_count(), 5);
 }
 
@@ -65,7 +66,7 @@ TEST(SilhouetteContinuations, AreNoneInASheet) {
       Wires(kRows[2]),
       {{{-0.04, kRows[0], 0}, {0.04, kRows[0], 0}, {0.04, kRows[2], 0}, {-0.04, kRows[2], 0}}});
   SkeletonGraph graph = BarsWithStub();
-  EXPECT_EQ(ContinueWires(scan.Silhouettes(), graph), 0);
+  EXPECT_EQ(ContinueWires(scan.Silhouettes(), kMinShare, graph), 0);
 }
 
 // The stub's end has been drawn sideways.
@@ -78,7 +79,7 @@ TEST(SilhouetteContinuations, TurnToWhereTheWireIs) {
   const NodeId crossing = graph.edge(stub).nodes[1];
   graph.RemoveEdge(stub);
   AddTestEdge(graph, graph.AddNode(bent.front()), crossing, bent);
-  EXPECT_EQ(ContinueWires(scan.Silhouettes(), graph), 1);
+  EXPECT_EQ(ContinueWires(scan.Silhouettes(), kMinShare, graph), 1);
   int reached = 0;
   for (const NodeId node : graph.Nodes()) {
     if (graph.Degree(node) != 3 || graph.position(node).y() != kRows[1]) continue;

@@ -46,16 +46,5 @@ TEST(WireSilhouettes, KnowNothingOutsideTheImages) {
   EXPECT_EQ(silhouettes.Share({0, 3, 0}, 1), 1);
 }
 
-TEST(WireSilhouettes, DoNotTellWiresThatImagesDoNotShow) {
-  const SilhouetteScan scan({kWire});
-  SkeletonGraph shown;
-  AddTestEdge(shown, kWire);
-  EXPECT_TRUE(TellWires(scan.Silhouettes(), shown));
-  SkeletonGraph other;
-  AddTestEdge(other, TestLine({-0.06, -0.025, 0}, {0.06, -0.025, 0}));
-  EXPECT_FALSE(TellWires(scan.Silhouettes(), other));
-  EXPECT_FALSE(TellWires(scan.Silhouettes(), {}));
-}
-
 }  // namespace
 }  // namespace curvefusion
