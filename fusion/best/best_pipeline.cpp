@@ -181,16 +181,14 @@ PosedScan HoldToSurfaces(const Sequence& given, const BestOptions& options,
                                reporter.observer.OnProgress(std::string(name), done, total);
                              });
   };
-  const auto hold_all = [&given, reporter, stage, hold] {
-    reporter.log.Count(stage, "frames moved", given.frame_count());
-    return hold(AllFrames(given));
-  };
+  const auto hold_all = [&given, hold] { return hold(AllFrames(given)); };
   reporter.log.Count(stage, "frames moved", 0);
   const std::optional<DepthGain> gain = GainOfDepth(given, hold(FramesOfGain(given)));
   if (!gain || gain->near < kLeastGain) return {given, given};
   if (gain->near < kMinGain && gain->far < kMinFarGain) {
     return {given, given, PoseErrors::kDrift, hold_all};
   }
+  reporter.log.Count(stage, "frames moved", given.frame_count());
   reporter.observer.OnPlan(PlanBest(given, options, {.holds_poses = true}));
   return {given, hold_all(), PoseErrors::kJitter};
 }
