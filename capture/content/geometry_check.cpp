@@ -178,30 +178,31 @@ GeometryReport Judge(const Sequence& sequence, const Thumbnails& thumbnails,
   return report;
 }
 
-// Depth of some frames of a sequence, to be compared by whatever poses.
+// Depth of some frames of a sequence, pairs of which are compared by whatever poses.
 class SampledDepth {
  public:
-  SampledDepth(const Sequence& sequence, std::vector<FramePair> pairs)
-      : pairs_(std::move(pairs)),
-        views_(DepthThumbnails(sequence, FramesOf(pairs_)), sequence.depth_scale) {}
+  SampledDepth(const Sequence& sequence, const std::vector<int>& frames)
+      : views_(DepthThumbnails(sequence, frames), sequence.depth_scale) {}
 
   // Shares of depth, in the median; nothing where it cannot tell.
-  std::optional<double> Misfit(const Sequence& poses) const {
-    const std::optional<PoseAgreement> agreement = Agreement(poses);
+  std::optional<double> Misfit(const std::vector<FramePair>& pairs, const Sequence& poses) const {
+    const std::optional<PoseAgreement> agreement = Agreement(pairs, poses);
     if (!agreement) return std::nullopt;
-    return WideResidual(pairs_, *agreement);
+    return WideResidual(pairs, *agreement);
   }
 
   // The same of all pairs alike.
-  std::optional<double> MisfitOfAll(const Sequence& poses) const {
-    const std::optional<PoseAgreement> agreement = Agreement(poses);
+  std::optional<double> MisfitOfAll(const std::vector<FramePair>& pairs,
+                                    const Sequence& poses) const {
+    const std::optional<PoseAgreement> agreement = Agreement(pairs, poses);
     if (!agreement) return std::nullopt;
     return agreement->residual;
   }
 
   // The same in the mean: some pairs on which poses disagree move no median.
-  std::optional<double> MeanMisfit(const Sequence& poses) const {
-    const std::optional<PoseAgreement> agreement = Agreement(poses);
+  std::optional<double> MeanMisfit(const std::vector<FramePair>& pairs,
+                                   const Sequence& poses) const {
+    const std::optional<PoseAgreement> agreement = Agreement(pairs, poses);
     if (!agreement) return std::nullopt;
     double sum = 0;
     for (const PairAgreement& pair : agreement->pairs) sum += pair.is_usable ? pair.residual : 0;
@@ -209,14 +210,14 @@ class SampledDepth {
   }
 
  private:
-  std::optional<PoseAgreement> Agreement(const Sequence& poses) const {
+  std::optional<PoseAgreement> Agreement(const std::vector<FramePair>& pairs,
+                                         const Sequence& poses) const {
     if (views_.empty()) return std::nullopt;
-    PoseAgreement agreement = MeasureAgreement(views_, pairs_, GivenPoses(poses));
+    PoseAgreement agreement = MeasureAgreement(views_, pairs, GivenPoses(poses));
     if (agreement.usable < kMinJudgedPairs) return std::nullopt;
     return agreement;
   }
 
-  std::vector<FramePair> pairs_;
   DepthViews views_;
 };
 
@@ -281,16 +282,19 @@ void RequireFittingPoses(Sequence& sequence) {
 }
 
 bool DepthDisagrees(const Sequence& sequence) {
-  return SampledDepth(sequence, SpreadPairs(sequence.frame_count(), kSampledStarts))
-             .Misfit(sequence)
-             .value_or(0) > kMaxWideResidual;
+  const std::vector<FramePair> pairs = SpreadPairs(sequence.frame_count(), kSampledStarts);
+  return SampledDepth(sequence, FramesOf(pairs)).Misfit(pairs, sequence).value_or(0) >
+         kMaxWideResidual;
 }
 
 std::optional<double> ScaleByDepth(const Sequence& sequence) {
-  const SampledDepth depth(sequence, AllPairs(EvenlyThinned(AllFrames(sequence), kStarts)));
+  const std::vector<int> frames = EvenlyThinned(AllFrames(sequence), kStarts);
+  const SampledDepth depth(sequence, frames);
+  const std::vector<FramePair> pairs = AllPairs(frames);
   std::vector<double> misfits;
   for (int step = -kScaleSteps; step <= kScaleSteps; ++step) {
-    const auto misfit = depth.MisfitOfAll(WithPositionsTimes(1 + kScaleStep * step, sequence));
+    const auto misfit =
+        depth.MisfitOfAll(pairs, WithPositionsTimes(1 + kScaleStep * step, sequence));
     if (!misfit) return std::nullopt;
     misfits.push_back(*misfit);
   }
@@ -307,11 +311,16 @@ std::optional<DepthGain> GainOfDepth(const Sequence& given, const Sequence& corr
   const auto ratio = [](const std::optional<double>& before, const std::optional<double>& after) {
     return before && after && *after > 0 ? std::optional(*before / *after) : std::nullopt;
   };
-  const SampledDepth near(given, WidePairs(given));
-  const std::optional<double> near_gain = ratio(near.Misfit(given), near.Misfit(corrected));
-  if (!near_gain) return std::nullopt;
-  const SampledDepth far(given, AllPairs(FramesOfGain(given)));
-  return DepthGain{*near_gain, ratio(far.MeanMisfit(given), far.MeanMisfit(corrected)).value_or(1)};
+  const std::vector<FramePair> wide = WidePairs(given);
+  const std::vector<int> frames = FramesOf(wide);
+  const SampledDepth depth(given, frames);
+  const std::optional<double> near =
+      ratio(depth.Misfit(wide, given), depth.Misfit(wide, corrected));
+  if (!near) return std::nullopt;
+  const std::vector<FramePair> all = AllPairs(frames);
+  const std::optional<double> far =
+      ratio(depth.MeanMisfit(all, given), depth.MeanMisfit(all, corrected));
+  return DepthGain{*near, far.value_or(1)};
 }
 
 }  // namespace curvefusion
